@@ -27,7 +27,7 @@ def share_back(phases):
     """Share of kicks up to 150 mm/s that come back if the bearings try these phases, each until contact persists again."""
     stages = [cm.models.Stage(rotor, persists) for rotor in (machine, *map(compensated, phases))]
     kicks = cm.Grid(cm.disturbances.VelocityKick.of(machine, "150 mm/s"), (12, 18))
-    return cm.map_basins(cm.models.Staged(tuple(stages)), kicks).fractions.get("levitation", 0.0)
+    return cm.map_basins(cm.models.in_stages(tuple(stages)), kicks).fractions.get("levitation", 0.0)
 
 
 errors = np.linspace(-180.0, 180.0, 25)

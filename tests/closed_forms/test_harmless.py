@@ -69,7 +69,7 @@ def test_nothing_is_said_where_no_energy_is_known_that_does_not_grow():
     for changes in ({"stiffness": circulatory}, {"damping": -damping}, {"forcing": 4.0 * forcing}):
         other = made(**changes)
         assert harmless_kick(other) == harmless_shock(other, 1.0) == harmless_blade_loss(other) == 0.0
-    staged = cm.models.Staged(
+    staged = cm.models.in_stages(
         (cm.models.Stage(rotor, cm.models.Trigger(time=1.0)), cm.models.Stage(made(forcing=0.1 * forcing)))
     )
     assert harmless_kick(staged) == 0.0

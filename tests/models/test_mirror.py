@@ -123,7 +123,7 @@ def test_unbalance_leads_round_an_ellipse():
     rotor = rotor_of()
     ahead = STIFFNESS - MASS + 1j * (DAMPING - 1j * GYROSCOPIC)  # of e^{it}
     behind = STIFFNESS - MASS - 1j * (DAMPING - 1j * GYROSCOPIC)  # of e^{-it}
-    forward, backward = rotor.system.rest, rotor.system.rest_mirrored
+    forward, backward = rotor.system.rest, rotor.system.backward_whirl
     # Z = p e^{it} + q e^{-it}: the conjugate of one part acts on the other.
     across = ACROSS[1] - 1j * ACROSS[0], ACROSS[1] + 1j * ACROSS[0]
     assert ahead @ forward + across[1] @ backward.conj() == pytest.approx(UNBALANCE, abs=1e-14)
@@ -206,7 +206,7 @@ def test_bearings_that_are_alike_move_the_rotor_as_without_the_second_set_of_mod
     # What acts on conjugates is not zero, but far below rounding.
     nearly = rotor_of(law, 0.4, surface_speed, conjugate=np.full((2, 2, 2), 1e-300))
     alike = rotor_of(law, 0.4, surface_speed, conjugate=None)
-    assert (nearly.system.mirrored is None, alike.system.mirrored is None) == (False, True)
+    assert (not nearly.system.is_anisotropic, not alike.system.is_anisotropic) == (False, True)
 
     ends = [cm.simulate(heavy(each), START, 15.0) for each in (nearly, alike)]
     assert ends[0].segment_phases.tolist() == ends[1].segment_phases.tolist()

@@ -8,7 +8,7 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Stage, Staged, exact_rotor_of, jeffcott, rotor_of
+from carom.models import Force, Stage, exact_rotor_of, in_stages, jeffcott, rotor_of
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import Gravity, Parameters, Scales
@@ -22,7 +22,7 @@ def test_the_model_of_a_heavy_case_has_its_weight():
     assert len(ROTOR.forces) == 1
     assert ROTOR.unforced == jeffcott(HEAVY.parameters)
     assert ROTOR.weight == pytest.approx(-1j * PULL)
-    assert Staged((Stage(ROTOR),)).weight == pytest.approx(-1j * PULL)
+    assert in_stages((Stage(ROTOR),)).weight == pytest.approx(-1j * PULL)
     assert rotor_of(HEAVY.replace(gravity=0)) == jeffcott(HEAVY.parameters)
 
 

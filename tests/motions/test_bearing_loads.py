@@ -109,7 +109,7 @@ def test_stages_count_together(machine):
 def test_contact_that_goes_on_over_two_stages_began_in_the_first():
     case = cm.load(BALLS, ["touchdown_dissipation=20 s/m"])
     falling, start = cm.drop().stages(case)
-    halves = cm.models.Staged(
+    halves = cm.models.in_stages(
         (
             cm.models.Stage(falling, cm.models.Trigger(time=1500.0)),
             cm.models.Stage(falling, cm.models.Trigger(time=50.0)),

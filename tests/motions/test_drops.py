@@ -8,7 +8,7 @@ import pytest
 from linear_rotors import tilting
 
 import carom as cm
-from carom.models import Stage, Staged, rotor_of
+from carom.models import Stage, in_stages, rotor_of
 from carom.motions import Drop, Whirl
 from carom.outcome import InputError, Outcome
 
@@ -131,7 +131,7 @@ def test_the_race_turns_at_the_release(speed):
     ("machine", "drop", "words"),
     [
         (cm.load("examples/source-paper.toml"), Drop(), "^gravity = nothing given: a drop needs weight"),
-        (Staged((Stage(ROTOR),)), Drop(), "^machine = .*: a machine of one stage"),
+        (in_stages((Stage(ROTOR),)), Drop(), "^machine = .*: a machine of one stage"),
         (HEAVY.replace(stiffness="1e5 N/m"), Drop(), "^levitation = up to 1.97 clearances"),
         (HEAVY.replace(stiffness="1e5 N/m"), Drop(cm.kick(0.1)), "^levitation = up to 1.97 clearances"),
         (HEAVY, Drop(phase="3 mm"), "^phase = 3 mm: must be an angle"),

@@ -11,7 +11,7 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Stage, Staged, Trigger, jeffcott, rotor_from
+from carom.models import Force, Stage, Trigger, in_stages, jeffcott, rotor_from
 from carom.outcome import InputError, Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
@@ -58,7 +58,7 @@ def persisted_at(touches, gap, least):
 
 @pytest.mark.parametrize(("least", "gap"), [(5.0, 2.0), (3.0, 0.8), (12.0, 3.0), (0.5, 0.0), (2.0, 0.0)])
 def test_contact_that_persists_triggers_when_the_log_says_so(least, gap):
-    staged = Staged((Stage(ROTOR, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
     positions, kicks = starts(sized(40, 10))
     triggered = 0
     for position, kick in zip(positions, kicks, strict=True):
@@ -77,7 +77,7 @@ def test_contact_that_persists_triggers_when_the_log_says_so(least, gap):
 
 
 def test_a_hard_impact_triggers_just_after_it():
-    staged = Staged((Stage(ROTOR, Trigger(impact_speed=0.5)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(impact_speed=0.5)), Stage(HELPED)))
     seen = set()
     for position, kick in zip(*starts(20), strict=True):
         whole = cm.simulate(ROTOR, cm.State(position, kick), 100.0)
@@ -94,7 +94,7 @@ def test_a_hard_impact_triggers_just_after_it():
 
 
 def test_the_next_stage_is_a_motion_of_its_rotor():
-    motion = cm.simulate(Staged((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
+    motion = cm.simulate(in_stages((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
     first, second = motion.parts
     assert (first.outcome, first.time, second.begins) == (Outcome.TRIGGERED, 7.0, 7.0)
     assert first.final == cm.simulate(ROTOR, KICK, 7.0).final
@@ -106,7 +106,7 @@ def test_the_next_stage_is_a_motion_of_its_rotor():
 def test_what_is_carried_over_may_change():
     """The rotor stops dead in the fixed frame where its stage ends."""
     stop = np.array([[1.0, 0.0], [-1j, 0.0]])
-    staged = Staged((Stage(ROTOR, Trigger(time=3.0), carry=stop), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=3.0), carry=stop), Stage(HELPED)))
     first, second = cm.simulate(staged, KICK).parts
     assert second.start.position == pytest.approx(first.final.position, abs=1e-15)
     assert second.start.velocity == pytest.approx(-1j * first.final.position, abs=1e-15)
@@ -126,7 +126,7 @@ def test_what_is_carried_over_may_change():
     ids=["time", "contact", "impact", "all"],
 )
 def test_many_starts_end_as_each_alone(trigger):
-    staged = Staged((Stage(ROTOR, trigger), Stage(HELPED, Trigger(time=4.0)), Stage(ROTOR)))
+    staged = in_stages((Stage(ROTOR, trigger), Stage(HELPED, Trigger(time=4.0)), Stage(ROTOR)))
     positions, kicks = starts(sized(60, 20), seed=3)
     ends = cm.settle(staged, positions, kicks, threads=2)
     for place, (position, kick) in enumerate(zip(positions, kicks, strict=True)):
@@ -145,7 +145,7 @@ def test_many_starts_end_as_each_alone(trigger):
 @pytest.mark.parametrize("further", [(), (Stage(ROTOR),)], ids=["two stages", "three stages"])
 def test_a_mixture_of_machines_with_and_without_stages(further):
     second = Stage(HELPED, Trigger(time=2.0)) if further else Stage(HELPED)
-    staged = Staged((Stage(ROTOR, Trigger(contact_time=4.0, contact_gap=2.0)), second, *further))
+    staged = in_stages((Stage(ROTOR, Trigger(contact_time=4.0, contact_gap=2.0)), second, *further))
     positions, kicks = starts(30)
     which = np.arange(30) % 2
     together = cm.settle([staged, ROTOR], positions, kicks, which=which)
@@ -158,7 +158,7 @@ def test_a_mixture_of_machines_with_and_without_stages(further):
 
 def test_more_damping_after_contact_brings_back_what_bounced_on(tmp_path):
     """A recovery action in a map of basins, against motions one by one."""
-    staged = Staged((Stage(ROTOR, Trigger(contact_time=5.0, contact_gap=3.0)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(contact_time=5.0, contact_gap=3.0)), Stage(HELPED)))
     grid = cm.Grid(cm.disturbances.VelocityKick(1.0), (6, 12))
     helped, left = cm.map_basins(staged, grid), cm.map_basins(ROTOR, grid)
     assert left.fractions.get("levitation", 0.0) < 0.5
@@ -171,14 +171,14 @@ def test_more_damping_after_contact_brings_back_what_bounced_on(tmp_path):
 
 def test_a_start_in_lasting_contact_counts_from_its_beginning():
     rubbing = next(each for each in cm.find_equilibria(ROTOR.replace(gamma=0.2)) if each.kind == "rub" and each.stable)
-    staged = Staged((Stage(ROTOR.replace(gamma=0.2), Trigger(contact_time=3.0)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR.replace(gamma=0.2), Trigger(contact_time=3.0)), Stage(HELPED)))
     first = cm.simulate(staged, cm.State(rubbing.position), 50.0).parts[0]
     assert (first.outcome, first.time) == (Outcome.TRIGGERED, 3.0)
     assert (first.segment_phases[-1] == Phase.FORWARD_SLIP).all()
 
 
 def test_stages_are_read_again_from_their_attributes():
-    staged = Staged((Stage(ROTOR, Trigger(time=5.0, contact_gap=0.2), carry=np.eye(2) * 1j), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=5.0, contact_gap=0.2), carry=np.eye(2) * 1j), Stage(HELPED)))
     again = rotor_from(staged.attributes())
     assert [each.trigger for each in again.stages] == [each.trigger for each in staged.stages]
     assert np.array_equal(again.stages[0].carry, 1j * np.eye(2))
@@ -189,8 +189,8 @@ def test_stages_are_read_again_from_their_attributes():
 @pytest.mark.parametrize(
     ("field", "made"),
     [
-        ("stages", lambda: Staged(())),
-        ("stages", lambda: Staged((ROTOR,))),
+        ("stages", lambda: in_stages(())),
+        ("stages", lambda: in_stages((ROTOR,))),
         ("time", lambda: Trigger(time=0.0)),
         ("contact_gap", lambda: Trigger(contact_gap=-1.0)),
         ("carry", lambda: Stage(ROTOR, carry=np.eye(3))),
@@ -199,8 +199,8 @@ def test_stages_are_read_again_from_their_attributes():
         ("carry", lambda: Stage(ROTOR, carry="none")),
         ("trigger", lambda: Stage(ROTOR, 5.0)),
         ("rotor", lambda: Stage(PAPER)),
-        ("rotor", lambda: Stage(Staged((Stage(ROTOR),)))),
-        ("rotor", lambda: Staged((Stage(ROTOR),)).under(WEIGHT)),
+        ("rotor", lambda: Stage(in_stages((Stage(ROTOR),)))),
+        ("rotor", lambda: in_stages((Stage(ROTOR),)).under(WEIGHT)),
         ("forces", lambda: ROTOR.under(*WEIGHT)),
         ("forces", lambda: ROTOR.under()),
         ("exponent", lambda: ROTOR.under(Force(np.nan, [0.1]))),
@@ -216,7 +216,7 @@ def test_bad_stages_are_refused(field, made):
 
 
 def test_a_motion_of_several_stages_is_saved_whole_and_part_by_part(tmp_path):
-    motion = cm.simulate(Staged((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
+    motion = cm.simulate(in_stages((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
     motion.save(tmp_path / "whole.nc")
     assert [part.begins for part in cm.motions.Trajectory.load(tmp_path / "whole.nc").parts] == [0.0, 7.0]
     motion.parts[0].save(tmp_path / "first.nc")
@@ -227,7 +227,7 @@ def test_a_motion_of_several_stages_is_saved_whole_and_part_by_part(tmp_path):
 @pytest.mark.parametrize("stages", [(), (Stage(HELPED),)], ids=["one stage", "two stages"])
 def test_threads_that_share_a_portion_follow_each_motion_once(stages):
     """The later thread finds motions that have ended, with times above zero."""
-    rotor = Staged((Stage(ROTOR, Trigger(time=3.0)), *stages)) if stages else ROTOR
+    rotor = in_stages((Stage(ROTOR, Trigger(time=3.0)), *stages)) if stages else ROTOR
     positions, kicks = starts(20_000)
     alone, shared = (cm.settle(rotor, positions, kicks, until=100.0, threads=threads) for threads in (1, 2))
     for name, values in vars(alone).items():
@@ -238,7 +238,7 @@ def test_threads_that_share_a_portion_follow_each_motion_once(stages):
 def test_contact_that_would_settle_triggers_once_it_has_persisted(least, gap):
     """Periodic bouncing and a rub that attracts are known long before."""
     for rotor in (ROTOR, ROTOR.replace(gamma=0.2)):
-        staged = Staged((Stage(rotor, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
+        staged = in_stages((Stage(rotor, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
         positions, kicks = starts(12, 1)
         ends = cm.settle(staged, positions, kicks)
         for position, kick, outcome in zip(positions, kicks, ends.outcomes, strict=True):
@@ -251,7 +251,7 @@ def test_contact_that_would_settle_triggers_once_it_has_persisted(least, gap):
 
 
 def test_bounces_with_longer_flights_than_the_gap_still_settle():
-    staged = Staged((Stage(ROTOR, Trigger(contact_time=40.0, contact_gap=0.1)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(contact_time=40.0, contact_gap=0.1)), Stage(HELPED)))
     for start in zip(*starts(12, 1), strict=True):
         alone, motion = (cm.simulate(rotor, cm.State(*start)) for rotor in (ROTOR, staged))
         rubs = alone.outcome is Outcome.FORWARD_RUB
@@ -259,7 +259,7 @@ def test_bounces_with_longer_flights_than_the_gap_still_settle():
 
 
 def test_a_stage_may_begin_when_time_is_up():
-    staged = Staged((Stage(ROTOR, Trigger(time=5.0)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=5.0)), Stage(HELPED)))
     motion = cm.simulate(staged, KICK, 5.0)
     assert [(part.outcome, part.time) for part in motion.parts] == [
         (Outcome.TRIGGERED, 5.0),
@@ -271,7 +271,7 @@ def test_a_stage_may_begin_when_time_is_up():
 def test_every_plane_of_a_joint_impact_may_trigger():
     rotor = tilting(arms=(0.8, -0.8), forcing=np.zeros(2)).model
     position, velocity = np.linalg.solve(rotor.planes, np.array([[1.0, 0.1], [1.0, 1.0]], complex)).T
-    staged = Staged((Stage(rotor, Trigger(impact_speed=0.5)), Stage(rotor)))
+    staged = in_stages((Stage(rotor, Trigger(impact_speed=0.5)), Stage(rotor)))
     first = cm.simulate(staged, cm.State(position, velocity), 20.0).parts[0]
     assert (first.outcome, first.time) == (Outcome.TRIGGERED, 0.0)
 
@@ -280,7 +280,7 @@ def test_a_flight_next_to_the_wall_is_no_contact():
     """What follows lasting contact of a plane next to others is followed by Taylor series, as if there still were contact."""
     rotor = tilting().model
     position = np.array([np.exp(2j), 0.0])
-    staged = Staged((Stage(rotor, Trigger(contact_time=1.0)), Stage(rotor)))
+    staged = in_stages((Stage(rotor, Trigger(contact_time=1.0)), Stage(rotor)))
     whole = cm.simulate(rotor, cm.State(position / np.abs(rotor.planes @ position).max(), np.zeros(2, complex)), 60.0)
     first = cm.simulate(staged, whole.start, 60.0).parts[0]
     logs = [whole.seen_at(plane) for plane in (0, 1)]
@@ -292,7 +292,7 @@ def test_a_flight_next_to_the_wall_is_no_contact():
     ("carry", "field"), [(3.0 * np.eye(2), "start position"), (np.diag([1.0, 1e200]), "start velocity")]
 )
 def test_what_is_carried_out_of_the_wall_is_refused(carry, field):
-    staged = Staged((Stage(ROTOR, Trigger(time=5.0), carry), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=5.0), carry), Stage(HELPED)))
     for follow in (lambda: cm.simulate(staged, KICK), lambda: cm.settle(staged, *starts(3))):
         with pytest.raises(InputError, match=field):
             follow()
@@ -300,7 +300,7 @@ def test_what_is_carried_out_of_the_wall_is_refused(carry, field):
 
 def test_a_stage_lasts_as_long_as_its_trigger_says():
     """Longer than a motion that only may settle is followed."""
-    staged = Staged((Stage(ROTOR, Trigger(time=3e5)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=3e5)), Stage(HELPED)))
     motion, ends = cm.simulate(staged, cm.kick(0.01)), cm.settle(staged, ROTOR.equilibrium, 0.01)
     assert [part.outcome for part in motion.parts] == [Outcome.TRIGGERED, Outcome.LEVITATED]
     assert ends.outcomes == Outcome.LEVITATED
@@ -308,7 +308,7 @@ def test_a_stage_lasts_as_long_as_its_trigger_says():
 
 
 def test_a_shock_comes_before_the_stages_of_a_rotor():
-    staged = Staged((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
     shock = cm.BaseShock(2.0, 1.3)
     motion = cm.simulate(*shock.apply(staged, 0.3))
     assert [part.begins for part in motion.parts] == pytest.approx([0.0, 1.3, 3.3])
@@ -331,13 +331,13 @@ def test_impact_maps_do_not_know_forces_that_change_with_time():
 
 
 def test_a_map_of_basins_of_stages_is_shown():
-    staged = Staged((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
+    staged = in_stages((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
     assert "levitation" in repr(cm.map_basins(staged, cm.Grid(cm.disturbances.VelocityKick(1.0), (2, 3))))
 
 
 def test_low_bounces_in_a_later_stage_are_told_from_others():
     rotor = jeffcott(PAPER.replace(gamma=0.3, mu=0.0, d=1.0))
-    staged = Staged((Stage(rotor, Trigger(time=0.5)), Stage(rotor)))
+    staged = in_stages((Stage(rotor, Trigger(time=0.5)), Stage(rotor)))
     random = np.random.default_rng(0)
     positions = 0.999 * np.exp(1j * random.uniform(0.0, 6.3, 12))
     kicks = random.uniform(0.0, 0.2, 12) * np.exp(1j * random.uniform(0.0, 6.3, 12))

@@ -96,7 +96,7 @@ def test_senses():
     # Without a noteworthy speed the rotor vibrates along x and along y, at two frequencies.
     assert sum(np.abs(each.shape).max() - np.abs(each.opposite).max() < 1e-3 for each in whirls) >= 4
     circulating = replaced(MACHINE, supports=[Support(7, 2e5, 2e5, 1e4, -1e4)])
-    assert not circulating.whole.equations.mirrored
+    assert not circulating.whole.equations.is_anisotropic
 
 
 @pytest.mark.parametrize("speed", [100.0, 330.0, 900.0])
@@ -242,7 +242,7 @@ def test_steady_motions_are_told_without_rubs(capsys, tmp_path):
     path = tmp_path / "mine.toml"
     text = Path("examples/tum-flexible-rotor.toml").read_text(encoding="utf-8")
     path.write_text(f"{text}\n[[support]]\nnode = 7\nkxx = 2e4\nkyy = 5e3\ncxx = 20.0\ncyy = 20.0\n", encoding="utf-8")
-    assert cm.load(path).parameters.system.mirrored is not None
+    assert cm.load(path).parameters.system.is_anisotropic
     assert main(["orbits", str(path)]) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "levitation" in told

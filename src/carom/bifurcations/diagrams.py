@@ -210,7 +210,7 @@ def find_bifurcations(
     ['fold']
     """
     model = exact_rotor_of(machine) if lasting else rotor_of(machine)
-    model.system.refuse_unrepeated()
+    model.system.refuse_non_stationary()
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
@@ -311,7 +311,7 @@ def _follow_searched(
 
 def is_simulated(model: Rotor) -> bool:
     """Whether orbits are closed and followed on the flow of the simulator: where motions have no words, and where walls give way."""
-    return model.system.unrepeated is not None or bool(model.system.arrays["stiffness"].any())
+    return model.system.why_not_periodic is not None or bool(model.system.arrays["stiffness"].any())
 
 
 def _follow_simulated(

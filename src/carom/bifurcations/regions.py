@@ -230,7 +230,7 @@ def map_regions(
 
 def _settled(model: Rotor, plane: Plane, grid: int, tell: Reporter) -> RegionMap:
     """The map of any other machine, by where disturbances settle."""
-    model.system.refuse_unrepeated()
+    model.system.refuse_non_stationary()
     axes = axis(model, plane.first), axis(model, plane.second)
     axes_of(model, plane, axes)
     regions, notes = settled_regions(model, plane, axes, grid, tell)

@@ -51,7 +51,7 @@ def orbits(
         _search(given, impacts, guesses, as_json)
         return
     model = rotor_of(given)
-    model.system.refuse_unrepeated()
+    model.system.refuse_non_stationary()
     if not model.has_closed_forms:
         _print_steady(given, longest_period, as_json)
         return

@@ -94,7 +94,7 @@ def print_steady(console: Console, case: Case) -> None:
         table.add_row(each.motion, bearings, whirl, *sizes, each.state)
     console.print(fitted(console, table))
     console.print()
-    if rotor.system.mirrored is not None:
+    if rotor.system.is_anisotropic:
         console.print(
             "Rubs and whirls are no steady motions where bearings act differently in two directions; attractors finds where motions end."
         )

@@ -13,7 +13,7 @@ from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.sag import Levitation, Status, levitation, status_of
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
 from carom.models import Rotor, Subject, rotor_of
-from carom.models.excess import asks_beyond
+from carom.models.saturation import saturates
 from carom.outcome import Phase
 from carom.parameters import Scales
 from carom.results import Members, Result, in_a_line
@@ -172,9 +172,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     system = model.system
     model.refuse_forces()
     rubs = [
-        _rub(model, *balance)
-        for balance in rub_forces(system)
-        if not asks_beyond(system, static_state(system, *balance))
+        _rub(model, *balance) for balance in rub_forces(system) if not saturates(system, static_state(system, *balance))
     ]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=all_found(system))
@@ -193,7 +191,7 @@ def _contact_free(model: Rotor) -> Equilibrium:
         (),
         status_of(1.0 - float(np.abs(places).max())),
         system.exponents,
-        _dies_out(system.exponents, margin) and not asks_beyond(system, np.zeros(system.modes)),
+        _dies_out(system.exponents, margin) and not saturates(system, np.zeros(system.modes)),
         model.scales,
     )
 
@@ -251,5 +249,5 @@ def steady_motions(rotor: Rotor) -> tuple[SteadyMotion, ...]:
     of simulated motions.
     """
     system = rotor.system
-    alone = system.outer.any() or system.mirrored is not None or system.shaft is not None
+    alone = system.outer.any() or system.is_anisotropic or system.shaft is not None
     return (levitation(rotor),) if alone else find_equilibria(rotor).members

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.arguments import Reals, checked
 from carom.models import Rotor, Subject, rotor_of
-from carom.models.excess import asks_beyond
+from carom.models.saturation import saturates
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -90,7 +90,7 @@ class Levitation(Result):
     def stable(self) -> bool:
         """Whether small disturbances die out; not where the magnetic bearings would have to give more than their limits."""
         system = self.rotor.system
-        kept = not asks_beyond(system, np.zeros(system.modes), system.outer)
+        kept = not saturates(system, np.zeros(system.modes), system.outer)
         return kept and bool(self.eigenvalues.real.max() < 0.0)
 
     @checked
@@ -129,8 +129,8 @@ def levitation(machine: Subject) -> Levitation:
     """
     model = rotor_of(machine)
     system, arrays = model.system, model.system.arrays
-    if system.shaken:
-        system.refuse_unsteady()
+    if system.is_externally_forced:
+        system.refuse_non_stationary()
     if system.rest_radius == np.inf:
         raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")
 
@@ -141,9 +141,9 @@ def levitation(machine: Subject) -> Levitation:
         model,
         told(system.shapes @ system.outer),
         told(system.whirl),
-        told(system.rest_mirrored),
+        told(system.backward_whirl),
         np.abs(arrays["rows"] @ system.outer),
         np.abs(system.planes @ system.whirl if system.shaft else arrays["offsets"])
-        + np.abs(system.planes @ system.rest_mirrored),
+        + np.abs(system.planes @ system.backward_whirl),
         np.asarray(system.exponents),
     )

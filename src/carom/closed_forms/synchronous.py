@@ -216,7 +216,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
     if gravity is not None and gravity.acceleration:
         # The translation of the whole rotor is the first vector; mounts have no weight.
         pull = gravity.acceleration * np.exp(1j * gravity.direction) * np.sqrt(scales.mass) * first
-        both = held.both if held.mirrored else held
+        both = held.both if held.is_anisotropic else held
         resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
     seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
     return _Whole(
@@ -235,9 +235,9 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
 
 def _answers(equations: Equations, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates (m, n) of what goes with the shaft and of what goes against it, at time zero."""
-    held = equations.both if equations.mirrored else equations
+    held = equations.both if equations.is_anisotropic else equations
     answers = np.array([_answer(held, speed) for speed in speeds.tolist()])
-    if not equations.mirrored:
+    if not equations.is_anisotropic:
         return answers, np.zeros_like(answers)
     forward, backward = np.split(answers, 2, axis=1)
     return forward, backward.conj()

@@ -187,7 +187,7 @@ class BaseShock(Disturbance):
         peaks, directions, begun = np.broadcast_arrays(*values, instant)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        rotor.system.refuse_unsteady()
+        rotor.system.refuse_non_stationary()
         positions, velocities, ended, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
         )
@@ -215,7 +215,7 @@ class BaseShock(Disturbance):
             The rotor cannot levitate inside the wall.
         """
         from carom.disturbances.shocks import shaken
-        from carom.models import Stage, Staged, Trigger, rotor_of
+        from carom.models import Stage, Trigger, in_stages, rotor_of
         from carom.models.stages import stages_of
         from carom.motions.starts import Kick
 
@@ -224,7 +224,7 @@ class BaseShock(Disturbance):
         peak, direction, begun = self.whole(values, instant)
         size, start = cmath.rect(peak, direction) / 2j, Kick(0.0, instant=begun).state(rotor)
         pulse = Stage(shaken(rotor, self.duration, size, start.time), Trigger(time=self.duration))
-        return Staged((pulse, *further)), start
+        return in_stages((pulse, *further)), start
 
     def release(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.

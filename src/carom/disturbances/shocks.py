@@ -60,7 +60,7 @@ def states_after_shocks(
     reached during the pulse.
     """
     begins = np.broadcast_to(begins, peaks.shape)
-    if rotor.system.mirrored is not None:
+    if rotor.system.is_anisotropic:
         return _states_one_by_one(rotor, peaks, duration, directions, begins)
     system = shaken(rotor, duration, 1.0).system
     at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))

@@ -13,17 +13,17 @@
 ``planar``                :func:`jeffcott`: the planar rigid rotor by its parameters, in a touchdown bearing of any kind
 ``linear``                :class:`LinearEquations`: the equations of any linear rotor
 ``by_matrices``           :func:`from_matrices`: any linear rotor, by its matrices
-``mirror``                its system where bearings act differently in two directions
+``anisotropic``           its system where bearings act differently in two directions
 ``linear_parameters``     its named parameters
 ``limits``                :class:`Limit`: limits of magnetic bearings
-``excess``                what is asked of bearings beyond their limits
+``saturation``            what is asked of bearings beyond their limits
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``race``                  :class:`Race`: a race that turns
 ``shaft``                 :class:`Shaft`: a shaft whose speed changes
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``forces``                forces as they are given
-``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage
+``stages``                :func:`in_stages`: a rotor that changes when a trigger ends a stage
 ``weight``                where a rotor levitates under its weight
 ``subjects``              :func:`rotor_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
@@ -46,7 +46,7 @@ from carom.models.race import Race
 from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
-from carom.models.stages import Stage, Staged, Trigger, depends_on_instant
+from carom.models.stages import Stage, Trigger, depends_on_instant, in_stages
 from carom.models.subjects import Subject, case_of, exact_rotor_of, planar_case_of, rotor_from, rotor_of
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
@@ -70,7 +70,6 @@ __all__ = [
     "Shaft",
     "Span",
     "Stage",
-    "Staged",
     "Subject",
     "System",
     "Touchdown",
@@ -81,6 +80,7 @@ __all__ = [
     "exact_rotor_of",
     "from_corotating_matrices",
     "from_matrices",
+    "in_stages",
     "jeffcott",
     "planar_case_of",
     "rotor_from",

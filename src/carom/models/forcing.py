@@ -8,7 +8,7 @@ With the amplitudes ``c`` of the free modes and a force of amplitude ``f`` and e
 others, and which no impulse changes.  In resonance, where ``σ`` is nearly an exponent of ``M``, the force stands before the mode
 it drives and forms a chain with it: weight, velocity and displacement in free fall.
 
-Where bearings act differently in two directions (:mod:`carom.models.mirror`), a force ``f e^{σt}`` is also a force ``f̄ e^{σ̄t − 2it}`` on
+Where bearings act differently in two directions (:mod:`carom.models.anisotropic`), a force ``f e^{σt}`` is also a force ``f̄ e^{σ̄t − 2it}`` on
 conjugates; of one that is constant in the fixed frame both exponents are one.
 """
 
@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.core.wall import Wall
+from carom.models.anisotropic import TURN
 from carom.models.from_modes import modal_system
-from carom.models.mirror import TURN
 from carom.models.mode_arrays import EQUAL
 from carom.models.system import System
 from carom.outcome import InputError
@@ -66,7 +66,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     first = planes + system.limits
     modes, last = _Modes.of(system), first + 2 * n
     pushes = [(force.exponent, force.accelerations, slice(first + n, last)) for force in forces]
-    if system.mirrored is not None:
+    if system.is_anisotropic:
         # Amplitudes by rates of conjugates come last.
         pushes += [
             (np.conj(force.exponent) + TURN, np.conj(force.accelerations), slice(last + first + n, None))
@@ -109,7 +109,7 @@ def _mirrored(modes: _Modes, columns: slice, states: slice) -> dict[str, Any]:
     return {
         "mirror": np.array([modes.mirror]),
         "mirror_columns": modes.left[:, columns],
-        "mirrored": modes.left[:, states],
+        "conjugate_modes": modes.left[:, states],
     }
 
 
@@ -153,8 +153,8 @@ class _Modes:
         right = np.concatenate([arrays["rows"], arrays["limit_rows"], system.shapes])
         left = np.concatenate([arrays["columns"], arrays["limit_columns"], system.to_modes], axis=1)
         mirror = ALIKE
-        if system.mirrored is not None:
-            acting = arrays["mirror_columns"], arrays["limit_mirrors"], system.mirrored
+        if system.is_anisotropic:
+            acting = arrays["mirror_columns"], arrays["limit_mirrors"], system.conjugate_modes
             left = np.concatenate([left, *acting], axis=1)
             mirror = int(kept[: arrays["mirror"][0]].sum())
         return cls(

@@ -38,7 +38,7 @@ def modal_system(
     shaft: ShaftModes | None = None,
     clearances: tuple[float, ...] | None = None,
     limits: Mapping[str, np.ndarray] | None = None,
-    mirrored: np.ndarray | None = None,
+    conjugate_modes: np.ndarray | None = None,
     mirror_columns: np.ndarray | None = None,
     mirror: np.ndarray | None = None,
     magnets: np.ndarray | None = None,
@@ -50,7 +50,7 @@ def modal_system(
     ----------
     exponents, driven, free, rows, columns, limits, mirror, mirror_columns, **planes
         See :func:`~carom.core.layout.rotor_record`.
-    rest, shapes, inverse, forced, translation, clearances, mirrored, magnets
+    rest, shapes, inverse, forced, translation, clearances, conjugate_modes, magnets
         See :class:`System`.
     races : RaceModes, optional
         Further modes, of races that turn.
@@ -103,7 +103,7 @@ def modal_system(
         **planes,
     )
     moved = None if forced is None else filled(forced)
-    conjugates = None if mirrored is None else filled(mirrored)
+    conjugates = None if conjugate_modes is None else filled(conjugate_modes)
     shown = filled(shapes, 1)
     return System(
         arrays, rest, shown, filled(inverse), translation, moved, races, shaft, clearances, conjugates, magnets=magnets

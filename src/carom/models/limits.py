@@ -115,8 +115,8 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
         "limit_couplings": couplings * turns[:, None] / turns,
     }
     kept = {name: arrays[name] for name in _KEPT}
-    if system.mirrored is not None:
-        own["limit_mirrors"] = system.mirrored @ pushes.conj()
+    if system.is_anisotropic:
+        own["limit_mirrors"] = system.conjugate_modes @ pushes.conj()
         kept |= {name: arrays[name] for name in ("mirror", "mirror_columns")}
     return replace(system, arrays=rotor_record(**kept, limits=own))
 

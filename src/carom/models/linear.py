@@ -13,11 +13,11 @@ import numpy as np
 
 from carom.arguments import checked, having
 from carom.models import linear_parameters
+from carom.models.anisotropic import Doubled, anisotropic_system
 from carom.models.definition import Definition
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
 from carom.models.matrices import Matrices, Rates
-from carom.models.mirror import Doubled, mirrored_system
 from carom.models.modes import modes_of
 from carom.models.race import RaceModes
 from carom.models.shaft import Shaft, ShaftModes
@@ -211,7 +211,7 @@ class LinearEquations(Definition, Result):
         """Modes, contact planes and contact law."""
         n = len(self.mass)
         if self.conjugate is not None and self.conjugate.any():
-            return self._mirrored(self.conjugate)
+            return self._anisotropic(self.conjugate)
         self._check_inverses()
         if _singular(self.stiffness, self.mass, self.damping, self.stiffness) and self.forcing.any():
             # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
@@ -251,7 +251,7 @@ class LinearEquations(Definition, Result):
             magnets=self.magnets,
         )
 
-    def _mirrored(self, conjugate: np.ndarray) -> System:
+    def _anisotropic(self, conjugate: np.ndarray) -> System:
         """System where bearings act differently in two directions."""
         doubled = Doubled.of(self.mass, self.damping, self.stiffness, conjugate)
         none = np.zeros(len(self.mass))
@@ -259,7 +259,7 @@ class LinearEquations(Definition, Result):
             raise InputError("forcing", self.forcing.tolist(), "none in undamped resonance with it")
         planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in self.touchdowns]
         system = LinearEquations(*doubled, np.append(self.forcing, none), planes).system
-        return mirrored_system(
+        return anisotropic_system(
             system,
             self.accelerations(self.planes.conj().T) * system.arrays["masses"],
             races=RaceModes.of([each.race for each in self.touchdowns], system.arrays["masses"]),

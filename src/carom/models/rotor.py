@@ -6,7 +6,7 @@ import cmath
 import dataclasses
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
     from carom.models.matrices import Matrices, Rates
     from carom.models.race import Race
+    from carom.models.stages import Stage
     from carom.models.system import System
 
 _PLANAR = (
@@ -45,6 +46,7 @@ _WITHOUT_LIMITS = (
     "carom.simulate, carom.settle and others work"
 )
 _RIGID = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
+ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
 
@@ -66,16 +68,19 @@ class Rotor(Result):
     limits : carom.parameters.ControlLimit, or tuple of Limit
         Of its magnetic bearings, beyond which these give no more and the states of controllers wind up: of the planar rotor in SI units, or
         in units of its equations.
+    stages : tuple of Stage
+        Where it changes while it moves, its stages (:func:`carom.models.in_stages`): it is the rotor of the first one.
 
     Raises
     ------
     InputError
-        Forces or limits are of another kind, or the touchdown bearing is off the place of levitation where the magnetic bearings have limits.
+        Forces or limits are of another kind, stages begin with another rotor, or the touchdown bearing is off the place of levitation where the magnetic bearings have limits.
     """
 
     definition: Definition
     forces: tuple[Force, ...] = ()
     limits: ControlLimit | tuple[Limit, ...] = ()
+    stages: tuple[Stage, ...] = ()
 
     rests_on: ClassVar[tuple[str, ...]] = ()
 
@@ -84,6 +89,8 @@ class Rotor(Result):
             object.__setattr__(self, "forces", checked_forces(self.forces, self.definition.system.rest.shape))
         if self.limits != ():
             self._check_limits(self.limits)
+        if self.stages and self._outline != self.stages[0].rotor._outline:
+            raise InputError("stages", shown(self.stages[0]), "stages the first of which has this rotor")
 
     def _check_limits(self, given: Any) -> None:
         if isinstance(given, ControlLimit):
@@ -110,10 +117,15 @@ class Rotor(Result):
         if not isinstance(other, Rotor):
             return NotImplemented
         same = len(self.forces) == len(other.forces) and all(map(lambda a, b: a is b, self.forces, other.forces))
+        same = same and self.stages == other.stages
         return same and self.definition == other.definition and self.limits == other.limits
 
     def __hash__(self) -> int:
-        return hash((self.definition, len(self.forces), self.limits))
+        return hash(self._outline)
+
+    @property
+    def _outline(self) -> tuple[Definition, int, ControlLimit | tuple[Limit, ...]]:
+        return self.definition, len(self.forces), self.limits
 
     def rows(self) -> list[tuple[str, str]]:
         """What defines it, and what acts on it."""
@@ -167,8 +179,8 @@ class Rotor(Result):
 
     @property
     def planar(self) -> Parameters | None:
-        """Dimensionless parameters of the planar rotor, whatever acts on it; ``None`` of other rotors, whose numbers are matrices."""
-        return self.definition.planar
+        """Dimensionless parameters of the planar rotor, whatever acts on it; ``None`` of other rotors, and of one that changes in stages."""
+        return None if self.stages else self.definition.planar
 
     @property
     def parameters(self) -> Parameters:
@@ -208,7 +220,7 @@ class Rotor(Result):
     @property
     def is_anisotropic(self) -> bool:
         """Whether its bearings act differently in two directions."""
-        return self.definition.system.mirrored is not None
+        return self.definition.system.is_anisotropic
 
     @property
     def acting_on_conjugates(self) -> np.ndarray | None:
@@ -247,6 +259,8 @@ class Rotor(Result):
     @cached_property
     def system(self) -> System:
         """Modes, contact planes, contact law, limits, and a mode for each force, as arrays for the kernels."""
+        if self.stages:
+            return self.stages[0].rotor.system
         if self._before is not None:
             rotor, more = self._before
             return with_forces(rotor.system, more)
@@ -302,10 +316,18 @@ class Rotor(Result):
     @property
     def is_time_dependent(self) -> bool:
         """Whether it matters when a motion begins: something stands in the fixed frame, past which the unbalance turns."""
-        return self.system.timed
+        return self.system.is_time_dependent
 
     def under(self, *forces: Force) -> Rotor:
-        """The rotor with further forces on it."""
+        """The rotor with further forces on it.
+
+        Raises
+        ------
+        InputError
+            It changes in stages: forces act on the rotor of a stage.
+        """
+        if self.stages:
+            raise InputError("rotor", shown(self), ONE_STAGE)
         more = checked_forces(forces, self.definition.system.rest.shape)
         rotor = dataclasses.replace(self, forces=(*self.forces, *more))
         rotor.__dict__["_before"] = self, more
@@ -375,6 +397,8 @@ class Rotor(Result):
         InputError
             A name is unknown or a value not allowed, or there is nothing to multiply: no damping, stiffness or unbalance.
         """
+        if self.stages:
+            return self._in_all_stages(lambda rotor: rotor.replace(**changes))
         if not self.forces and not self.limits:
             return Rotor(self.definition.replace(**changes))
         forces, limits, before = list(self.forces), self.limits, self.scales
@@ -394,13 +418,20 @@ class Rotor(Result):
                 limits = tuple(each.at_speed(before.speed / after.speed) for each in limits)
         return Rotor(definition, tuple(in_scales(force, before, after) for force in forces), limits)
 
+    def _in_all_stages(self, change: Callable[[Rotor], Rotor]) -> Rotor:
+        """The rotor with a change in all its stages."""
+        stages = tuple(dataclasses.replace(each, rotor=change(each.rotor)) for each in self.stages)
+        return dataclasses.replace(stages[0].rotor, stages=stages)
+
     @checked
     def rates(self, name: str) -> Rates | None:
         """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
-        return None if self.forces or self.limits else self.definition.rates(name)
+        return None if self.forces or self.limits or self.stages else self.definition.rates(name)
 
     def attributes(self) -> dict[str, Any]:
         """Numbers and texts from which :func:`~carom.models.subjects.rotor_from` makes the same rotor again, exact to the last bit."""
+        if self.stages:
+            return {"stages": json.dumps([each.attributes() for each in self.stages])}
         found = self.definition.attributes()
         if self.limits:
             found = {"limits": limits_as_text(self.limits), "rotor": json.dumps(found)}
@@ -438,6 +469,8 @@ class Rotor(Result):
             Of a flexible machine.
         """
         definition, turned = self.definition.with_changed_unbalance(change, node)
+        if self.stages:
+            return self._in_all_stages(lambda rotor: rotor.with_changed_unbalance(change, node)[0]), turned
         return dataclasses.replace(self, definition=definition), turned
 
     # What is known exactly.
@@ -467,7 +500,7 @@ class Rotor(Result):
 
     def refuse_forces(self) -> None:
         """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
-        if self.system.shaft is not None or self.system.mirrored is not None:
+        if self.system.shaft is not None or self.system.is_anisotropic:
             self.system.refuse_forces()
         if self.system.outer.any():
             acting = "forces that change with time" if self.weight is None else "gravity"

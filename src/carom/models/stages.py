@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
@@ -11,16 +10,8 @@ import numpy as np
 
 from carom.arguments import Infinity, NotNegative, Positive, checked
 from carom.models.forces import complex_numbers
-from carom.models.forcing import Force
-from carom.models.rotor import Rotor
-from carom.models.system import System
+from carom.models.rotor import ONE_STAGE, Rotor
 from carom.outcome import InputError, shown
-
-
-def _check_one_stage(rotor: Any) -> None:
-    """Refuse what is no rotor of one stage."""
-    if isinstance(rotor, Staged) or not isinstance(rotor, Rotor):
-        raise InputError("rotor", shown(rotor), "a rotor of one stage, such as carom.models.rotor_of(machine)")
 
 
 @checked
@@ -73,7 +64,9 @@ class Stage:
     carry: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        _check_one_stage(self.rotor)
+        rotor: Any = self.rotor
+        if not isinstance(rotor, Rotor) or rotor.stages:
+            raise InputError("rotor", shown(rotor), ONE_STAGE)
         if not isinstance(self.trigger, Trigger):
             raise InputError("trigger", shown(self.trigger), "carom.models.Trigger")
         if self.carry is not None:
@@ -91,102 +84,52 @@ class Stage:
         states = np.concatenate([np.reshape(part, (-1, n)) for part in (position, velocity)], axis=1) @ self.carry.T
         return states[:, :n].reshape(np.shape(position)), states[:, n:].reshape(np.shape(velocity))
 
+    def attributes(self) -> dict[str, Any]:
+        """What it is as plain data, exact to the last bit."""
+        carry = None if self.carry is None else [self.carry.real.tolist(), self.carry.imag.tolist()]
+        return {"rotor": self.rotor.attributes(), "trigger": asdict(self.trigger), "carry": carry}
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
-class Staged(Rotor):
-    """A rotor that moves in stages: when the trigger of one ends it, the motion goes on in the next.
 
-    Its parameters, kicks, equilibria and orbits are those of the rotor of the first stage.
+def in_stages(stages: Sequence[Stage]) -> Rotor:
+    """The rotor of the first stage, moving in stages: when the trigger of one ends it, the motion goes on in the next.
 
-    Attributes
-    ----------
-    stages : tuple of Stage
+    Its parameters, kicks, equilibria and orbits are those of the rotor of the first stage; other values of parameters are set in all stages.
+
+    Raises
+    ------
+    InputError
+        They are no stages, or their rotors have different numbers of coordinates.
 
     Examples
     --------
     >>> import carom as cm
     >>> machine = cm.models.rotor_of(cm.load("examples/keogh-cole.toml"))
     >>> on_contact = cm.models.Trigger(contact_time=5.0, contact_gap=2.0)
-    >>> helped = cm.models.Staged((cm.models.Stage(machine, on_contact), cm.models.Stage(machine.replace(gamma=0.8))))
+    >>> helped = cm.models.in_stages((cm.models.Stage(machine, on_contact), cm.models.Stage(machine.replace(gamma=0.8))))
     >>> motion = cm.simulate(helped, cm.kick("100 mm/s"))
     >>> [part.outcome.label for part in motion.parts]
     ['triggered', 'levitated']
     """
-
-    stages: tuple[Stage, ...] = ()
-
-    def __init__(self, stages: Sequence[Stage]) -> None:
-        given: Any = stages
-        listed = tuple(given) if isinstance(given, Sequence) else ()
-        if not listed or not all(isinstance(each, Stage) for each in listed):
-            raise InputError("stages", shown(given), "carom.models.Stage, one or more")
-        counts = {len(each.rotor.system.rest) for each in listed}
-        if len(counts) > 1:
-            raise InputError("stages", f"rotors of {sorted(counts)} coordinates", "rotors of equally many coordinates")
-        first = listed[0].rotor
-        named = {"definition": first.definition, "forces": first.forces, "limits": first.limits, "stages": listed}
-        for name, value in named.items():
-            object.__setattr__(self, name, value)
-
-    @property
-    def rotor(self) -> Rotor:
-        """Rotor of the first stage."""
-        return self.stages[0].rotor
-
-    @property
-    def system(self) -> System:
-        """Modes, contact planes and contact law of the first stage."""
-        return self.rotor.system
-
-    __eq__ = object.__eq__
-    __hash__ = object.__hash__
-
-    def under(self, *forces: Force) -> Rotor:
-        """Refused: forces act on the rotor of a stage."""
-        _check_one_stage(self)
-        return self
-
-    def rates(self, name: str) -> None:
-        """No derivatives: differences of the equations of motion have to do."""
-
-    @property
-    def planar(self) -> None:
-        """None: its stages may have different ones."""
-
-    def replace(self, **changes: Any) -> Staged:
-        """Return the rotor with other values of parameters in all stages."""
-        return Staged(tuple(replace(each, rotor=each.rotor.replace(**changes)) for each in self.stages))
-
-    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Staged, float]:
-        """The same in all stages."""
-        moved = [each.rotor.with_changed_unbalance(change, node) for each in self.stages]
-        return Staged(
-            tuple(replace(each, rotor=rotor) for each, (rotor, _) in zip(self.stages, moved, strict=True))
-        ), moved[0][1]
-
-    def attributes(self) -> dict[str, Any]:
-        """Return the stages as attributes of a dataset, exact to the last bit."""
-        stages = [
-            {
-                "rotor": each.rotor.attributes(),
-                "trigger": asdict(each.trigger),
-                "carry": None if each.carry is None else [each.carry.real.tolist(), each.carry.imag.tolist()],
-            }
-            for each in self.stages
-        ]
-        return {"stages": json.dumps(stages)}
+    given: Any = stages
+    listed = tuple(given) if isinstance(given, Sequence) else ()
+    if not listed or not all(isinstance(each, Stage) for each in listed):
+        raise InputError("stages", shown(given), "carom.models.Stage, one or more")
+    counts = {len(each.rotor.system.rest) for each in listed}
+    if len(counts) > 1:
+        raise InputError("stages", f"rotors of {sorted(counts)} coordinates", "rotors of equally many coordinates")
+    return replace(listed[0].rotor, stages=listed)
 
 
 @checked
-def depends_on_instant(model: Rotor) -> bool:
+def depends_on_instant(rotor: Rotor) -> bool:
     """Whether the end of a disturbance depends on the instant of the turn at which it comes: on where the unbalance then points.
 
     So it does where something stands in the fixed frame in any stage: weight or another force, bearings that act differently in two
     directions, limits of magnetic bearings along their axes.
     """
-    return any(stage.rotor.system.timed for stage in stages_of(model))
+    return any(stage.rotor.system.is_time_dependent for stage in stages_of(rotor))
 
 
-def stages_of(model: Rotor) -> tuple[Stage, ...]:
-    """Stages in which a model moves; of most there is one without an end."""
-    return model.stages if isinstance(model, Staged) else (Stage(model),)
+def stages_of(rotor: Rotor) -> tuple[Stage, ...]:
+    """Stages in which a rotor moves; of most there is one without an end."""
+    return rotor.stages or (Stage(rotor),)

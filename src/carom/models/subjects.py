@@ -16,7 +16,7 @@ from carom.models.limits import limits_from
 from carom.models.linear import LinearEquations
 from carom.models.planar import RIGID, Planar, jeffcott
 from carom.models.rotor import Rotor
-from carom.models.stages import Stage, Staged, Trigger
+from carom.models.stages import Stage, Trigger, in_stages
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
@@ -85,7 +85,7 @@ def rotor_from(attributes: Mapping[str, Any]) -> Rotor:
     if "limits" in attributes:
         return replace(rotor_from(json.loads(attributes["rotor"])), limits=limits_from(attributes["limits"]))
     if "stages" in attributes:
-        return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
+        return in_stages(tuple(map(_stage_from, json.loads(attributes["stages"]))))
     if "flexible_machine" in attributes:
         # The layers forbid imports from above.
         return Rotor(import_module("carom.rotors.flexible_model").FlexibleDefinition.from_attributes(attributes))

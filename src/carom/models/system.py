@@ -18,9 +18,9 @@ from carom.parameters import Scales
 
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
-MIRRORED = "bearings that act differently in two directions"
+ANISOTROPIC = "bearings that act differently in two directions"
 """What a rotor has that is refused for it."""
-ALIKE = (
+ISOTROPIC_ALONE = (
     "bearings alike in both directions; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors and "
     "carom.map_basins work"
 )
@@ -57,9 +57,9 @@ class System(ModeArrays):
         Those of a shaft whose speed changes.  The frame turns at its nominal speed.
     clearances : tuple of float, optional
         Clearance of each plane in the unit of length of the rotor's scales; ones by default.
-    mirrored : ndarray of complex, shape (N, 2n), optional
+    conjugate_modes : ndarray of complex, shape (N, 2n), optional
         Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings act differently in two directions
-        (:mod:`carom.models.mirror`); by default they do not.
+        (:mod:`carom.models.anisotropic`); by default they do not.
     magnets : ndarray of complex, shape (G, n), optional
         Displacement at each magnet, in its air gap, per coordinate, where the gap is known.
     growth : float
@@ -74,7 +74,7 @@ class System(ModeArrays):
     races: RaceModes | None = None
     shaft: ShaftModes | None = None
     clearances: tuple[float, ...] | None = None
-    mirrored: np.ndarray | None = None
+    conjugate_modes: np.ndarray | None = None
     growth: float = 0.0
     magnets: np.ndarray | None = None
 
@@ -90,55 +90,52 @@ class System(ModeArrays):
         return copy_of(self.arrays), copy_of(self.table)
 
     @property
-    def unrepeated(self) -> tuple[str, str] | None:
+    def is_anisotropic(self) -> bool:
+        """Whether bearings act differently in two directions."""
+        return self.conjugate_modes is not None
+
+    @property
+    def why_not_periodic(self) -> tuple[str, str] | None:
         """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
         if self.races is not None:
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
-        if self.mirrored is not None and self.unsteady is None:
-            return MIRRORED, ALIKE
-        if self.limits and self.unsteady is None:
+        if self.is_anisotropic and self.why_not_stationary is None:
+            return ANISOTROPIC, ISOTROPIC_ALONE
+        if self.limits and self.why_not_stationary is None:
             return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
-        return self.unsteady
+        return self.why_not_stationary
 
     @property
-    def unsteady(self) -> tuple[str, str] | None:
+    def why_not_stationary(self) -> tuple[str, str] | None:
         """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
-        if self.shaken:
+        if self.is_externally_forced:
             return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
         return None
 
     @property
-    def shaken(self) -> bool:
+    def is_externally_forced(self) -> bool:
         """Whether forces act that change in the fixed frame too."""
         return bool(self.outer[~self._steady].any())
 
-    def refuse_unrepeated(self) -> None:
-        """Refuse a rotor whose motions repeat nothing: the speed of its shaft changes, or forces change in the fixed frame at rates of their own."""
-        self.refuse_unsteady()
-
-    def refuse_unsteady(self) -> None:
+    def refuse_non_stationary(self) -> None:
         """Refuse a rotor that does not levitate in a whirl about a place that stays."""
-        if self.unsteady is not None:
-            raise InputError("machine", *self.unsteady)
+        if self.why_not_stationary is not None:
+            raise InputError("machine", *self.why_not_stationary)
 
     def refuse_forces(self) -> None:
         """Refuse a rotor that never is at rest in its frame: forces change with time there, or the speed changes."""
-        self.refuse_unsteady()
-        self.refuse_mirrored()
+        self.refuse_non_stationary()
+        if self.is_anisotropic:
+            raise InputError("machine", ANISOTROPIC, ISOTROPIC_ALONE)
         if self.outer.any():
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
-    def refuse_mirrored(self) -> None:
-        """Refuse a rotor whose bearings act differently in two directions."""
-        if self.mirrored is not None:
-            raise InputError("machine", MIRRORED, ALIKE)
-
     @property
-    def timed(self) -> bool:
+    def is_time_dependent(self) -> bool:
         """Whether it matters when a motion begins: something stands in the fixed frame, past which the unbalance turns."""
-        return bool(self.outer.any() or self.limits or self.mirrored is not None)
+        return bool(self.outer.any() or self.limits or self.is_anisotropic)
 
     @property
     def whirl(self) -> np.ndarray:
@@ -146,9 +143,9 @@ class System(ModeArrays):
         return self.rest + self.shapes @ self._unbalanced if self.shaft is not None else self.rest
 
     @property
-    def rest_mirrored(self) -> np.ndarray:
+    def backward_whirl(self) -> np.ndarray:
         """Coordinates (n,) of what turns with ``e^{−2it}`` in the contact-free motion: its whirl is an ellipse in the fixed frame."""
-        return self.shapes @ (self._turn if self.mirrored is not None else np.zeros(self.modes))
+        return self.shapes @ (self._turn if self.is_anisotropic else np.zeros(self.modes))
 
     @cached_property
     def _turn(self) -> np.ndarray:
@@ -200,7 +197,7 @@ class System(ModeArrays):
 
     @cached_property
     def nodes(self) -> Nodes:
-        """How nodes of orbits follow from amplitudes, of a rotor that :meth:`refuse_unrepeated` lets pass."""
+        """How nodes of orbits follow from amplitudes, of a rotor that :meth:`refuse_non_stationary` lets pass."""
         return Nodes.under(self.forced, self.basis, self.to_modes, self._whole_rest)
 
     def forced_at(self, time: float) -> np.ndarray:
@@ -218,8 +215,8 @@ class System(ModeArrays):
         forced = self.forced_at(time)
         away = states - self.states_of(forced[None])
         found = np.einsum("nk,mk->mn", self.to_modes, away) + forced
-        if self.mirrored is not None:
-            found += np.einsum("nk,mk->mn", self.mirrored, away.conj()) * forced[self.arrays["mirror"]]
+        if self.conjugate_modes is not None:
+            found += np.einsum("nk,mk->mn", self.conjugate_modes, away.conj()) * forced[self.arrays["mirror"]]
         return found
 
     def states_of(self, amplitudes: np.ndarray) -> np.ndarray:

@@ -12,12 +12,6 @@ from carom.models.rotor import Rotor
 from carom.outcome import InputError
 
 
-def refuse_unsteady(model: Rotor) -> None:
-    """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
-    if model.system.shaft is not None or model.system.shaken:
-        model.system.refuse_unsteady()
-
-
 def levitation_of(model: Rotor) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates and their rates, both (n,), where the rotor levitates at time zero: its whirl about the static sag.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.models.mirror import TURN
+from carom.models.anisotropic import TURN
 from carom.motions.trajectories import Trajectory
 
 

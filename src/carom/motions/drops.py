@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from carom.arguments import checked
-from carom.models import Rotor, Stage, Staged, Subject, Trigger, rotor_of
+from carom.models import Rotor, Stage, Subject, Trigger, in_stages, rotor_of
 from carom.models.stages import stages_of
 from carom.models.weight import levitation_of
 from carom.motions.starts import Kick, State
@@ -109,7 +109,7 @@ class Drop:
         if self.regained_after is None:
             return falling, start
         time = own_time("regained_after", self.regained_after, rotor.scales)
-        return Staged((Stage(falling, Trigger(time=time), rotor.carry_at_regain), Stage(rotor))), start
+        return in_stages((Stage(falling, Trigger(time=time), rotor.carry_at_regain), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Rotor) -> float:
         """Angle of the unbalance at the release, in the fixed frame, in rad.

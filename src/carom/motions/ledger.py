@@ -10,7 +10,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.core.wall_work import LOST
 from carom.models import Matrices
-from carom.models.excess import excess_accelerations, excess_of
+from carom.models.saturation import saturation_accelerations, saturation_of
 from carom.motions.across import Across
 from carom.motions.contacts import Table, column, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
@@ -220,8 +220,8 @@ def _power_of_excess(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     system = trajectory.rotor.system
     if not system.limits:
         return np.zeros(times.shape)
-    excess = excess_of(system, trajectory.amplitudes_at(times)[0], trajectory.begins + times)
-    push = excess @ (trajectory.rotor.matrices.mass @ excess_accelerations(system)).T
+    excess = saturation_of(system, trajectory.amplitudes_at(times)[0], trajectory.begins + times)
+    push = excess @ (trajectory.rotor.matrices.mass @ saturation_accelerations(system)).T
     power: np.ndarray = (velocity.conj() * push).sum(axis=-1).real
     return power
 

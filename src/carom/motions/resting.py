@@ -40,7 +40,7 @@ def goes_round(rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, recoll
         return None
     in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
     lasts_on = recollection.turns >= 2 * TURNS or _steady(recollection)
-    if not (in_step or lasts_on) or (rotor.weight is None and not rotor.system.timed):
+    if not (in_step or lasts_on) or (rotor.weight is None and not rotor.system.is_time_dependent):
         return None
     plane = next((place for place, each in enumerate(contact.tolist()) if lasts(each)), None)
     if plane is None:

@@ -56,7 +56,7 @@ def simulate(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
+        Of a rotor in stages (:func:`carom.models.in_stages`) the last stage reached is returned, with the ``earlier`` ones.
     start : State, Kick, Drop or carom.disturbances.single.Single
         On the wall (``|U| = 1`` to within 1e-12) or inside it.  After a drop the rotor of the motion is the one that falls.
     until : float or str, optional
@@ -197,7 +197,7 @@ def _follow_stage(
                 *rotor.system.state(state),
                 rotor.system.race_speeds(state),
                 rotor.system.shaft_turn(state),
-                begins + time if rotor.system.timed else 0.0,
+                begins + time if rotor.system.is_time_dependent else 0.0,
             ),
             multiplicity=multiplicity,
             segment_starts=np.append(begun, log.times),

@@ -67,7 +67,7 @@ class Trajectory(Result):
     begins : float
         Time at which it begins, in ``1/Ω``: times within it count from there.
     earlier : tuple of Trajectory
-        The stages before, if it is the last one of several (:class:`carom.models.Staged`).
+        The stages before, if it is the last one of several (:func:`carom.models.in_stages`).
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")

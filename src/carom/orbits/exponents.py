@@ -153,9 +153,9 @@ def lyapunov_exponents(
         planes touch at a time while one of the contacts lasts.
     """
     rotor = rotor_of(machine)
-    rotor.system.refuse_unrepeated()
+    rotor.system.refuse_non_stationary()
     state = start.state(rotor) if isinstance(start, Kick) else start
-    if rotor.system.unrepeated is not None:
+    if rotor.system.why_not_periodic is not None:
         return _by_flow(rotor, state, impacts, transient, batches)
     # With weight its phase at the node is one direction more.
     directions = np.eye(2 * len(rotor.system.exponents) + int(rotor.system.forced is not None))[:, 1:]
@@ -194,7 +194,7 @@ def _by_flow(rotor: Rotor, state: State, impacts: int, transient: int, batches: 
     lost = values <= math.log(LEFT) / STRETCH
     values[lost], errors[lost] = -np.inf, 0.0
     along = grown.along / time
-    if rotor.system.timed:
+    if rotor.system.is_time_dependent:
         values, errors = np.append(values, 0.0), np.append(errors, 0.0)
     else:
         place = int(np.argmin(np.abs(values - along)))

@@ -81,7 +81,7 @@ class Flow:
         amplitudes, phases = (found[0] for found in motion.amplitudes_at(np.array([time])))
         rigid = (phases != Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0)
         rests = tuple((int(plane), bool(phases[plane] == Phase.ROLLING)) for plane in np.flatnonzero(rigid))
-        flow = cls(motion.rotor, motion.begins + time if system.timed else 0.0, rests, budget or Budget())
+        flow = cls(motion.rotor, motion.begins + time if system.is_time_dependent else 0.0, rests, budget or Budget())
         position, velocity = system.state(amplitudes)
         return flow, flow.vector(State.of(position, velocity, system.race_speeds(amplitudes)))
 
@@ -172,7 +172,7 @@ def repeats_after(motion: Trajectory) -> float | None:
     both axes.
     """
     system = motion.rotor.system
-    if system.outer.any() or system.mirrored is not None:
+    if system.outer.any() or system.is_anisotropic:
         return TURN
     return QUARTER if saturates(motion) else None
 

@@ -43,7 +43,7 @@ class Grown:
         self._measure(transient)
         before = self._speed()
         self.durations, self.logarithms, (self.impacts, self.landings) = self._measure(impacts)
-        self.along = 0.0 if rotor.system.timed else math.log(self._speed() / before)
+        self.along = 0.0 if rotor.system.is_time_dependent else math.log(self._speed() / before)
 
     def _speed(self) -> float:
         return float(np.linalg.norm(self.flow.rate(self.vector, 0.0)))

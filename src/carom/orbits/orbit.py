@@ -365,8 +365,8 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
         The start does not fit the word and the rotor, or the word its walls.
     """
     rotor = rotor_of(machine)
-    if rotor.system.unrepeated is not None:
-        raise InputError("machine", *rotor.system.unrepeated)
+    if rotor.system.why_not_periodic is not None:
+        raise InputError("machine", *rotor.system.why_not_periodic)
     shape = len(word), len(rotor.system.nodes.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")

@@ -181,7 +181,7 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
 
 def _near(rotor: Rotor, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
-    if rotor.system.unrepeated is not None or start.nodes.size * 2 > MOST_NUMBERS:
+    if rotor.system.why_not_periodic is not None or start.nodes.size * 2 > MOST_NUMBERS:
         return None
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):

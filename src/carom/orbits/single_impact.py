@@ -185,11 +185,11 @@ def find_orbits(
     """
     if impacts is not None:
         model, tell = rotor_of(machine), Reporter.of(progress, "searching orbits")
-        model.system.refuse_unrepeated()
+        model.system.refuse_non_stationary()
         known = [*orbits_within_reach(model), *rubbing_orbits(model)] if model.has_closed_forms else []
         there = [orbit for orbit in known if orbit.admissible]
         members: tuple[Any, ...]
-        if model.system.unrepeated is None:
+        if model.system.why_not_periodic is None:
             members, search = search_orbits(model, impacts, guesses, seed, there, tell)
         else:
             members, search = search_simulated(model, impacts, guesses, seed, tell)

@@ -52,8 +52,8 @@ class StatedEquations:
         reduced = model.finite_elements
         whole = model if reduced is None else reduced.machine.whole.model
         system, n = whole.system, len(whole.system.rest)
-        if system.shaken:
-            system.refuse_unsteady()
+        if system.is_externally_forced:
+            system.refuse_non_stationary()
         if n > LARGEST:
             raise InputError("machine", f"{n} coordinates", f"at most {LARGEST} for a theorem")
         mass, damping, gyroscopic, stiffness, forcing = whole.matrices

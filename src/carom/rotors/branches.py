@@ -33,13 +33,13 @@ def followed(equations: Equations, speeds: np.ndarray) -> np.ndarray:
     same motion, whatever its size.  Where two whirls come near each other their shapes mix, and a whirl keeps its shape rather than its
     place.  Where supports act differently in two directions, the exponent of each motion is that with the sense that prevails in it.
     """
-    followed_of = equations.both if equations.mirrored else equations
+    followed_of = equations.both if equations.is_anisotropic else equations
     here = _at(followed_of, float(speeds[0]))
     rows = [here]
     for before, after in zip(speeds[:-1].tolist(), speeds[1:].tolist(), strict=True):
         here = _step(followed_of, here, before, after, HALVINGS)
         rows.append(here)
-    if not equations.mirrored:
+    if not equations.is_anisotropic:
         return np.array([each.exponents for each in rows])
     once = rows[0].exponents.imag > 0.0  # the others are their conjugates
     return np.array([_with_sense(each, len(equations.mass))[once] for each in rows])

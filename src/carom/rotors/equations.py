@@ -40,7 +40,7 @@ class Equations(NamedTuple):
     """``D′`` and ``K′``, shape (2, n, n): of supports that act differently in two directions, with and without magnetic bearings."""
 
     @property
-    def mirrored(self) -> bool:
+    def is_anisotropic(self) -> bool:
         """Whether a support acts differently in two directions."""
         return bool(self.across.any())
 

@@ -29,7 +29,7 @@ class Motions(NamedTuple):
 
 def motions_at(equations: Equations, speed: float) -> Motions:
     """Free motions at a speed, 1/s; of two conjugate exponents that stand for one motion the one whose sense prevails."""
-    if not equations.mirrored:
+    if not equations.is_anisotropic:
         exponents, coordinates = equations.exponents(speed)
         return Motions(exponents, coordinates, np.zeros_like(coordinates))
     exponents, coordinates = equations.both.exponents(speed)
@@ -60,10 +60,10 @@ class Slowest(NamedTuple):
 
 def slowest_of(equations: Equations, speed: float) -> Slowest:
     """What decides whether a machine levitates, from all its exponents; where supports are not alike in both directions without the sense of whirls."""
-    matrix = (equations.both if equations.mirrored else equations).generator(speed)
+    matrix = (equations.both if equations.is_anisotropic else equations).generator(speed)
     exponents = _exponents(matrix.tobytes(), len(matrix))
     rounding = ROUNDING * float(np.abs(exponents).max(initial=0.0))
-    if equations.mirrored:  # each motion has two conjugate exponents
+    if equations.is_anisotropic:  # each motion has two conjugate exponents
         exponents = exponents[exponents.imag >= -rounding]
     grows = exponents.real > rounding
     return Slowest(exponents[grows] if grows.any() else exponents[:1], bool(grows.any()), rounding)

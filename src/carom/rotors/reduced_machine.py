@@ -81,7 +81,7 @@ class ReducedMachine(Result):
     def states(self) -> int:
         """Number of complex states: displacements and velocities of all vectors, and states of controllers; twice that if a support acts differently in two directions."""
         once = len(self.equations.mass) + int(self.equations.mass.any(axis=1).sum())
-        return 2 * once if self.equations.mirrored else once
+        return 2 * once if self.equations.is_anisotropic else once
 
     @cached_property
     def scales(self) -> Scales:
@@ -171,7 +171,7 @@ class ReducedMachine(Result):
         # One that has gone far before it has turned by a tenth of a radian is no whirl to a reader.
         if abs(exponent.imag) <= max(ROUNDED * self.machine.speed, 0.1 * exponent.real):
             return "a displacement to one side"
-        sense = "" if self.equations.mirrored else "forward " if exponent.imag > 0.0 else "backward "
+        sense = "" if self.equations.is_anisotropic else "forward " if exponent.imag > 0.0 else "backward "
         return f"a {sense}whirl of {abs(exponent.imag) / (2.0 * math.pi):.4g} Hz"
 
     @property
@@ -269,7 +269,7 @@ class ReducedMachine(Result):
             regained=given.regained,
             scales=scales,
             unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
-            conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
+            conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.is_anisotropic else None,
             magnets=self._magnets,
         )
 

@@ -37,7 +37,7 @@ from carom.closed_forms.whirl import Rolling
 from carom.core.limits import WITHIN
 from carom.disturbances import Sample
 from carom.models import rotor_of
-from carom.models.excess import excess_accelerations, excess_of
+from carom.models.saturation import saturation_accelerations, saturation_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -90,8 +90,8 @@ class Centre(NamedTuple):
         )
         system = motion.rotor.system
         if system.limits:
-            excess = excess_of(system, motion.amplitudes_at(times)[0], motion.begins + times)
-            acceleration = acceleration + excess @ excess_accelerations(system)[0]
+            excess = saturation_of(system, motion.amplitudes_at(times)[0], motion.begins + times)
+            acceleration = acceleration + excess @ saturation_accelerations(system)[0]
         return cls(position, velocity, acceleration)
 
 

@@ -230,7 +230,7 @@ def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], interv
     low, high = interval
     narrow = []
     for whirl in whirls:
-        excited = whirl.sense == "forward" or machine.whole.equations.mirrored
+        excited = whirl.sense == "forward" or machine.whole.equations.is_anisotropic
         if excited and whirl.damping_ratio < NARROW:
             width = abs(whirl.exponent.real)
             narrow.append(abs(whirl.exponent.imag) + width * np.linspace(-4.0, 4.0, 41))

@@ -150,7 +150,7 @@ def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     if found.exact and free is not None:
         angles = free.rub_angles(found.speeds)
         return Rubs(found.speeds, -angles % math.tau, np.where(np.isnan(angles), np.nan, 1.0))
-    if len(system.contacts) > 1 or system.outer.any() or system.mirrored is not None or system.shaft is not None:
+    if len(system.contacts) > 1 or system.outer.any() or system.is_anisotropic or system.shaft is not None:
         return None
     speeds = found.speeds[:: max(1, len(found.speeds) // RUB_SPEEDS)]
     lags, radii = np.full((2, 2, len(speeds)), np.nan)

@@ -105,7 +105,7 @@ def largest_change(rotor: Rotor) -> float:
     unbalance is not known by one number, and of a shaft whose speed changes.
     """
     system, before = rotor.system, rotor.unbalance_along() if "rho" in rotor.varied else None
-    if before is None or system.mirrored is not None or system.shaft is not None:
+    if before is None or system.is_anisotropic or system.shaft is not None:
         return 0.0
     sags = np.abs(system.arrays["rows"] @ system.outer)
     shifts = np.abs(system.planes @ shift_by_unbalance(rotor))
@@ -116,7 +116,7 @@ def _duration(rotor: Rotor, required: Required) -> float:
     """Duration of the shocks: that required, otherwise the usual one where times are known; else 0."""
     if required.shock:
         return required.shock.duration
-    if rotor.system.unsteady is not None:
+    if rotor.system.why_not_stationary is not None:
         return 0.0
     usual = SHOCK_DURATION / rotor.scales.time if rotor.scales else 0.0
     return usual if usual <= LONGEST_SHOCK else 0.0

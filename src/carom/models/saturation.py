@@ -1,4 +1,4 @@
-"""What a rotor asks of its magnetic bearings beyond their limits (:mod:`carom.models.limited`), and what that changes."""
+"""What a rotor asks of its magnetic bearings beyond their limits (:mod:`carom.models.limits`), and what that changes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from carom.models.system import System
 
 
-def excess_of(system: System, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
+def saturation_of(system: System, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
     """What is asked for beyond each limit, complex, shape (..., L), in the frame of the rotor, in states (..., N) at times (...)."""
     arrays, turn = system.arrays, np.exp(1j * np.asarray(times))[..., None]
     found = np.zeros((*turn.shape[:-1], system.limits), complex)
@@ -19,13 +19,13 @@ def excess_of(system: System, amplitudes: np.ndarray, times: np.ndarray) -> np.n
     return found
 
 
-def excess_accelerations(system: System) -> np.ndarray:
+def saturation_accelerations(system: System) -> np.ndarray:
     """Accelerations of the coordinates per unit of what is asked for beyond each limit, shape (n, L)."""
     found: np.ndarray = system.rates @ system.arrays["limit_columns"]
     return found
 
 
-def asks_beyond(system: System, amplitudes: np.ndarray, forced: np.ndarray | None = None) -> bool:
+def saturates(system: System, amplitudes: np.ndarray, forced: np.ndarray | None = None) -> bool:
     """Whether a whirl with the shaft about a place that stays asks for more than a limit along an axis.
 
     Amplitudes (N,) are those of the whirl, at rest in the frame of the rotor, and those of weight at time zero.

@@ -45,7 +45,7 @@ class Doubled(NamedTuple):
         return cls(both, spins + 2j * both, springs - both + 1j * spins)
 
 
-def mirrored_system(doubled: System, pushes: np.ndarray, **others: Any) -> System:
+def anisotropic_system(doubled: System, pushes: np.ndarray, **others: Any) -> System:
     """System of the coordinates ``U`` from that of both.
 
     Parameters
@@ -80,7 +80,7 @@ def mirrored_system(doubled: System, pushes: np.ndarray, **others: Any) -> Syste
         columns=np.append(arrays["columns"][free], np.zeros((1, len(planes))), axis=0),
         mirror=np.array([modes]),
         mirror_columns=by_conjugate_rate @ pushes.conj(),
-        mirrored=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
+        conjugate_modes=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
         limits=None,
         **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
         **others,
