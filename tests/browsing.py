@@ -32,7 +32,7 @@ from carom.explorer.page import planar
 planar.judge = lambda case, tell: SimpleNamespace(
     advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
     lead="Came back each time from what it must survive, zone C: no guarantee, as disturbances are samples.",
-    survived=("Kick: harmless up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
+    survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
 )
 sys.exit(main(["explore", *sys.argv[1:]]))
 """

@@ -196,6 +196,23 @@ def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, Any]:
     }
 
 
+def record(entry: object, columns: str, scales: Any = None) -> dict[str, Any]:
+    """Attributes as plain data for JSON, by the declaration of their columns: ``"name kind=edge.kind period: lost=size:velocity"``.
+
+    A column is a key, behind ``=`` the attribute where it has another name, and behind ``:`` what kind of number it is, by default that of :data:`KINDS`.
+    With scales such a number is there once more, in SI units under a key that ends in ``_si``.
+    """
+    found: dict[str, Any] = {}
+    si: dict[str, Any] = {}
+    for column in columns.split():
+        named, is_number, kind = column.partition(":")
+        key, _, name = named.partition("=")
+        found |= fields_of(entry, **{key: name or key})
+        if is_number and scales is not None:
+            si[f"{key}_si"] = _times(found[key], getattr(scales, kind or KINDS[key]))
+    return found | si
+
+
 def flags(values: Any, meanings: Iterable[str]) -> dict[str, Any]:
     """Attributes that give the meaning of whole numbers, by the CF conventions."""
     words = " ".join(meaning.replace("-", "_").replace(" ", "_") for meaning in meanings)

@@ -16,7 +16,7 @@ from carom.studies.facts import about
 from carom.studies.full_size import DIRECTIONS, all_round, at_full_size
 from carom.studies.levitating import levitating_of_machine
 from carom.studies.standards import required_margin
-from carom.studies.verdict import facts_of
+from carom.studies.findings import facts_of
 
 pytestmark = pytest.mark.jit_only
 

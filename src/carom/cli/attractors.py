@@ -40,7 +40,7 @@ def attractors(
     with progress("attractors (the kernels are compiled on first use)") as tell:
         from carom.attractors import character_of, find_attractors
         from carom.models import rotor_of
-        from carom.studies.attractors_document import attractors_document
+        from carom.studies.document import attractors_document
 
         fastest = case.requirement.own(case.parameters.scales).kick
         found = find_attractors(case, count=starts, seed=seed, fastest=fastest, progress=tell)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +17,7 @@ from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
 from carom.studies.summaries import (
+    MOTION_COLUMNS,
     MotionRow,
     State,
     dimensionless_rows,
@@ -161,19 +161,9 @@ def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
     table = plain_table(title)
     if width < NARROW and all(row.state != "not possible" for row in rows):
         rows = [dataclasses.replace(row, remark="") for row in rows]
-    headings = {
-        "name": "motion",
-        "state": "state",
-        "period": "period",
-        "size": "radius or impact speed",
-        "impulse": "impulse per hit",
-        "force": "force",
-        "trials": "disturbances",
-        "remark": "remark",
-    }
-    used = [entry.name for entry in fields(MotionRow) if any(getattr(row, entry.name) for row in rows)]
+    used = [name for name in MOTION_COLUMNS if any(getattr(row, name) for row in rows)]
     for name in used:
-        table.add_column(headings[name], no_wrap=name in ("state", "period", "impulse", "trials"))
+        table.add_column(MOTION_COLUMNS[name], no_wrap=name in ("state", "period", "impulse", "trials"))
     for row in rows:
         table.add_row(*(Text(getattr(row, name)) for name in used), style=_STYLES[row.state])
     return table

@@ -18,6 +18,7 @@ from carom.report.figures import pictures
 from carom.report.html import InlineFigure, page_template, versions
 from carom.studies import Study
 from carom.studies.advice_facts import BEYOND, CHANGES
+from carom.studies.coverage import not_covered
 from carom.studies.facts import Fact, about, paragraphs
 from carom.studies.levitating import Levitating
 from carom.studies.levitation_facts import frequency_words
@@ -31,7 +32,6 @@ from carom.studies.summaries import (
     share_rows,
     survived_rows,
 )
-from carom.studies.verdict import not_covered
 from carom.studies.wording import machine_heading
 
 REPORT = "report.html"

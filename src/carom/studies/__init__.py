@@ -25,15 +25,14 @@ Read them in this order.
 ``part_rows``            the parts of a flexible machine in the units of people
 ``endings``              where simulated disturbances ended
 ``facts``                :class:`Fact`: what headline, page, report and JSON show
-``verdict_facts``        what is survived, as facts
 ``advice_facts``         the recommendation, as facts
-``findings``             the motions, what disturbances did and what would change it, in words
-``verdict``              the list of all facts, and the headline
+``verdict``              what is survived, as facts, and the headline
+``coverage``             what is not covered
+``findings``             the list of all facts: the motions, what disturbances did and what would change it
 ``proven``               what a proof has decided, in words
 ``summaries``            the tables of a study, as text
 ``wording``              numbers with units
 ``document``             results as JSON
-``attractors_document``  attractors as JSON
 ``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
 ``critical_speeds``      peaks of the response, with their separation from the operating speeds
 ``response_data``        what it has found, before it is told
@@ -45,6 +44,7 @@ Read them in this order.
 
 from carom.studies.advice import Change, Margin, Recommendation
 from carom.studies.assembly import Study, study
+from carom.studies.coverage import NOT_COVERED
 from carom.studies.critical_speeds import Critical, Separation
 from carom.studies.document import found_orbits_document, orbits_document
 from carom.studies.drops import DropStudy
@@ -57,7 +57,7 @@ from carom.studies.response import UnbalanceResponse, unbalance_response
 from carom.studies.response_data import Rubs, Steady, Stretch
 from carom.studies.survives import Survives
 from carom.studies.trials import Check, Lost, check_recovery
-from carom.studies.verdict import NOT_COVERED, Verdict
+from carom.studies.verdict import Verdict
 from carom.studies.wording import Wording
 
 __all__ = [

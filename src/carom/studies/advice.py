@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from carom.basins.changes import WANTED
 from carom.basins.shares import percent
@@ -22,12 +22,13 @@ from carom.disturbances import Sample
 from carom.models import Edge, Span, rotor_of
 from carom.motions.budget import BudgetSpentError
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.results import Result
+from carom.results import Result, record
 from carom.studies.actuator import asked_by
 from carom.studies.facts import Evidence
 from carom.studies.questions import FEWEST
 from carom.studies.recovery import Recovery, power_of
 from carom.studies.trials import Check, check_recovery, in_all
+from carom.studies.wording import Wording
 
 Kind = Literal["change", "no-change-needed", "nothing-buildable", "no-change-found", "not-decided"]
 Bound = Literal["at least", "at most", "about"]
@@ -43,7 +44,10 @@ CHECKED, CHECKED_SINGLY = 10_000, 1000
 """Number of disturbances of the check, and that of rotors whose motions are followed one after another."""
 SEED = 2
 """Seed of these disturbances.  No search uses it, so the check is a fresh sample."""
-
+CHANGE = (
+    "entry=terms.entry set=terms.setting bound ratio disturbances=check.drawn.total recovered=check.drawn.count "
+    "share_low=check.drawn.low share_high=check.drawn.high radius: zone buildable demand"
+)
 _SAME = 1e-8
 """Relative distance up to which two edges are one."""
 _CLOSED_FORMS = (WALL, FOLD, ROLLING)
@@ -65,6 +69,10 @@ class Margin:
     parameter: str
     edge: Edge
     share: float
+
+    def document(self, say: Wording) -> dict[str, Any]:
+        """As plain data for JSON."""
+        return _end_document(say, self.parameter, self.edge) | {"share": self.share}
 
 
 @dataclass(frozen=True)
@@ -123,6 +131,21 @@ class Change:
         """Whether the magnetic bearings can give what it asks for, as far as limits are stated."""
         return self.demand is None or self.demand <= 1.0
 
+    def document(self, say: Wording) -> dict[str, Any]:
+        """As plain data for JSON."""
+        largest, whirl, name = self.check.largest, self.whirl, self.parameter
+        return {
+            **say.in_both(name, present=self.present, value=self.value),
+            **record(self, CHANGE, say.scales),
+            "margin": self.margin and self.margin.document(say),
+            "other_end": self.far and _end_document(say, name, self.far),
+            "at_their_largest": sum(share.total for share in largest),
+            "recovered_at_their_largest": sum(share.count for share in largest),
+            "not_nearer": [record(each, "value disturbances=tried") for each in self.forced],
+            "beyond": [record(each, "value disturbances=tried") | {"lost": 0} for each in self.beyond],
+            **(record(whirl, "rolling_from=certain:velocity", say.scales) if whirl else {"rolling_from": None}),
+        }
+
 
 @dataclass(frozen=True, repr=False)
 class Recommendation(Result):
@@ -146,6 +169,10 @@ class Recommendation(Result):
     def advised(self) -> Change | None:
         """The least change; ``None`` where none helps, is needed or can be built."""
         return self.changes[0] if self.kind == "change" else None
+
+    def document(self, say: Wording) -> dict[str, Any]:
+        """As plain data for JSON."""
+        return {"kind": self.kind, "changes": [change.document(say) for change in self.changes]}
 
     def rows(self) -> list[tuple[str, str]]:
         """Each change in the terms of the machine file, and what came back with it."""
@@ -186,6 +213,10 @@ def evidence_of(edge: Edge) -> Evidence:
     if edge.kind == "simulated":
         return "sampled"
     return "closed form" if edge.kind in _CLOSED_FORMS else "searched"
+
+
+def _end_document(say: Wording, name: str, edge: Edge) -> dict[str, Any]:
+    return say.in_both(name, end=edge.value) | {"at_end": edge.motion or edge.kind, "evidence": evidence_of(edge)}
 
 
 def with_setting(case: Case, terms: InTerms) -> Case:

@@ -36,6 +36,7 @@ from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
 from carom.studies.document import study_document
 from carom.studies.drops import DropStudy, drop_of
 from carom.studies.facts import Fact
+from carom.studies.findings import facts_of
 from carom.studies.full_size import FullSize, at_full_size
 from carom.studies.levitating import levitating
 from carom.studies.load_checks import WorstLoads, worst_loads
@@ -57,7 +58,7 @@ from carom.studies.rigid_limit import OtherWall, on_other_walls
 from carom.studies.study_data import StudyData
 from carom.studies.survives import comes_to_rest, decides, lost_kinds, required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
-from carom.studies.verdict import Verdict, facts_of, verdict
+from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
 
 if TYPE_CHECKING:

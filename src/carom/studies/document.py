@@ -12,7 +12,8 @@ from importlib.metadata import version
 from typing import Any
 
 from carom.arguments import checked
-from carom.attractors import Attractor, AttractorSet, Ending, document_of
+from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
+from carom.basins import share_of_kicks
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
@@ -24,19 +25,25 @@ from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Machine, Parameters
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
-from carom.results import fields_of, in_si
-from carom.studies.advice_facts import change_document
+from carom.results import record
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
-from carom.studies.motion_documents import scales_document, state_document
-from carom.studies.questions import unfinished_document
-from carom.studies.ranges import MotionRange, Threshold
+from carom.studies.motion_documents import SCALES, STATE
+from carom.studies.questions import UNFINISHED
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
-from carom.studies.verdict_facts import requirement_document, survived_document
 from carom.studies.wording import Wording
+
+ORBIT = "name impacts period: radial_speed: angle angular_speed multipliers=multipliers.values stable admissible reason"
+ATTRACTOR = (
+    "name outcome=name.outcome.label settled multiplicity=name.multiplicity period whirl count share_of_disturbances "
+    "known_starts=known largest_impulse: largest_force:"
+)
+DISTURBANCES = "fastest patience smallest_unrecovered_kick:velocity"
+THRESHOLD = "motion kind=edge.kind exists parameter value=edge.value period=edge.period certified=edge.certified"
+SHARE = "tried=total came_back=count"
 
 
 @checked
@@ -56,7 +63,7 @@ def _orbits_of(
         "machine_given": machine.given_texts if machine is not None else None,
         "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
         "orbits": [_orbit(entry) for entry in orbits],
-        **fields_of(orbits, "complete", "longest_period", "argument"),
+        **record(orbits, "complete longest_period argument"),
     }
 
 
@@ -66,146 +73,160 @@ def found_orbits_document(parameters: Parameters | Rotor, found: OrbitSet) -> di
     return {
         **({"parameters": parameters.as_dict()} if isinstance(parameters, Parameters) else found.rotor.document()),
         "impacts": found.impacts,
-        "orbits": [
-            {
-                **_orbit(entry),
-                "word": entry.segments,
-                **_extremes(entry),
-                **({} if entry.turns is None else {"turns": entry.turns}),
-                "contacts": _contacts(entry),
-            }
-            for entry in found
-        ],
+        "orbits": [_found_orbit(entry) for entry in found],
         "search": search_document(found.search) if found.search else None,
         "argument": found.argument,
     }
 
 
-def _extremes(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
-    """Largest radius, depth and force of an orbit, at any touchdown bearing; and whether all multipliers are told."""
-    found = fields_of(orbit, largest_radius="extremes.radius", deepest="extremes.depth", peak_force="extremes.force")
-    if orbit.rotor.scales is not None:
-        found |= {"peak_force_si": found["peak_force"] * orbit.rotor.scales.force}
-    return found | {"all_multipliers": orbit.complete}
+def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
+    """With what happens in a period, and the largest radius, depth and force at any touchdown bearing."""
+    extremes = record(orbit.extremes, "largest_radius=radius deepest=depth peak_force=force:force", orbit.rotor.scales)
+    turns = {} if orbit.turns is None else {"turns": orbit.turns}
+    return {
+        **_orbit(orbit),
+        "word": orbit.segments,
+        **extremes,
+        "all_multipliers": orbit.complete,
+        **turns,
+        "contacts": [
+            {
+                "kind": "impact" if kind.startswith("impact") else kind.rstrip("+-"),
+                "limit" if kind in (SATURATES, RECOVERS) else "touchdown_bearing": place + 1,
+                "time": time,
+                **record(section, "angle radial_speed angular_speed"),
+            }
+            for kind, place, time, section in orbit.contacts
+        ],
+    }
 
 
-def _contacts(orbit: Orbit | SimulatedOrbit) -> list[dict[str, Any]]:
-    """What happens in a period, with the state there, before an impact."""
-    return [
-        {
-            "kind": "impact" if kind.startswith("impact") else kind.rstrip("+-"),
-            "limit" if kind in (SATURATES, RECOVERS) else "touchdown_bearing": place + 1,
-            "time": time,
-            **fields_of(section, "angle", "radial_speed", "angular_speed"),
-        }
-        for kind, place, time, section in orbit.contacts
+def attractors_document(
+    rotor: Rotor, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
+) -> dict[str, Any]:
+    """Return the document of attractors, with one character for each member of ``found``.
+
+    ``exponents`` says whether to list the Lyapunov exponents.
+    """
+    total, share = len(found.disturbances), share_of_kicks(found)
+    entries = [
+        _characterized(entry, total, character) | ({"exponents": _exponents(character)} if exponents else {})
+        for entry, character in zip(found, characters, strict=True)
     ]
+    return {
+        **rotor.document(),
+        "attractors": entries,
+        "share": share.document if share else None,
+        "disturbances": found.words(),
+        "starts": total,
+        "known_starts": len(found.endings) - total,
+        "seed": getattr(found.sample, "seed", None),
+        "irregular_transient": document_of(found.transient) if found.transient else None,
+        "argument": found.argument,
+    }
+
+
+def _characterized(entry: Attractor, total: int, character: Character) -> dict[str, Any]:
+    orbit, rotation = character.orbit, character.rotation
+    return {
+        **record(entry, "outcome=name.outcome.label name count known_starts=known"),
+        **record(character, "kind words lasting"),
+        "word": str(orbit.word) if orbit else None,
+        **({"turns": orbit.turns} if orbit and orbit.turns is not None else {}),
+        "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
+        "period": orbit.period if orbit else entry.period,
+        "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
+        **(document_of(entry.survival) | {"transient": character.lasting == "transient"}),
+        "rotation_number": rotation.number if rotation and character.kind == "torus" else None,
+    }
+
+
+def _exponents(character: Character) -> dict[str, Any] | None:
+    """Exponents with their errors; ``None`` where they are not known."""
+    found, rates = character.exponents, character.rates
+    if found is not None:
+        return record(found, "per_time=values per_impact error_per_time=errors error_per_impact lost")
+    if rates is None:
+        return None
+    still = {"error_per_time": [0.0] * len(rates), "per_impact": None, "error_per_impact": None}
+    return {"per_time": rates.tolist(), **still}
 
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study, with all its results."""
-    case, rotor, say = study.case, study.rotor, study.wording
+    case, rotor, say, scales = study.case, study.rotor, study.wording, study.rotor.scales
+
+    def of(part: Any) -> Any:
+        return part.document() if part else None
+
     return {
         "name": case.name,
         "carom": version("carom"),
         **_orbits_of(rotor, study.equilibria, study.orbits, case.machine),
-        "scales_si": scales_document(rotor.scales) if rotor.scales else None,
+        "scales_si": record(scales, SCALES) if scales else None,
         "levitating": study.levitating.document(),
-        "reduction": None
-        if study.reduced is None
-        else {**fields_of(study.reduced, "vectors", "modes", "error"), "error_is": "an estimate, no bound"},
+        "reduction": record(study.reduced, "vectors modes error") | {"error_is": "an estimate, no bound"}
+        if study.reduced
+        else None,
         "zone": study.zone,
         "zone_limits": list(case.zones.limits),
-        "verdict": fields_of(verdict, "level", "outcome", "reason", "headline"),
-        "requirement": requirement_document(study),
-        "survives": {name: survived_document(study, name, found) for name, found in study.survives.items()}
-        if study.survives
-        else None,
+        "verdict": record(verdict, "level outcome reason headline"),
+        "requirement": study.requirement_document(),
+        "survives": of(study.survives),
         "share": study.share.document if study.share and study.share.total else None,
-        "not_reached": unfinished_document(study.unfinished),
+        "not_reached": [record(each, UNFINISHED) for each in study.unfinished],
         "facts": [fact.document() for fact in facts],
-        "thresholds": [_threshold(entry, say) for entry in study.thresholds],
-        "ranges": [_range(entry) for entry in study.ranges],
+        "thresholds": [
+            record(each, THRESHOLD) | say.in_si(each.parameter, value=each.edge.value) for each in study.thresholds
+        ],
+        "ranges": [
+            record(entry, "motion parameter step")
+            | {"spans": _spans(entry.spans), "searched": _spans((entry.searched,))[0] if entry.searched else None}
+            for entry in study.ranges
+        ],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
         "present": _check(study.present) if study.present else None,
-        "elsewhere": fields_of(study.elsewhere, tried="total", came_back="count") if study.elsewhere else None,
+        "elsewhere": record(study.elsewhere, SHARE) if study.elsewhere else None,
         "recovery": [_recovery(entry, say) for entry in study.recoveries],
-        "recommendation": {
-            "kind": study.recommendation.kind,
-            "changes": [change_document(study, change) for change in study.recommendation.changes],
-        },
+        "recommendation": study.recommendation.document(say),
         "attractors": [_attractor(entry, rotor) for entry in study.attractors],
         "rolling": _rolling(study),
         "disturbances": _disturbances(study.attractors, rotor),
-        "bearing_demand": study.bearing_demand.document() if study.bearing_demand else None,
-        "loads": study.loads.document() if study.loads else None,
+        "bearing_demand": of(study.bearing_demand),
+        "loads": of(study.loads),
         "full_size": [each.document() for each in study.full_size],
-        "drop": study.drop.document() if study.drop else None,
-        "proof": study.proof.document() if study.proof else None,
-        "kick_proof": study.kicks.proof.document() if study.kicks else None,
-        "state_proof": study.states.document() if study.states else None,
+        "drop": of(study.drop),
+        "proof": of(study.proof),
+        "kick_proof": of(study.kicks and study.kicks.proof),
+        "state_proof": of(study.states),
     }
 
 
 def _equilibrium(entry: SteadyMotion, rotor: Rotor) -> dict[str, Any]:
-    scales = rotor.scales
-    document = {
-        **fields_of(entry, kind="kind", U="position", radius="radius", normal_force="normal_force"),
-        **fields_of(entry, "status", "stable"),
-        "eigenvalues": list(entry.eigenvalues),
-    }
-    if isinstance(entry, Levitation):
-        document |= fields_of(entry, "sag", "whirl")
-    document |= in_si(document, scales, "radius", "normal_force")
-    if scales is not None and entry.kind == "rub":
+    columns = "kind U=position radius: normal_force: status stable eigenvalues"
+    document = record(entry, f"{columns} sag whirl" if isinstance(entry, Levitation) else columns, rotor.scales)
+    if rotor.scales is not None and entry.kind == "rub":
         document |= _wall(indentation_of_force(rotor.in_rigid_wall, entry.normal_force))
     return document
 
 
 def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
-    document = fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed")
-    document |= fields_of(entry, multipliers="multipliers.values") | fields_of(entry, "stable", "admissible", "reason")
-    own = entry.scales
+    document, own = record(entry, ORBIT, entry.scales), entry.scales
     if own is not None:
-        document |= in_si(document, own, "period", "radial_speed")
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
         document |= _wall(indentation_of_hit(entry.rotor.in_rigid_wall, entry.radial_speed))
     return document
 
 
-def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
-    told = fields_of(entry, motion="motion", kind="edge.kind", exists="exists", parameter="parameter")
-    told |= fields_of(entry.edge, "value", "period", "certified")
-    return told | say.in_si(entry.parameter, value=entry.edge.value)
-
-
 def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
-    return {
-        **fields_of(entry, parameter="gain", value="value", levitates="levitates", kind="kind"),
-        "orbits": [
-            fields_of(orbit, "name", "levitating_side", "stable", "period")
-            for orbit in entry.orbits
-            if orbit.admissible
-        ],
-        "complete": entry.complete,
-        **say.in_si(entry.gain, value=entry.value),
-    }
-
-
-def _range(entry: MotionRange) -> dict[str, Any]:
-    return {
-        **fields_of(entry, "motion", "parameter", "step"),
-        "spans": _spans(entry.spans),
-        "searched": _span(entry.searched) if entry.searched else None,
-    }
-
-
-def _span(span: Span) -> list[float]:
-    return [edge.value for edge in span]
+    possible = [orbit for orbit in entry.orbits if orbit.admissible]
+    orbits = {"orbits": [record(orbit, "name levitating_side stable period") for orbit in possible]}
+    own = record(entry, "parameter=gain value levitates kind complete")
+    return own | orbits | say.in_si(entry.gain, value=entry.value)
 
 
 def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
-    return [_span(span) for span in spans]
+    return [[edge.value for edge in span] for span in spans]
 
 
 def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
@@ -221,24 +242,18 @@ def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
 
 
 def _check(check: Check) -> dict[str, Any]:
-    example = check.example
+    lost = check.example
     return {
-        **fields_of(check, "value", "tried", "asked"),
-        "kinds": [fields_of(share, tried="total", came_back="count") for share in check.returned],
-        "at_their_largest": [fields_of(share, tried="total", came_back="count") for share in check.largest],
-        "lost": None
-        if example is None
-        else {"disturbance": example.model.describe(), "coordinates": list(example.values), "motion": example.motion},
+        **record(check, "value tried asked"),
+        "kinds": [record(share, SHARE) for share in check.returned],
+        "at_their_largest": [record(share, SHARE) for share in check.largest],
+        "lost": lost and {"disturbance": lost.model.describe(), **record(lost, "coordinates=values motion")},
     }
 
 
 def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, Any]:
-    scales, at = rotor.scales, rotor.in_rigid_wall
-    told = fields_of(entry, name="name", outcome="name.outcome.label", settled="settled")
-    told |= fields_of(entry, multiplicity="name.multiplicity", period="period", whirl="whirl", count="count")
-    told |= fields_of(entry, "share_of_disturbances", known_starts="known")
-    told |= fields_of(entry, "largest_impulse", "largest_force")
-    document = told | document_of(entry.survival) | in_si(told, scales, "largest_impulse", "largest_force")
+    at = rotor.in_rigid_wall
+    document = record(entry, ATTRACTOR, rotor.scales) | document_of(entry.survival)
     if at is not None:
         hit = indentation_of_hit(at, entry.largest_impulse / (1.0 + at.d))
         document |= _wall(max(hit, indentation_of_force(at, entry.largest_force)))
@@ -246,32 +261,25 @@ def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, Any]:
 
 
 def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, Any]:
-    scales, at = rotor.scales, rotor.in_rigid_wall
-    touched = touching(found)
+    scales, at, hardest, touched = rotor.scales, rotor.in_rigid_wall, hardest_impulse(found), touching(found)
     document = {
         "seed": getattr(found.sample, "seed", None),
-        "fastest": found.fastest,
-        "patience": found.patience,
+        **record(found, DISTURBANCES, scales),
         "words": found.words(),
         "count": len(found.disturbances),
         "recovered": came_back(found.disturbances),
         "touching": len(touched),
         "touching_recovered": came_back(touched),
-        "smallest_unrecovered_kick": found.smallest_unrecovered_kick,
         "irregular_transient": document_of(found.transient) if found.transient else None,
-        "starts": [_ending(ending) for ending in found.endings],
+        "starts": [
+            record(ending, "kind=start.kind attractor time impacts hardest_impulse")
+            | {"start": record(ending.start.state, STATE)}
+            for ending in found.endings
+        ],
     }
-    document |= in_si(document, scales, smallest_unrecovered_kick="velocity")
     if scales is not None:
-        document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
-    if at is not None:
-        document |= _wall(indentation_of_hit(at, hardest_impulse(found) / (1.0 + at.d)))
-    return document
-
-
-def _ending(entry: Ending) -> dict[str, Any]:
-    start = {"kind": entry.start.kind, "start": state_document(entry.start.state)}
-    return start | fields_of(entry, "attractor", "time", "impacts", "hardest_impulse")
+        document["hardest_impulse_si"] = hardest * scales.impulse
+    return document if at is None else document | _wall(indentation_of_hit(at, hardest / (1.0 + at.d)))
 
 
 def _wall(indentation: float) -> dict[str, Any]:
@@ -286,8 +294,5 @@ def _rolling(study: StudyData) -> dict[str, Any] | None:
     roll, scales = study.known.rolls, study.rotor.scales
     if roll is None:
         return None
-    document = fields_of(roll, "holds", "speed", "largest_force")
-    document |= in_si(document, scales, "largest_force")
-    if scales is not None:
-        document |= _wall(indentation_of_force(study.rotor.in_rigid_wall, roll.largest_force))
-    return document
+    wall = _wall(indentation_of_force(study.rotor.in_rigid_wall, roll.largest_force)) if scales else {}
+    return record(roll, "holds speed largest_force:", scales) | wall

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any, Literal
 
-from carom.results import fields_of
+from carom.results import record
 
 Evidence = Literal["proven", "closed form", "searched", "sampled", "stated", "chosen by carom"]
 Topic = Literal[
@@ -72,8 +72,7 @@ class Fact:
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
-        names = ("topic", "label", "text", "evidence", "values", "motions", "disturbances", "detail")
-        return fields_of(self, *names)
+        return record(self, "topic label text evidence values motions disturbances detail")
 
 
 def about(facts: Sequence[Fact], topic: Topic) -> tuple[Fact, ...]:

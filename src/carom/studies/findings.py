@@ -1,12 +1,11 @@
-"""The paragraphs of a verdict, one function for each topic."""
+"""Every fact of a study, topic by topic: the motions, what disturbances did, what would change it, and what is not covered."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator
 
 from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
-from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
@@ -16,50 +15,77 @@ from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number
-from carom.studies.endings import came_back, ending_phrase, hardest_impulse, motion_words, touching
-from carom.studies.facts import Topic
-from carom.studies.ranges import Motion
-from carom.studies.recovery import Recovery
+from carom.studies.actuator import actuator_words
+from carom.studies.advice_facts import advice_facts
+from carom.studies.coverage import not_covered
+from carom.studies.endings import came_back, ending_phrase, hardest_impulse, touching
+from carom.studies.facts import Fact
+from carom.studies.levitation_facts import bearing_facts, critical_speed_facts, levitation_facts
+from carom.studies.proven import proofs_of
+from carom.studies.questions import unfinished_facts
+from carom.studies.rigid_limit import wall_values, wall_words
 from carom.studies.study_data import StudyData
-from carom.studies.wording import Wording, counted, listed, no_rigid_wall, steel_words
+from carom.studies.summaries import ranges_along
+from carom.studies.touchdown_facts import accuracy_facts, drop_facts, drop_headline, load_facts
+from carom.studies.verdict import verdict_facts
+from carom.studies.wording import counted, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 
 
-def stable_rub(study: StudyData) -> Equilibrium | None:
-    """Return the stable, admissible synchronous rub, which can hold the rotor, if there is one."""
-    return next((rub for rub in study.rubs if rub.stable and rub.status == "admissible"), None)
+def facts_of(study: StudyData) -> Iterator[Fact]:
+    """List all facts of a study, in the order in which they are told."""
+    yield from verdict_facts(study)
+    yield from drop_headline(study)
+    yield from advice_facts(study)
+    yield Fact("Levitation", _levitation(study))
+    yield from levitation_facts(study.levitating)
+    yield from critical_speed_facts(study.levitating)
+    yield Fact("Rub", _rub(study))
+    yield Fact("Bouncing", _bouncing(study))
+    yield Fact("Backward whirl", _backward_whirl(study))
+    yield Fact("Disturbances tried", _disturbances(study))
+    for found in study.recoveries:
+        name, *rows = ranges_along(study.wording, found)
+        yield Fact("What would change it", f"{name[0]} (this machine: {name[1]}): {'; '.join(map(' '.join, rows))}.")
+    yield from proofs_of(study)
+    yield from bearing_facts(study.levitating)
+    if study.bearing_demand is not None:
+        yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
+    if study.other_walls:
+        words, values = wall_words(study.wording, study.other_walls), wall_values(study.other_walls, study.rotor.scales)
+        yield Fact("Touchdown bearing", words, evidence="sampled", values=values)
+    yield from load_facts(study)
+    yield from drop_facts(study)
+    yield from accuracy_facts(study)
+    yield from unfinished_facts(study.unfinished)
+    for text in not_covered(study):
+        yield Fact("Not covered", text)
 
 
 def _levitation(study: StudyData) -> str:
-    say, levitation = study.wording, study.equilibria[0]
-    limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
+    say, levitation, machine = study.wording, study.equilibria[0], study.case.machine
     if levitation.status == "virtual":
-        return (
-            f"The rotor cannot run without contact. {'Sag and whirl' if study.heavy else 'Its whirl from unbalance'} would need a radius of "
-            f"{say.radius(levitation.radius)}, more than the clearance."
-        )
+        whirl = "Sag and whirl" if study.heavy else "Its whirl from unbalance"
+        return f"The rotor cannot run without contact. {whirl} would need a radius of {say.radius(levitation.radius)}, more than the clearance."
     if levitation.status == "boundary":
         return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
+    where = f"levitates at r = {say.radius(levitation.radius)}"
     if isinstance(levitation, Levitation):
         widths = study.rotor.system.widths
         sag, whirl = (say.length(float((widths * each).max())) for each in (levitation.sags, levitation.radii))
-        text = (
-            f"The rotor hangs {sag} from the centre under its weight and whirls about that place with {whirl}: it comes as far as r = "
-            f"{say.radius(levitation.reach)}, zone {study.zone} (zone limits {limits} of the clearance). "
+        where = (
+            f"hangs {sag} from the centre under its weight and whirls about that place with {whirl}: it comes as far as r = "
+            f"{say.radius(levitation.reach)}"
         )
-    else:
-        text = (
-            f"The rotor levitates at r = {say.radius(levitation.radius)}, zone {study.zone} "
-            f"(zone limits {limits} of the clearance). "
-        )
-    text += f"A gap of {say.length(1.0 - levitation.radius)} to the wall is left. "
-    decay = -float(levitation.eigenvalues.real.max())
+    limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
+    text = f"The rotor {where}, zone {study.zone} (zone limits {limits} of the clearance). A gap of {say.length(1.0 - levitation.radius)} to the wall is left."
     if not levitation.stable:
-        return text + "But nothing damps it: a disturbance does not die out."
-    text += f"Disturbances that do not reach the wall die out, with a time constant of {say.time(1.0 / decay)}."
-    if study.case.machine is not None and study.case.machine.air_gap is not None:
-        share = study.case.machine.clearance / study.case.machine.air_gap
+        return f"{text} But nothing damps it: a disturbance does not die out."
+    decay = -float(levitation.eigenvalues.real.max())
+    text += f" Small vibrations decay, with a time constant of {say.time(1.0 / decay)}."
+    if machine is not None and machine.air_gap is not None:
+        share = machine.clearance / machine.air_gap
         text += (
             f" Where it touches it is {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
         )
@@ -72,11 +98,12 @@ def _loss_of_levitation(study: StudyData) -> list[str]:
     places: dict[str, list[str]] = {}
     for boundary in study.boundaries:
         own = study.case.parameters.value(boundary.gain)
-        if (boundary.value < own) != (boundary.levitates == "above"):
-            continue  # beyond the range in which this machine levitates
-        moves = "falls" if boundary.levitates == "above" else "rises"
-        where = f"{say.name(boundary.gain)} {moves} to {say.value(boundary.gain, boundary.value)}"
-        places.setdefault(_LOSS[boundary.kind], []).append(where)
+        if (boundary.value < own) == (
+            boundary.levitates == "above"
+        ):  # else beyond the range in which this machine levitates
+            moves = "falls" if boundary.levitates == "above" else "rises"
+            where = f"{say.name(boundary.gain)} {moves} to {say.value(boundary.gain, boundary.value)}"
+            places.setdefault(_LOSS[boundary.kind], []).append(where)
     return [f"Where {' or '.join(where)}, {what}." for what, where in places.items()]
 
 
@@ -88,42 +115,24 @@ _LOSS = {
 
 
 def _rub(study: StudyData) -> str:
+    rubs, stable = [rub for rub in study.rubs if rub.status != "virtual"], study.stable_rub
     if study.heavy:
-        return (
-            "Under weight no rub is at rest in the frame that turns with the shaft. Where the rotor stays on the bearing is told by where "
-            "the disturbances below end."
-        )
-    rubs = [rub for rub in study.rubs if rub.status != "virtual"]
+        return "Under weight no rub is at rest in the frame that turns with the shaft: where the disturbances below end says whether the rotor stays on the bearing."
     if not rubs:
         return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."
-    stable = stable_rub(study)
-    if stable is None:
-        return (
-            f"A {RUB} exists. It is not stable in every direction, but it marks a way to stay in contact: the bearing force "
-            f"is {_rub_load(study, rubs[0])}."
-        )
-    start = f"A {RUB} exists and is stable"
-    if study.levitates:
-        start = f"A {RUB} coexists with levitation and is stable"
-    return (
-        f"{start}: once it has settled there the rotor stays pressed against the touchdown bearing. "
-        f"The bearing force would be {_rub_load(study, stable)}."
-    )
-
-
-def _rub_load(study: StudyData, rub: Equilibrium) -> str:
-    say, wall = study.wording, study.rotor.system.contacts[rub.plane].wall
+    say, rub = study.wording, stable or rubs[0]
+    wall = study.rotor.system.contacts[rub.plane].wall
     indentation = indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)
+    load = _with_weight(study, rub.normal_force)
     if gives_way(indentation):
-        return f"one for which there is no model: {steel_words(indentation)}"
-    friction, slip = wall.friction * rub.normal_force, wall.surface_speed
-    text = _with_weight(study, rub.normal_force)
-    if friction > 0:
-        text += (
-            f", and friction of {say.force(friction)} at a slip of {say.slip(slip)} would heat the contact with "
-            f"{say.power(friction * slip)}"
-        )
-    return text
+        load = f"one for which there is no model: {steel_words(indentation)}"
+    elif (friction := wall.friction * rub.normal_force) > 0.0:
+        slip, heat = say.slip(wall.surface_speed), say.power(friction * wall.surface_speed)
+        load += f", and friction of {say.force(friction)} at a slip of {slip} would heat the contact with {heat}"
+    if stable is None:
+        return f"A {RUB} exists. It is not stable in every direction, but it marks a way to stay in contact: the bearing force is {load}."
+    coexists = "coexists with levitation" if study.levitates else "exists"
+    return f"A {RUB} {coexists} and is stable: once it has settled there the rotor stays pressed against the touchdown bearing. The bearing force would be {load}."
 
 
 def _of_hit(study: StudyData, impulse: float) -> str:
@@ -134,21 +143,19 @@ def _of_hit(study: StudyData, impulse: float) -> str:
 
 
 def _bouncing(study: StudyData) -> str:
-    orbits = study.orbits
-    stable = study.stable_orbits
-    unstable = [orbit for orbit in orbits if orbit.admissible and not orbit.stable]
-    virtual = [orbit for orbit in orbits if not orbit.admissible]
-    sentences = [_stable_orbit(study, orbit) for orbit in stable]
+    orbits, sentences = study.orbits, [_stable_orbit(study, orbit) for orbit in study.stable_orbits]
+    unstable = sum(orbit.admissible and not orbit.stable for orbit in orbits)
+    virtual = sum(not orbit.admissible for orbit in orbits)
     if unstable:
-        one = len(unstable) == 1
+        are, they = ("is", "it takes") if unstable == 1 else ("are", "they take")
         sentences.append(
-            f"{counted(len(unstable), 'orbit')} with one impact a period {'is' if one else 'are'} unstable: the rotor does not "
-            f"stay there, but {'it takes' if one else 'they take'} part in deciding which disturbances come back."
+            f"{counted(unstable, 'orbit')} with one impact a period {are} unstable: the rotor does not stay there, but {they} part in deciding "
+            "which disturbances come back."
         )
     if virtual:
+        solve = "solves" if virtual == 1 else "solve"
         sentences.append(
-            f"{counted(len(virtual), 'orbit')} solve{'s' if len(virtual) == 1 else ''} the equations but not the contact law, "
-            "and so cannot happen."
+            f"{counted(virtual, 'orbit')} {solve} the equations but not the contact law, and so cannot happen."
         )
     if study.rotor.system.limits:
         return orbits.argument
@@ -159,22 +166,21 @@ def _bouncing(study: StudyData) -> str:
         sentences.append(none if orbits.search else "There is no orbit with one impact a period.")
     if orbits.search is not None:
         sentences.append(orbits.argument)
-    elif orbits.complete and orbits.slip_stays_forward:
+    elif not orbits.complete:
+        longest = study.wording.time(orbits.longest_period)
+        sentences.append(f"Only periods up to {longest} were searched; there may be more such orbits.")
+    elif orbits.slip_stays_forward:
         sentences.append("The list is complete: bounds exclude any other orbit with one impact a period.")
-    elif orbits.complete:
+    else:
         sentences.append(
             "The list is complete for impacts that do not stop the slip; orbits whose impacts stop it, which only a rotor "
             "about as small as its clearance can have, were not searched."
         )
-    else:
-        longest = study.wording.time(orbits.longest_period)
-        sentences.append(f"Only periods up to {longest} were searched; there may be more such orbits.")
     return " ".join(sentences)
 
 
 def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
-    say, impulse = study.wording, orbit.impulse
-    words = orbit.name.words
+    say, impulse, words = study.wording, orbit.impulse, orbit.name.words
     whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
     return (
         f"{words[0].upper()}{words[1:]} can hold the rotor for ever: one impact every {say.time(orbit.period)} "
@@ -185,24 +191,23 @@ def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
 
 
 def _disturbances(study: StudyData) -> str:
-    say, found = study.wording, study.attractors
-    text = f"Simulated to where they settle: {found.words()}. {_endings(study)}"
-    hardest = hardest_impulse(found)
-    if hardest > 0:
-        text += f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
-    return text
+    say, found, hardest = study.wording, study.attractors, hardest_impulse(study.attractors)
+    hit = (
+        f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
+        if hardest > 0
+        else ""
+    )
+    return f"Simulated to where they settle: {found.words()}. {_endings(study)}{hit}"
 
 
 def _endings(study: StudyData) -> str:
-    found = study.attractors
+    found, touched = study.attractors, touching(study.attractors)
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == [LEVITATION]:
         return "All of them came back to levitation."
     if not counts:
         return "None of them was followed."
-    parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
-    text = f"They ended: {listed(parts)}.{_irregular(found)}"
-    touched = touching(found)
+    text = f"They ended: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}.{_irregular(found)}"
     if study.levitates and touched:
         text += f" Of the {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
     return text
@@ -212,8 +217,8 @@ def _irregular(found: AttractorSet) -> str:
     """Say how long irregular bouncing lasts, if any was found."""
     if found.transient is not None:
         return f" On the way some bounced irregularly for long: {found.transient.words}."
-    lasting = next((member for member in found if member.survival is not None), None)
-    return f" Of such irregular motions {lasting.survival.words}." if lasting and lasting.survival else ""
+    lasting = next((member.survival for member in found if member.survival is not None), None)
+    return f" Of such irregular motions {lasting.words}." if lasting else ""
 
 
 def _backward_whirl(study: StudyData) -> str:
@@ -221,21 +226,28 @@ def _backward_whirl(study: StudyData) -> str:
     roll, runaway = known.rolls, known.whirl
     if roll is None or runaway is None:
         return _simulated_rolling(study)
-    gamma = study.rotor.value("gamma")
-    bound = say.value("gamma", roll.damping_bound)
+    name, bound, every_angle = (
+        say.name("gamma"),
+        *(say.value("gamma", at) for at in (roll.damping_bound, roll.largest_damping)),
+    )
     if roll.damping_bound <= 0.0:
         return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
-    if gamma > roll.damping_bound:
+    if study.rotor.value("gamma") > roll.damping_bound:
         least = bound if say.scales else f"γ = {bound}"
         return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {least})."
     if not roll.holds:
         return (
             "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
-            f"each turn is not ruled out; {say.name('gamma')} above {bound} would rule it out."
+            f"each turn is not ruled out; {name} above {bound} would rule it out."
         )
+    part = (
+        ""
+        if every_angle == bound
+        else f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
+    )
     return (
         f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway)} {_where_it_ends(study, roll)} "
-        f"Only {say.name('gamma')} above {bound} rules that out{_interrupted(study, roll)}."
+        f"Only {name} above {bound} rules that out{part}."
     )
 
 
@@ -253,14 +265,14 @@ def _no_return(study: StudyData, runaway: Runaway) -> str:
     """Say from which speed backward whirl runs away, and with which load on the bearing."""
     say, at = study.wording, study.case.parameters
     force = runaway.certain**2 - at.omega**2 + at.rho
-    power = at.mu * force * max(runaway.rolling_speed - runaway.certain, 0.0)
+    power = say.power(at.mu * force * max(runaway.rolling_speed - runaway.certain, 0.0))
     certain, average = say.velocity(runaway.certain), say.velocity(runaway.average)
     # Below the speed that is certain the unbalance decides.
     perhaps = "" if certain == average else f", and it may get there from about {average} on"
     return (
         f"There is no return if, in lasting contact, its centre moves backward faster than {certain} (whirl at "
         f"{number(runaway.certain, 3)} times the speed of the shaft){perhaps}; the bearing then carries up to "
-        f"{_with_weight(study, force)}, and friction takes {say.power(power)} from the drive."
+        f"{_with_weight(study, force)}, and friction takes {power} from the drive."
     )
 
 
@@ -268,17 +280,8 @@ def _where_it_ends(study: StudyData, roll: Rolling) -> str:
     """Say with which load it ends in rolling, or that a rigid wall is no model of that."""
     indentation = indentation_of_force(study.case.parameters, roll.largest_force)
     if gives_way(indentation):
-        return f"Where that ends there is no model: in {ROLLING}, a rigid wall would carry a load at which {steel_words(indentation)}."
-    force = _with_weight(study, roll.largest_force)
-    return f"It ends in {ROLLING}, with {force}, and stays in it."
-
-
-def _interrupted(study: StudyData, roll: Rolling) -> str:
-    """Explain the two limits of rolling, if they differ in the digits shown."""
-    every_angle, bound = (study.wording.value("gamma", limit) for limit in (roll.largest_damping, roll.damping_bound))
-    if every_angle == bound:
-        return ""
-    return f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
+        return f"The rigid model cannot predict the final load: in {ROLLING}, a rigid wall would carry a load at which {steel_words(indentation)}."
+    return f"It ends in {ROLLING}, with {_with_weight(study, roll.largest_force)}, and stays in it."
 
 
 def _with_weight(study: StudyData, force: float) -> str:
@@ -287,65 +290,3 @@ def _with_weight(study: StudyData, force: float) -> str:
     if scales is None:
         return text
     return f"{text} ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)"
-
-
-def _remedies(study: StudyData) -> str:
-    return "\n".join(_remedies_along(study.wording, found) for found in study.recoveries)
-
-
-def _remedies_along(say: Wording, found: Recovery) -> str:
-    along = found.along
-    name, own = say.name(along.name), say.value(along.name, along.value(found.rotor))
-    parts = []
-    for motion, words in _POSSIBLE.items():
-        entry = found.range_of(motion)
-        if entry is not None and (entry.spans or motion != "stable-single-impact"):
-            parts.append(f"{words} {say.where(along.name, entry.spans, entry.searched)}")
-    if found.range_of("single-impact") and not found.range_of("stable-single-impact"):
-        parts.append(
-            f"{_POSSIBLE['stable-single-impact'].rstrip(',')} were not searched: there are too many orbits to follow"
-        )
-    what = name if not say.of_machine else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
-    possible = f"{'; '.join(parts)}. " if parts else ""
-    return f"{what} (this machine: {own}): {possible}{_recovery_words(say, found, name)}"
-
-
-def _recovery_words(say: Wording, found: Recovery, name: str) -> str:
-    """Say where along a parameter everything tried came back, how much was tried, and what was met beyond."""
-    along = found.along.name
-    if found.motions and not found.range_of("single-impact"):
-        return f"At which {name} all that must be survived comes back was not searched."
-    if not found.searched:
-        return f"There is no {name} in the range searched at which the rotor levitates."
-    if not found.complete:
-        return f"The search for the {name} at which all that must be survived comes back was not finished."
-    low, high = say.value(along, found.searched[0].low.value), say.value(along, found.searched[-1].high.value)
-    if not found.spans:
-        return f"At no {name} tried from {low} to {high} all that must be survived came back."
-    each = min(check.tried for check in found.clear)
-    ends = {(edge.motion, edge.value) for span in found.spans for edge in span if edge.motion}
-    met = [f"some end in {motion_words(motion)} beyond {say.value(along, value)}" for motion, value in sorted(ends)]
-    beyond = f"; {listed(met)}" if met else ""
-    return (
-        f"Of {each:,} disturbances at each of {counted(len(found.clear), 'value')} of {name} none was lost "
-        f"{say.where(along, found.spans)}, searched from {low} to {high}{beyond}."
-    )
-
-
-_POSSIBLE: dict[Motion, str] = {
-    "contact-free": "levitation exists",
-    "rub": f"a {RUB} can hold the rotor",
-    "single-impact": "orbits with one impact a period are possible",
-    "stable-single-impact": "stable ones, which can hold the rotor,",
-}
-
-
-FINDINGS: Mapping[Topic, Callable[[StudyData], str]] = {
-    "Levitation": _levitation,
-    "Rub": _rub,
-    "Bouncing": _bouncing,
-    "Backward whirl": _backward_whirl,
-    "Disturbances tried": _disturbances,
-    "What would change it": _remedies,
-}
-"""Topics in the order of the verdict, with the functions that write them."""

@@ -16,7 +16,7 @@ from carom.motions.budget import present_question
 from carom.outcome import InputError
 from carom.parameters import LIMIT_FIELDS, LoadLimits, Required
 from carom.parameters.told import number
-from carom.results import fields_of
+from carom.results import record
 
 DIRECTIONS = 24
 """Directions of a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size."""
@@ -64,6 +64,10 @@ class LoadCheck:
             return f"{text}: kept"
         when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
         return f"{text}: exceeded{when}, as the motion goes on in contact"
+
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON; values in the SI unit of the limit."""
+        return record(self, "name exceeded endless value_si=value limit_si=limit reached_after_si=after")
 
 
 @checked
@@ -151,13 +155,8 @@ class WorstLoads:
         parts = zip(self.checks, self.motions, self.exceeding, strict=True)
         return {
             "disturbances": self.disturbances,
-            "limits": [loads_entry(check) | {"motion": motion, "exceeding": count} for check, motion, count in parts],
+            "limits": [check.document() | {"motion": motion, "exceeding": count} for check, motion, count in parts],
         }
-
-
-def loads_entry(check: LoadCheck) -> dict[str, Any]:
-    """A check as JSON; values in the SI unit of the limit."""
-    return fields_of(check, "name", "exceeded", "endless", value_si="value", limit_si="limit", reached_after_si="after")
 
 
 @checked

@@ -5,14 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from carom.motions import Braking, DropLoads, LastWhirl, PlaneLoads, TouchdownLoads
+from carom.motions import Braking, DropLoads, LastWhirl, PlaneLoads
 from carom.motions.loads import MEASURED
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
 from carom.parameters.told import number
-from carom.results import fields_of, in_si
-from carom.studies.load_checks import check_loads, loads_entry
+from carom.results import record
+from carom.studies.load_checks import check_loads
 from carom.studies.wording import Wording, counted
+
+PLANE = "gives_way contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
+LOADS = f"impacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
+WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 
 
 def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str, str]]]]:
@@ -61,32 +65,19 @@ def _rows(plane: PlaneLoads, outcome: Outcome, since: str) -> list[tuple[str, st
 
 
 def _entry(plane: PlaneLoads, limits: LoadLimits) -> dict[str, Any]:
-    names = (
-        "gives_way",
-        "contacts",
-        "bounces",
-        "restitution",
-        "force_at",
-        "impulse_at",
-        "in_contact_since",
-    )
-    speeds = ("race_at_end", "fastest_race")
-    entry = {"touchdown_bearing": plane.plane + 1, **fields_of(plane, *names, *speeds)}
-    times = dict.fromkeys(("force_at", "impulse_at", "in_contact_since"), "time")
-    entry |= in_si(entry, plane.scales, **times, **dict.fromkeys(speeds, "speed"))
-    entry["loads"] = _loads_entry(plane.loads)
+    loads, whirl = plane.loads, plane.whirl
+    entry = {"touchdown_bearing": plane.plane + 1, **record(plane, PLANE, plane.scales)}
+    entry["loads"] = record(loads, LOADS, loads.scales)
+    if loads.pressure is not None:
+        entry["loads"]["pressure_si"] = loads.pressure
     if not plane.gives_way:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
         entry["loads"]["force_is_of_lasting_contact"] = True
-    entry["whirl"] = None if plane.whirl is None else _whirl_entry(plane.whirl)
-    entry["limits"] = [loads_entry(check) for check in check_loads(plane.loads, limits)]
+    entry["whirl"] = whirl and record(whirl, WHIRL, whirl.scales)
+    if whirl is not None and whirl.frequency_si is not None:
+        entry["whirl"]["frequency_si"] = whirl.frequency_si
+    entry["limits"] = [check.document() for check in check_loads(loads, limits)]
     return entry
-
-
-def _loads_entry(loads: TouchdownLoads) -> dict[str, Any]:
-    document = fields_of(loads, "impacts", *MEASURED, "goes_on")
-    pressure = {} if loads.pressure is None else {"pressure_si": loads.pressure}
-    return document | in_si(document, loads.scales, *MEASURED) | pressure
 
 
 def _unit(say: Wording) -> float:
@@ -143,9 +134,3 @@ def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
         return f"{whirl.direction}, {rate}; it goes on"
     seen = "and is not known to go on" if not outcome.settled else "in the mean"
     return f"{whirl.direction}, {rate}, over the last {turns} turns of the shaft, {seen}"
-
-
-def _whirl_entry(whirl: LastWhirl) -> dict[str, Any]:
-    entry = fields_of(whirl, "direction", "angular_speed", "turned", "lasted", "since", "goes_on")
-    entry |= in_si(entry, whirl.scales, angular_speed="speed", lasted="time", since="time")
-    return entry | ({} if whirl.frequency_si is None else {"frequency_si": whirl.frequency_si})

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 from carom.arguments import checked
 from carom.motions import drop_loads
 from carom.motions.contacts import LastingContact
-from carom.motions.starts import State
 from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
-from carom.parameters import LoadLimits, Scales
-from carom.results import fields_of, in_si
+from carom.parameters import LoadLimits
+from carom.results import record
 from carom.studies.load_tables import load_entries
 
 _TIMES = ("time", "start", "end", "peak_time")
+STATE = "U=position V=velocity"
+SCALES = "length time velocity acceleration force impulse energy damping stiffness"
+IMPACT = ("time", "touchdown_bearing", "angle", "radial_speed", "angular_speed", "normal_impulse")
+CONTACT = "angle radial_speed radial_speed_after peak_force:force peak_time deepest:length heat: lasts impulse=normal_impulse:"
 
 
 @checked
@@ -42,20 +46,17 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
 
 def _stage(motion: Trajectory, limits: LoadLimits) -> dict[str, Any]:
     """A stage, with what the bearings bear in it and in those before that it knows."""
-    document: dict[str, Any] = {
+    loads = zip(load_entries(drop_loads(motion), limits), motion.at_each, strict=True)
+    return {
         **motion.rotor.document(),
-        "start": state_document(motion.start),
-        **fields_of(motion, outcome="outcome.label", meaning="outcome.meaning"),
-        **fields_of(motion, "multiplicity", "time"),
+        "start": record(motion.start, STATE),
+        **record(motion, "outcome=outcome.label meaning=outcome.meaning multiplicity time"),
         "impacts": _in_order("time", [entry for seen in motion.at_each for entry in _impacts(seen)]),
         "contacts": _in_order("start", [entry for seen in motion.at_each for entry in _contacts(seen)]),
-        "final": state_document(motion.final),
-        "touchdown_bearings": [
-            entry | {"final": _end(seen)}
-            for entry, seen in zip(load_entries(drop_loads(motion), limits), motion.at_each, strict=True)
-        ],
+        "final": record(motion.final, STATE),
+        "touchdown_bearings": [entry | {"final": _end(seen)} for entry, seen in loads],
+        **({} if motion.scales is None else {"scales_si": record(motion.scales, SCALES)}),
     }
-    return document | ({} if motion.scales is None else {"scales_si": scales_document(motion.scales)})
 
 
 def _in_order(key: str, entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -64,45 +65,28 @@ def _in_order(key: str, entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def _impacts(motion: Trajectory) -> list[dict[str, Any]]:
     """Impacts at one bearing."""
-    keys = ("time", "touchdown_bearing", "angle", "radial_speed", "angular_speed", "normal_impulse")
-    return [
-        dict(zip(keys, each, strict=True)) for each in zip(*fields_of(motion.contacts, *keys).values(), strict=True)
-    ]
+    columns = record(motion.contacts, " ".join(IMPACT)).values()
+    return [dict(zip(IMPACT, each, strict=True)) for each in zip(*columns, strict=True)]
 
 
 def _contacts(motion: Trajectory) -> list[dict[str, Any]]:
-    """Stretches of lasting contact at one bearing; of a wall that gives way whole contacts, by the kind that takes most of each."""
+    """Stretches of lasting contact at one bearing; of a compliant one whole contacts, by the kind that takes most of each."""
     log, number = motion.log, {"touchdown_bearing": motion.plane + 1}
     if not isinstance(log, TouchLog):
         return [_stretch(contact) | number for contact in motion.lasting_contacts]
-    names = ["angle", "radial_speed", "radial_speed_after", "peak_force", "peak_time", "deepest", "heat", "lasts"]
-    columns = fields_of(log, *names, impulse="normal_impulse")
+    columns = record(log, CONTACT, log.scales)
     kinds = zip(log.phase.tolist(), log.start.tolist(), log.end.tolist(), strict=True)
-    entries = []
-    for (phase, start, end), *values in zip(kinds, *columns.values(), strict=True):
-        entry = _stretch(LastingContact(Phase(phase), start, end)) | number | dict(zip(columns, values, strict=True))
-        entries.append(entry | in_si(entry, log.scales, "impulse", "heat", peak_force="force", deepest="length"))
-    return entries
+    return [
+        _stretch(LastingContact(Phase(phase), start, end)) | number | dict(zip(columns, values, strict=True))
+        for (phase, start, end), *values in zip(kinds, *columns.values(), strict=True)
+    ]
 
 
 def _stretch(contact: LastingContact) -> dict[str, Any]:
-    return {"kind": contact.kind, "phase": contact.phase.label, **fields_of(contact, "start", "end")}
+    return record(contact, "kind phase=phase.label start end")
 
 
 def _end(seen: Trajectory) -> dict[str, Any]:
     """Place and velocity of the rotor in one bearing at the end, in the fixed frame."""
     place, velocity = seen.end()
-    document = {"place": place, "velocity": velocity}
-    return document | in_si(document, seen.scales, place="length", velocity="velocity")
-
-
-def state_document(state: State) -> dict[str, Any]:
-    """Position and velocity of a state."""
-    return fields_of(state, U="position", V="velocity")
-
-
-def scales_document(scales: Scales) -> dict[str, float]:
-    """The units of the equations in SI units."""
-    return fields_of(
-        scales, "length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness"
-    )
+    return record(SimpleNamespace(place=place, velocity=velocity), "place:length velocity:", seen.scales)

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from carom.parameters.told import number, rounded_down, shown_in
-from carom.results import fields_of, in_si
+from carom.results import record
+from carom.studies.facts import Fact
+from carom.studies.study_data import StudyData
 from carom.studies.wording import counted, listed
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
     from carom.parameters import Scales
     from carom.proofs import Proof, ProvenKicks
+
+KICKS = (
+    "all_up_to:velocity sure_up_to:velocity impacts kicks_up_to=largest:velocity share_proven=share share_refuted=refuted_share "
+    "share_open=open_share"
+)
 
 
 def proven_words(proof: Proof) -> str:
@@ -64,20 +72,21 @@ def proven_states_words(proof: Proof, up_to: str, scales: Scales | None) -> str:
 
 def proven_kicks_document(kicks: ProvenKicks) -> dict[str, Any]:
     """The same as plain data for JSON."""
-    document = fields_of(
-        kicks,
-        "all_up_to",
-        "sure_up_to",
-        "impacts",
-        kicks_up_to="largest",
-        share_proven="share",
-        share_refuted="refuted_share",
-        share_open="open_share",
-    )
-    document["open"] = [fields_of(part, "reason", "share") for part in kicks.parts if part.open]
-    return document | in_si(
-        document, kicks.rotor.scales, all_up_to="velocity", sure_up_to="velocity", kicks_up_to="velocity"
-    )
+    return record(kicks, KICKS, kicks.rotor.scales) | {
+        "open": [record(part, "reason share") for part in kicks.parts if part.open]
+    }
+
+
+def proofs_of(study: StudyData) -> Iterator[Fact]:
+    """What was proven, if it was asked for."""
+    told = []
+    if study.proof is not None:
+        told.append(proven_words(study.proof))
+    if study.kicks is not None:
+        told.append(proven_kicks_words(study.kicks))
+    if study.states is not None:
+        told.append(proven_states_words(study.states, study.wording.velocity(study.required.kick), study.rotor.scales))
+    yield from (Fact("Proven", text, evidence="proven") for text in told)
 
 
 def is_proven(proof: Proof | None, orbit: Orbit) -> bool:

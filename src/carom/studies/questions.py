@@ -7,10 +7,10 @@ An event, an impact or a step of lasting contact, takes some 10 microseconds, of
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from carom.models import Rotor
 from carom.motions.budget import Question
+from carom.results import record
 from carom.studies.facts import Fact
 from carom.studies.wording import listed
 
@@ -34,6 +34,7 @@ EVENTS = {
     DROP: 20_000,
 }
 """Events of each question, two million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
+UNFINISHED = "question=words followed asked"
 FEW_MODES, MANY_MODES = 4, 16
 """Modes up to which an event costs about the same, of more it costs in proportion, and so many fewer are followed; and modes above which searches are coarser."""
 FEWEST = 60
@@ -53,9 +54,4 @@ def unfinished_facts(questions: Sequence[Question]) -> Iterator[Fact]:
             f"Not followed to the end: {listed(told)}. Each question of a study has a fixed number of events, so that "
             "its answer does not depend on the computer; a time limit ends it earlier."
         )
-        yield Fact("Not reached", text, values={"questions": unfinished_document(questions)})
-
-
-def unfinished_document(questions: Sequence[Question]) -> list[dict[str, Any]]:
-    """The same as plain data for JSON."""
-    return [{"question": each.words, "followed": each.followed, "asked": each.asked} for each in questions]
+        yield Fact("Not reached", text, values={"questions": [record(each, UNFINISHED) for each in questions]})

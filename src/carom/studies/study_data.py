@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from carom.attractors import AttractorSet
 from carom.basins import Share
@@ -16,7 +16,7 @@ from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, Required
-from carom.results import Result
+from carom.results import Result, record
 from carom.rotors import ReducedMachine
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
@@ -120,6 +120,11 @@ class StudyData(Result):
         return tuple(each for each in self.equilibria[1:] if isinstance(each, Equilibrium))
 
     @property
+    def stable_rub(self) -> Equilibrium | None:
+        """The stable, admissible synchronous rub, which can hold the rotor, if there is one."""
+        return next((rub for rub in self.rubs if rub.stable and rub.status == "admissible"), None)
+
+    @property
     def heavy(self) -> bool:
         """Whether the rotor weighs something, or is pulled off the centre of its bearing: then nothing has the symmetry of a turn."""
         return self.rotor.system.forced is not None
@@ -149,6 +154,18 @@ class StudyData(Result):
     def required(self) -> Required:
         """What the machine must survive, in units of the equations."""
         return self.case.requirement.own(self.rotor.scales)
+
+    def requirement_document(self) -> dict[str, Any]:
+        """What must be survived, as plain data for JSON."""
+        required, scales, requirement = self.required, self.rotor.scales, self.case.requirement
+        columns = "kick blade_loss blade_loss_node"
+        document = {"source": requirement.source, "frame": "fixed", **record(required, columns)}
+        document["shock"] = required.shock and record(required.shock, "peak duration")
+        if scales is not None:
+            stated = requirement.complete(scales)
+            document |= record(stated, "kick_si=kick blade_loss_si=blade_loss")
+            document["shock_si"] = stated.shock and record(stated.shock, "peak duration")
+        return document
 
     @property
     def share(self) -> Share | None:

@@ -22,12 +22,14 @@ from carom.parameters.named import own_numbers
 from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
 from carom.studies.advice_facts import check_words
+from carom.studies.endings import motion_words
 from carom.studies.kinds import LABELS
 from carom.studies.proven import is_proven
-from carom.studies.ranges import Motion, MotionRange, event_words
+from carom.studies.ranges import Motion, event_words
+from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
-from carom.studies.verdict_facts import lost_to
-from carom.studies.wording import Wording, no_rigid_wall
+from carom.studies.verdict import lost_to
+from carom.studies.wording import Wording, counted, no_rigid_wall
 
 
 @dataclass(frozen=True)
@@ -96,26 +98,33 @@ MOTIONS: dict[Motion, str] = {
     "rolling": STEADY_WORDS["rolling"],
 }
 """Names of the motions whose ranges are known."""
+BACK = "all that must be survived comes back"
+MOTION_COLUMNS = {
+    "name": "motion",
+    "state": "state",
+    "period": "period",
+    "size": "radius or impact speed",
+    "impulse": "impulse per hit",
+    "force": "force",
+    "trials": "disturbances",
+    "remark": "remark",
+}
+"""Headings of the table of motions, by the fields of :class:`MotionRow`."""
 
 
 def survived_rows(study: StudyData) -> list[SurvivedRow]:
     """Return a row for each kind of disturbance that was searched; none where there is no stable levitation."""
+    rows: list[SurvivedRow] = []
     if study.survives is None:
-        return []
-    rows = []
+        return rows
     for name, found in study.survives.items():
-        size = study.wording.size_of(name)
-        of = {"shock": f" of {study.wording.time(study.survives.duration)}", "blade_loss": ", change of the unbalance"}
+        size, shock = study.wording.size_of(name), f" of {study.wording.time(study.survives.duration)}"
+        of = {"shock": shock, "blade_loss": ", change of the unbalance"}.get(name, "")
         up_to = found.largest if found.size is None and found.complete else found.all_back
-        rows.append(
-            SurvivedRow(
-                f"{LABELS[name]}{of.get(name, '')}",
-                size(found.harmless) if found.harmless > 0.0 else "none",
-                "none" if up_to is None else size(up_to),
-                "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}",
-                study.kicks.told_up_to if name == "kick" and study.kicks else "",
-            )
-        )
+        lost = "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}"
+        proven = study.kicks.told_up_to if name == "kick" and study.kicks else ""
+        untouched, back = ("none" if each is None else size(each) for each in (found.harmless or None, up_to))
+        rows.append(SurvivedRow(f"{LABELS[name]}{of}", untouched, back, lost, proven))
     return rows
 
 
@@ -146,19 +155,14 @@ def machine_rows(case: Case) -> list[ValueRow]:
     machine = case.machine
     if machine is None:
         return []
-    found = {name: getattr(machine, name) for name in MACHINE_FIELDS}
-    known = {name: getattr(machine, name) for name in HELPER_FIELDS if name in type(machine).model_fields}
+    helpers = [name for name in HELPER_FIELDS if name in type(machine).model_fields]
     if machine.force_current_factor is None and machine.force_limit is None:
-        del known["magnetic_bearings"]
-    found |= {name: value for name, value in known.items() if value is not None} | machine.controller_gains
+        helpers.remove("magnetic_bearings")
+    found = {name: getattr(machine, name) for name in MACHINE_FIELDS}
+    found |= {name: value for name in helpers if (value := getattr(machine, name)) is not None}
     return [
-        ValueRow(
-            ENTRIES[name].symbol,
-            ENTRIES[name].words,
-            told_entry(name, value, 6),
-            given_words(machine, name),
-        )
-        for name, value in found.items()
+        ValueRow(ENTRIES[name].symbol, ENTRIES[name].words, told_entry(name, value, 6), given_words(machine, name))
+        for name, value in (found | machine.controller_gains).items()
     ]
 
 
@@ -177,23 +181,22 @@ def given_words(machine: Machine, name: str) -> str:
 
 def dimensionless_rows(case: Case) -> list[ValueRow]:
     """Return the rows of the dimensionless parameters."""
-    return [
-        ValueRow(case.parameters.varied[name].symbol, case.parameters.varied[name].words, f"{value:.6g}")
-        for name, value in own_numbers(case.parameters).items()
-    ]
+    numbers, fields = own_numbers(case.parameters).items(), case.parameters.varied
+    return [ValueRow(fields[name].symbol, fields[name].words, f"{value:.6g}") for name, value in numbers]
 
 
 def motion_rows(study: StudyData) -> list[MotionRow]:
     """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended."""
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors)
     proven = {f"orbit {orbit.name}" for orbit in study.orbits if is_proven(study.proof, orbit)}
-    rows = [
-        replace(row, remark="; ".join(filter(None, ("proven", row.remark)))) if row.name in proven else row
-        for row in rows
-    ]
+    rows = [replace(row, remark=_joined("proven" * (row.name in proven), row.remark)) for row in rows]
     simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
     return rows + [_seen(study.wording, member, study.attractors, study.rotor.in_rigid_wall) for member in others]
+
+
+def _joined(*remarks: str) -> str:
+    return "; ".join(filter(None, remarks))
 
 
 def simple_motion_rows(
@@ -234,22 +237,15 @@ def _share(found: AttractorSet | None, name: str) -> str:
 
 
 def _steady(entry: SteadyMotion, say: Wording, share: str, parameters: Parameters | None) -> MotionRow:
-    contact_free = entry.kind == "contact-free"
-    name = MOTIONS[entry.kind]
+    contact_free, name = entry.kind == "contact-free", MOTIONS[entry.kind]
     size = f"{'up to ' if isinstance(entry, Levitation) else ''}r = {say.radius(entry.radius)}" if contact_free else ""
     if entry.status == "virtual":
         remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
         return MotionRow(name, "not possible", size=size, trials=share, remark=remark)
     soft = "" if contact_free else no_rigid_wall(indentation_of_force(parameters, entry.normal_force))
-    touches = "touches the wall without force" if entry.status == "boundary" else ""
-    return MotionRow(
-        name,
-        "stable" if entry.stable else "unstable",
-        size=size,
-        force="" if contact_free else _force(say, entry.normal_force, soft),
-        trials=share,
-        remark=touches or soft,
-    )
+    force = "" if contact_free else _force(say, entry.normal_force, soft)
+    touches = "touches the wall without force" if entry.status == "boundary" else soft
+    return MotionRow(name, "stable" if entry.stable else "unstable", "", size, "", force, share, touches)
 
 
 def _force(say: Wording, force: float, no_model: str) -> str:
@@ -261,34 +257,25 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
     if not orbit.admissible:
         return MotionRow(name, "not possible", period, size, remark=orbit.reason)
-    impulse, at = orbit.impulse, orbit.rotor.in_rigid_wall
+    impulse, force = say.impulse(orbit.impulse), f"{say.force(orbit.impulse / orbit.period)} mean"
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
-    return MotionRow(
-        name,
-        "stable" if orbit.stable else "unstable",
-        period,
-        size,
-        say.impulse(impulse),
-        f"{say.force(impulse / orbit.period)} mean",
-        share,
-        "; ".join(filter(None, (grows, no_rigid_wall(indentation_of_hit(at, orbit.radial_speed))))),
-    )
+    remark = _joined(grows, no_rigid_wall(indentation_of_hit(orbit.rotor.in_rigid_wall, orbit.radial_speed)))
+    return MotionRow(name, "stable" if orbit.stable else "unstable", period, size, impulse, force, share, remark)
 
 
 def _seen(say: Wording, member: Attractor, found: AttractorSet, at: Parameters | None) -> MotionRow:
     impulse, force = member.largest_impulse, member.largest_force
-    lasts = member.survival.words if member.survival else ""
     hit = indentation_of_hit(at, impulse / (1.0 + at.d)) if at else math.nan
-    indentation = max(indentation_of_force(at, force), hit)
-    known = "" if member.count else "from a start next to it"
+    soft = no_rigid_wall(max(indentation_of_force(at, force), hit))
+    lasts, known = member.survival.words if member.survival else "", "" if member.count else "from a start next to it"
     return MotionRow(
         member.name.words,
         "transient" if member.transient else "seen" if member.settled else "undecided",
-        period=say.time(member.period) if member.period else "",
+        say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
-        force=_force(say, force, no_rigid_wall(indentation)) if force > 0 else "",
+        force=_force(say, force, soft) if force > 0 else "",
         trials=_share(found, member.name),
-        remark="; ".join(filter(None, (lasts, known, no_rigid_wall(indentation)))),
+        remark=_joined(lasts, known, soft),
     )
 
 
@@ -305,28 +292,47 @@ def threshold_rows(study: StudyData) -> list[tuple[str, ...]]:
     return rows
 
 
+def ranges_along(say: Wording, found: Recovery) -> list[tuple[str, str]]:
+    """A parameter with its present value, then each motion with the values for which it exists, and where all that must be survived comes back."""
+    name = say.name(found.along.name)
+    # A symbol keeps its case: Ω is not ω.
+    head = (
+        f"{name[0].upper()}{name[1:]}" if say.of_machine else name,
+        say.value(found.along.name, found.along.value(found.rotor)),
+    )
+    ranges = [(words, found.range_of(motion)) for motion, words in MOTIONS.items()]
+    rows = [(words, say.where(each.parameter, each.spans, each.searched)) for words, each in ranges if each]
+    return [head, *rows, (BACK, _back_words(say, found))]
+
+
+def _back_words(say: Wording, found: Recovery) -> str:
+    """Where along a parameter everything tried came back, how much was tried, and what was met beyond."""
+    along = found.along.name
+    if found.motions and not found.range_of("single-impact"):
+        return "where was not searched"
+    if not found.searched:
+        return "nowhere: it does not levitate in the range searched"
+    if not found.complete:
+        return "where is not known, as the search was not finished"
+    low, high = say.value(along, found.searched[0].low.value), say.value(along, found.searched[-1].high.value)
+    if not found.spans:
+        return f"at no value tried from {low} to {high}"
+    each = min(check.tried for check in found.clear)
+    ends = {(edge.motion, edge.value) for span in found.spans for edge in span if edge.motion}
+    met = [f"; beyond {say.value(along, value)} some end in {motion_words(motion)}" for motion, value in sorted(ends)]
+    tried = f"all of {each:,} disturbances at each of {counted(len(found.clear), 'value')}"
+    return f"{say.where(along, found.spans)} ({tried}, searched from {low} to {high}{''.join(met)})"
+
+
 def range_rows(study: StudyData) -> list[tuple[str, ...]]:
     """Return rows that say where each motion exists along each parameter of ``study.recoveries``.
 
     The last rows say where all that must be survived came back, and what is advised with how that was checked.
     """
-    say, found = study.wording, study.recoveries
-    changes = {change.parameter: change for change in study.recommendation.changes}
-    rows = [(name, *(_where(say, entry.range_of(motion)) for entry in found)) for motion, name in MOTIONS.items()]
-    back = [
-        "search not finished"
-        if not entry.complete
-        else say.where(entry.along.name, entry.spans)
-        if entry.searched or entry.range_of("single-impact")
-        else "not searched"
-        for entry in found
-    ]
-    advised = [
-        f"{change.terms.text}, where {check_words(study, change.check)}" if change else "none"
-        for change in (changes.get(entry.along.name) for entry in found)
-    ]
-    return [*rows, ("all that must be survived comes back", *back), ("advised", *advised)]
-
-
-def _where(say: Wording, entry: MotionRange | None) -> str:
-    return say.where(entry.parameter, entry.spans, entry.searched) if entry else "not searched"
+    told = [dict(ranges_along(study.wording, found)) for found in study.recoveries]
+    rows = [(name, *(each.get(name, "not searched") for each in told)) for name in (*MOTIONS.values(), BACK)]
+    advised = {
+        change.parameter: f"{change.terms.text}, where {check_words(study, change.check)}"
+        for change in study.recommendation.changes
+    }
+    return [*rows, ("advised", *(advised.get(found.along.name, "none") for found in study.recoveries))]

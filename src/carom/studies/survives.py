@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -23,11 +24,12 @@ from carom.models import Rotor
 from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
-from carom.results import Result
+from carom.results import Result, record
 from carom.studies.full_size import FullSize
 from carom.studies.kinds import Kind, required_kinds
 from carom.studies.questions import FEWEST, SMALLEST, events_for
 from carom.studies.trials import Check
+from carom.studies.wording import SIZES as SIZES_OF
 
 REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
@@ -35,6 +37,10 @@ BELOW = 0.999
 """Largest unbalance after a loss of a blade, relative to that with which levitation would fill the clearance."""
 OF_ANOTHER_KIND = 0.2
 """Number of shocks, and of losses of a blade, relative to that of kicks, where such are required."""
+SURVIVED = (
+    "harmless_up_to=harmless:{kind} all_up_to=all_back:{kind} smallest_lost=size:{kind} searched_up_to=largest:{kind} "
+    "tried fresh angle instant neighbours neighbours_lost complete"
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,6 +74,16 @@ class Survives(Result):
         """The kinds that were searched, by name."""
         found: dict[Kind, SmallestLoss | None] = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
+
+    def document(self) -> dict[Kind, dict[str, Any]]:
+        """What of each kind is survived, as plain data for JSON."""
+        document: dict[Kind, dict[str, Any]] = {}
+        for name, found in self.items():
+            columns = SURVIVED.format(kind=SIZES_OF[name])
+            ended = None if found.outcome is None else found.outcome.label
+            document[name] = record(found, columns, found.scales) | {"lost_to": ended}
+            document[name] |= {"duration": self.duration} if name == "shock" else {}
+        return document
 
 
 def survives(rotor: Rotor, required: Required, budget: Budget, tell: Reporter) -> Survives | None:

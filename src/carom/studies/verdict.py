@@ -1,4 +1,4 @@
-"""The verdict of a study in words: what the machine survives, what may hold it, which changes help, what is unknown.
+"""The verdict of a study: what the machine must survive, what it survives, which share comes back, and what else may hold the rotor.
 
 It never promises that a machine recovers.  Disturbances are samples, and motions that none of them reached may exist.
 The best possible verdict is that every disturbance tried came back; of kicks it may be that all of them are proven to.
@@ -8,60 +8,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Literal
 
-from carom.outcome import STEADY_WORDS
-from carom.studies.actuator import actuator_words
-from carom.studies.advice_facts import advice_facts
-from carom.studies.facts import Fact, about
-from carom.studies.findings import FINDINGS
-from carom.studies.kinds import LABELS
-from carom.studies.levitation_facts import bearing_facts, critical_speed_facts, levitation_facts
-from carom.studies.proven import proven_kicks_words, proven_states_words, proven_words
-from carom.studies.questions import unfinished_facts
-from carom.studies.rigid_limit import wall_values, wall_words
+from carom.basins import Share, SmallestLoss
+from carom.disturbances.echo import ANY_INSTANT
+from carom.models import depends_on_instant
+from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.studies.endings import ending_words
+from carom.studies.facts import Evidence, Fact, about
+from carom.studies.kinds import LABELS, Kind, required_kinds
+from carom.studies.proven import proven_kicks_document, states_return
 from carom.studies.study_data import StudyData
-from carom.studies.touchdown_facts import accuracy_facts, drop_facts, drop_headline, load_facts
-from carom.studies.verdict_facts import Level, judged, verdict_facts
+from carom.studies.survives import decides
+from carom.studies.wording import listed
 
-SAMPLED = (
-    "Disturbances other than those simulated. They are samples: one between them, or a larger one, may end elsewhere."
-)
-SAMPLED_BUT_KICKS = (
-    "Disturbances other than those simulated, but for the kicks that are proven to come back. They are samples: one between them, or a "
-    "larger one, may end elsewhere."
-)
-"""The same if kicks are proven to come back."""
-LONGER_MOTIONS = (
-    "Periodic motions with two or more impacts a period, bouncing that never repeats, and motions that alternate "
-    "between bounces and lasting contact. They are named only if a simulated disturbance ended in one."
-)
-RIGID_WALL = (
-    "A touchdown bearing that moves, turns or gives way: the wall is rigid, so the load of an impact is an impulse."
-)
-COMPLIANT_WALL = "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated."
-PLANAR = (
-    "Changes of speed, gravity, a rotor that bends or tilts, and controllers that do more than a spring and a damper."
-)
-MATRICES = "Changes of speed, gravity, and controllers that add states of their own."
-WEIGHT = "Changes of speed, and controllers that add states of their own."
-SYMMETRY = (
-    f"What rests on the symmetry of a turn: {STEADY_WORDS['rub']}s, orbits in closed form, and that a kick does the same whatever the angle of the "
-    "unbalance is as it strikes. Here that is the angle in the machine file; with others some kicks may end elsewhere."
-)
-CLOSED_FORMS = (
-    "What is known in closed form for the planar rotor alone: whether rolling lasts and from which speed whirl runs away to it, for "
-    "which damping and stiffness each motion exists, how levitation ends, and that no orbit is missing."
-)
-FLEXIBLE = (
-    "Limits of the magnetic bearings that the file does not state, magnetic bearings whose axes differ, coefficients of supports at other speeds, and changes of speed.",
-    "Damping of the shaft as it turns with it.",
-)
-AT_LIMITS = (
-    "Other angles of the unbalance to the axes of the magnetic bearings, along which their limits act, as a disturbance strikes than that of the "
-    "machine file. Saturation of the iron and limits of the voltage are not modelled."
-)
-NOT_COVERED = (SAMPLED, LONGER_MOTIONS, RIGID_WALL, PLANAR)
-"""What the study of a planar rotor in a rigid wall does not cover."""
+Level = Literal["no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"]
+NEARLY_ALL = 0.95
+"""Share from which on of disturbances that do not come back it is said that nearly all are such."""
+_CHOSEN = {
+    "file": "as its file says",
+    "option": "as the options say",
+    "default": "default: the impact speed of a free fall across the diametral clearance",
+}
+_fact = partial(Fact, "Verdict")
 
 
 @dataclass(frozen=True)
@@ -75,9 +45,10 @@ class Verdict:
     outcome : str
         The verdict in a few words, with the zone of the vibration amplitude (ISO 14839-2).
     reason : str
-        What was lost, or why there is nothing to come back to; empty if there is nothing to say.
+        What does not come back, or why there is nothing to come back to; empty if there is nothing to say.
     survived : tuple of str
-        For each kind of disturbance: harmless up to, all tried came back up to, smallest lost; then what must be survived, and what of it is proven.
+        For each kind of disturbance: the size that cannot touch, that up to which all tried came back, and the smallest that does not come back; then
+        what must be survived, and what of it is proven.
     """
 
     level: Level
@@ -96,72 +67,168 @@ class Verdict:
         return " ".join((self.lead, *self.survived))
 
 
-def facts_of(study: StudyData) -> Iterator[Fact]:
-    """List all facts of a study, in the order in which they are told."""
-    yield from verdict_facts(study)
-    yield from drop_headline(study)
-    yield from advice_facts(study)
-    for topic, write in FINDINGS.items():
-        for text in write(study).split("\n") if study.recoveries or topic != "What would change it" else ():
-            yield Fact(topic, text)
-        if topic == "Levitation":
-            yield from levitation_facts(study.levitating)
-            yield from critical_speed_facts(study.levitating)
-    yield from _proofs(study)
-    yield from bearing_facts(study.levitating)
-    if study.bearing_demand is not None:
-        yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
-    if study.other_walls:
-        words, values = wall_words(study.wording, study.other_walls), wall_values(study.other_walls, study.rotor.scales)
-        yield Fact("Touchdown bearing", words, evidence="sampled", values=values)
-    yield from load_facts(study)
-    yield from drop_facts(study)
-    yield from accuracy_facts(study)
-    yield from unfinished_facts(study.unfinished)
-    for text in not_covered(study):
-        yield Fact("Not covered", text)
-
-
-def _proofs(study: StudyData) -> Iterator[Fact]:
-    if study.proof is not None:
-        yield Fact("Proven", proven_words(study.proof), evidence="proven")
-    if study.kicks is not None:
-        yield Fact("Proven", proven_kicks_words(study.kicks), evidence="proven")
-    if study.states is not None:
-        up_to = study.wording.velocity(study.required.kick)
-        yield Fact("Proven", proven_states_words(study.states, up_to, study.rotor.scales), evidence="proven")
-
-
-def not_covered(study: StudyData) -> tuple[str, ...]:
-    """What the study does not cover, by what the rotor has."""
-    compliant = bool((study.rotor.system.arrays["stiffness"] > 0.0).any())
-    found = [
-        SAMPLED_BUT_KICKS if study.kicks is not None and study.kicks.share else SAMPLED,
-        LONGER_MOTIONS,
-        COMPLIANT_WALL if compliant else RIGID_WALL,
-    ]
-    if study.reduced is not None:
-        found += [*FLEXIBLE, *([SYMMETRY] if study.heavy else []), CLOSED_FORMS]
-    elif study.heavy:
-        found += [WEIGHT, SYMMETRY, CLOSED_FORMS]
-    else:
-        found += [PLANAR] if study.known.orbits else [MATRICES, CLOSED_FORMS]
-    return (*found, AT_LIMITS) if study.rotor.system.limits else tuple(found)
-
-
 def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:
     """Write the verdict of a study from its facts."""
-    level, outcome, reason = judged(study)
     facts = {fact.label: fact.text for fact in about(found, "Verdict")}
-    survived = [
-        f"{label}{'' if label == 'Shock' else ':'} {facts[label]}." for label in LABELS.values() if label in facts
-    ]
+    lead = {"Elsewhere": "Apart from what is required: ", "Certain": "Proven: ", "Drop": "In a drop: "}
+    lead |= {label: f"{label}{'' if label == 'Shock' else ':'} " for label in LABELS.values()}
     if "Share" in facts:
-        survived.append(f"It must survive {facts['Must survive']}; {facts['Share']}.")
-    if "Elsewhere" in facts:
-        survived.append(f"Apart from what is required: {facts['Elsewhere']}.")
-    if "Certain" in facts:
-        survived.append(f"Proven: {facts['Certain']}.")
-    if "Drop" in facts:
-        survived.append(f"In a drop: {facts['Drop']}.")
-    return Verdict(level, outcome, reason, tuple(survived))
+        lead["Share"] = f"It must survive {facts['Must survive']}; "
+    order = (*LABELS.values(), "Share", "Elsewhere", "Certain", "Drop")
+    return Verdict(*judged(study), tuple(f"{lead[label]}{facts[label]}." for label in order if label in facts))
+
+
+def verdict_facts(study: StudyData) -> Iterator[Fact]:
+    """What must be survived, what of each kind is survived, shares, and what else may hold the rotor."""
+    yield _fact(_required_words(study), "Must survive", values=study.requirement_document())
+    if study.survives is not None:
+        for name, values in study.survives.document().items():
+            entry: SmallestLoss = getattr(study.survives, name)
+            motions = () if entry.outcome is None else (entry.outcome.label,)
+            yield _fact(_survived(study, name, entry), LABELS[name], None, values, motions, name)
+    yield from _shares(study)
+    if study.kicks is not None:
+        yield _fact(study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks), disturbances="kick")
+    yield from _others(study)
+    gone, total = study.attractors, len(study.attractors.disturbances)
+    if count := sum(entry.count for entry in gone if entry.name.outcome is Outcome.BEYOND_MODEL):
+        text = f"{count:,} of {total:,} disturbances went beyond the model: {Outcome.BEYOND_MODEL.meaning.removesuffix('.')}"
+        yield _fact(text, "Beyond the model", "sampled", {"count": count, "total": total})
+
+
+def _required_words(study: StudyData) -> str:
+    requirement, source = study.case.requirement, study.case.requirement.source
+    how = _CHOSEN[source]
+    if source == "default" and study.wording.scales is None:
+        how = "chosen by carom"
+    elif source != "default" and requirement.kick is None:
+        how = f"{how}; of the kick the {_CHOSEN['default']}"
+    return f"{listed(study.wording.required(study.required))} ({how})"
+
+
+def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> str:
+    size, timed = study.wording.size_of(name), depends_on_instant(study.rotor)
+    of = ""
+    if name == "shock" and study.survives is not None:
+        of = f"of {study.wording.time(study.survives.duration)}, "
+    elif name == "blade_loss":
+        of = f"change of the unbalance, at the worst phase{' and instant of the turn' if timed else ''}: "
+    if timed and name != "blade_loss":
+        of += f"{ANY_INSTANT}, "
+    parts = [f"cannot touch up to {size(found.harmless)} (proven)"] if found.harmless > 0.0 else []
+    if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
+        parts.append(f"every one comes back up to {study.kicks.told_up_to} (proven)")
+    if found.size is None and found.complete:
+        most = "; with more it cannot levitate" if name == "blade_loss" else ""
+        parts.append(f"all {found.tried:,} tried came back, up to {size(found.largest)}{most}")
+        return of + ", ".join(parts)
+    if found.all_back is not None:
+        parts.append(f"all tried came back up to {size(found.all_back)}")
+    if found.size is None:
+        return of + ", ".join([*parts, "larger ones were not reached"])
+    remarks = "; ".join(each for each in (lost_to(study, name, found), found.sensitivity) if each)
+    which = "" if found.complete else "found "
+    parts.append(f"smallest {which}that does not come back {size(found.size)}{remarks and f' ({remarks})'}")
+    return of + ", ".join(parts if found.complete else [*parts, "smaller ones were not searched to the end"])
+
+
+def lost_to(study: StudyData, name: Kind, found: SmallestLoss) -> str:
+    """Where the smallest disturbance that does not come back ends: ``ends in synchronous rub``; empty if there is none."""
+    if found.outcome is None:
+        return ""
+    # The motions of this machine are not those that a larger unbalance leaves.
+    motions = [] if name == "blade_loss" else [entry.name for entry in study.attractors]
+    return ending_words(found.outcome, motions).removeprefix("it ")
+
+
+def _shares(study: StudyData) -> Iterator[Fact]:
+    """The share of kicks that comes back, and apart from it that of starts elsewhere in the clearance."""
+    share, elsewhere, sure = study.share, study.elsewhere, states_return(study.states)
+    if share is not None and share.total:
+        yield _fact(f"{share.words}, weighted by area", "Share", "sampled", share.document, disturbances="kick")
+    if share is None or elsewhere is None or not elsewhere.total:
+        return
+    upto = study.wording.velocity(study.required.kick)
+    text = f"{elsewhere.count:,} of {elsewhere.total:,} starts spread over the clearance, of up to {upto} in the room, came back; nothing requires them to"
+    if sure:
+        text = f"every start in the clearance, of up to {upto} in the room, comes back, as did {elsewhere.count:,} of {elsewhere.total:,} drawn"
+    values = {"count": elsewhere.count, "total": elsewhere.total, **elsewhere.document}
+    yield _fact(text, "Elsewhere", "proven" if sure else "sampled", values, disturbances="state")
+
+
+def _others(study: StudyData) -> Iterator[Fact]:
+    """Motions besides levitation that can hold the rotor, whether a disturbance reached them or not."""
+    holds: list[tuple[str, tuple[str, ...]]] = []
+    if any(rub.status != "virtual" for rub in study.rubs):
+        stable = "stable " if study.stable_rub else ""
+        holds.append((f"a {stable}{STEADY_WORDS['rub']}", (Outcome.FORWARD_RUB.label,)))
+    if names := tuple(orbit.name for orbit in study.stable_orbits):
+        holds.append((names[0].words if len(names) == 1 else f"{len(names)} kinds of {REGULAR_BOUNCING}", names))
+    rolls = study.known.rolls
+    if rolls.holds if rolls else any(each.name.outcome is Outcome.ROLLING for each in study.attractors):
+        holds.append((Outcome.ROLLING.words, (Outcome.ROLLING.label,)))
+    if holds:
+        there = f"{'besides levitation ' if study.levitates else ''}there {'are' if len(holds) > 1 else 'is'}"
+        evidence: Evidence = "searched" if study.stable_orbits else "closed form" if rolls else "sampled"
+        motions = tuple(motion for _, several in holds for motion in several)
+        yield _fact(f"{there} {listed([words for words, _ in holds])}", "Coexisting", evidence, motions=motions)
+
+
+def judged(study: StudyData) -> tuple[Level, str, str]:
+    """The level, the outcome in a few words, and the reason to stand behind it."""
+    levitation, zone = study.equilibria[0], f"zone {study.zone}"
+    if levitation.status != "admissible":
+        what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
+        whirl = "sag and whirl" if study.heavy else "whirl from unbalance"
+        why = f"its {whirl} {what} the wall of the touchdown bearing"
+        return "no-contact-free-motion", "Cannot run without contact", why
+    if not levitation.stable:
+        why = "its levitation is not damped, so that a disturbance does not die out"
+        if study.rotor.system.limits:
+            why = "its levitation asks for more than its magnetic bearings can give, or is not damped"
+        return "no-contact-free-motion", f"Does not stay in levitation, {zone}", why
+    lost = [_lost_words(study, *found) for found in study.lost_kinds]
+    if lost:
+        return "may-not-come-back", f"Does not come back from all that it must survive, {zone}", listed(lost)
+    if not decides(study.present):
+        outcome = f"Not decided whether it comes back from what it must survive, {zone}"
+        return "not-decided", outcome, "too few disturbances could be followed"
+    outcome = f"Came back each time from what it must survive, {zone}"
+    if kicks_surely_return(study) and len(required_kinds(study.required)) == 1:
+        outcome = f"Comes back from every kick that it must survive, {zone}"
+    return "all-tried-came-back", outcome, _reservations(study)
+
+
+def kicks_surely_return(study: StudyData) -> bool:
+    """Whether every kick that must be survived is proven to come back."""
+    # The largest of a disc that is proven as a whole may differ from its text by rounding.
+    return study.kicks is not None and study.kicks.sure_up_to >= study.required.kick * (1.0 - 1e-12)
+
+
+def _reservations(study: StudyData) -> str:
+    """What has to be said where all that must be survived came back."""
+    parts = ["no guarantee, as disturbances are samples"]
+    if kicks_surely_return(study):
+        others = " and for all starts in the clearance that are no faster" if states_return(study.states) else ""
+        parts = [f"proven for these kicks{others}; no guarantee for other disturbances, which are samples"]
+    if study.bearing_demand is not None and (count := study.bearing_demand.doubtful):
+        parts.append(f"{count} disturbances ask for a faster current than its magnetic bearings have")
+    zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
+    parts += [f"sensitivity in zone {max(zones)} of ISO 14839-3"] if zones else []
+    parts += [] if study.levitating.met else ["a critical speed is nearer than API 617 allows"]
+    return "; ".join(
+        [*parts, *(f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits)]
+    )
+
+
+def _lost_words(study: StudyData, kind: Kind, back: Share | None) -> str:
+    """How many of a kind do not come back, in words."""
+    say, required = study.wording, study.required
+    lost = 1.0 - back.fraction if back else 0.0
+    many = "nearly all" if lost > NEARLY_ALL else "most" if lost > 0.5 else "some"
+    if kind == "blade_loss":
+        return f"{many} losses of a blade are not survived"
+    size = say.velocity(required.kick)
+    if kind == "shock" and required.shock:
+        size = say.acceleration(required.shock.peak)
+    return f"{many} {kind}s of up to {size} do not come back"

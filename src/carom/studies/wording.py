@@ -9,7 +9,7 @@ from typing import Any
 
 from carom.arguments import checked
 from carom.models import Span
-from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.named import own_numbers
 from carom.parameters.told import number, own_entry, told, told_entry
@@ -42,10 +42,10 @@ def no_rigid_wall(indentation: float) -> str:
 
 
 def steel_words(indentation: float) -> str:
-    """Say by how much, in clearances, even a wall of steel gives way."""
+    """Say by how much, in clearances, even a wall of steel is indented."""
     share = f"{number(100.0 * indentation, 2)} %" if indentation < 10.0 else f"{number(indentation, 2)} times"
     what = "of the clearance" if indentation < 10.0 else "the clearance"
-    return f"even solid steel gives way by at least {share} {what}"
+    return f"even solid steel is indented by at least {share} {what}"
 
 
 @checked
@@ -150,6 +150,19 @@ class Wording:
             return {}
         own = {f"{key}_si": own_entry(name, value, self.of_machine)[1] for key, value in values.items()}
         return {"quantity": self.name(name), **own}
+
+    def in_both(self, name: str, **values: float) -> dict[str, Any]:
+        """Values of a parameter, with those in SI units if the machine is known."""
+        return {"parameter": name, **values, **self.in_si(name, **values)}
+
+    def required(self, required: Required) -> list[str]:
+        """What a machine must survive: ``kicks of up to 166 mm/s``, and what else."""
+        parts, shock = [f"kicks of up to {self.velocity(required.kick)}"], required.shock
+        if shock:
+            parts.append(f"shocks of up to {self.acceleration(shock.peak)} over {self.time(shock.duration)}")
+        if required.blade_loss:
+            parts.append(f"the loss of a blade that changes the unbalance by {self.unbalance(required.blade_loss)}")
+        return parts
 
     def where(self, name: str, spans: tuple[Span, ...], searched: Span | None = None) -> str:
         """Say for which values of a parameter something holds: ``below 3,408 N s/m``."""
