@@ -13,10 +13,10 @@ from carom.closed_forms import synchronous_response
 from carom.rotors import Whirl, find_whirls, load_machine
 from carom.rotors.collocation import Collocation
 from carom.studies.facts import about
+from carom.studies.findings import facts_of
 from carom.studies.full_size import DIRECTIONS, all_round, at_full_size
 from carom.studies.levitating import levitating_of_machine
 from carom.studies.standards import required_margin
-from carom.studies.findings import facts_of
 
 pytestmark = pytest.mark.jit_only
 
