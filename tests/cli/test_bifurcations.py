@@ -169,21 +169,3 @@ def test_inputs_that_cannot_be_used(capsys, words, complaint):
 def test_planes_that_cannot_be_used(capsys, words):
     assert main(["regions", PAPER, *words]) == 2
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
-
-
-def test_certificate_is_checked_and_shown_in_the_figure(capsys, tmp_path):
-    prove = ["prove", PAPER, "--along", "gamma", "--from", "0.1", "--to", "0.1001", "--out", str(tmp_path)]
-    assert main(prove) == 0
-    certificate, figure = tmp_path / "proof.json", tmp_path / "figures" / "bifurcations-gamma.svg"
-    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.09", "--to", "0.11", "--proof", str(certificate)]
-    assert main(words) == 2
-    assert "allowed only with --out" in capsys.readouterr().err
-    assert main([*words, "--out", str(tmp_path)]) == 0
-    assert figure.exists()
-    figure.unlink()
-    assert main([*words, "--out", str(tmp_path), "--set", "mu=0.2"]) == 2
-    assert "of another machine: its mu is 0.15" in capsys.readouterr().err
-    certificate.write_text(certificate.read_text().replace('"0.95"', '"0.96"'))
-    assert main([*words, "--out", str(tmp_path)]) == 2
-    assert "is refused" in capsys.readouterr().err
-    assert not figure.exists()

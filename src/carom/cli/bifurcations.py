@@ -8,13 +8,12 @@ import typer
 
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
-from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome, shown
+from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Diagram
     from carom.models import Axis, Rotor
     from carom.parameters import Parameters
-    from carom.proofs import Proof
 
 Impacts = Annotated[
     int,
@@ -51,14 +50,6 @@ Sampled = Annotated[
 Seed = Annotated[
     int | None, typer.Option(metavar="N", min=0, help="Seed of these disturbances, by default 0; with --attractors.")
 ]
-ProofFile = Annotated[
-    str | None,
-    typer.Option(
-        "--proof",
-        metavar="FILE",
-        help="Show in the figure what this certificate of carom prove --along proves; it is checked first.",
-    ),
-]
 AROUND = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
 
@@ -78,7 +69,6 @@ def bifurcations(
     lasting: Lasting = False,
     attractors: Sampled = 0,
     seed: Seed = None,
-    proof: ProofFile = None,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -103,7 +93,6 @@ def bifurcations(
         if seed is not None and not attractors:
             raise InputError("--seed", seed, "allowed only with --attractors")
         check_output(out)
-        proven = _checked(proof, out)
         diagram = find_bifurcations(
             model,
             varied.name,
@@ -118,7 +107,7 @@ def bifurcations(
     document = diagram_document(diagram)
     if out is not None:
         with output_directory(out, case) as output:
-            output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven, virtual=virtual))
+            output.figure(f"bifurcations-{varied.name}", diagram.plot(virtual=virtual))
             output.document(f"bifurcations-{varied.name}", document)
     if as_json:
         print_document(document)
@@ -144,7 +133,6 @@ def regions(
     ] = 24,
     virtual: Virtual = False,
     lasting: Lasting = False,
-    proof: ProofFile = None,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -172,7 +160,6 @@ def regions(
             for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
         ]
         check_output(out)
-        proven = _checked(proof, out)
         found = map_regions(
             subject,
             Plane(axes[0].name, axes[1].name, *ranges),
@@ -184,7 +171,7 @@ def regions(
     document = regions_document(found)
     if out is not None:
         with output_directory(out, case) as output:
-            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven, virtual=virtual))
+            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(virtual=virtual))
             output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
     if as_json:
         print_document(document)
@@ -193,17 +180,6 @@ def regions(
 
         print_map(console(), found)
     say_where(out)
-
-
-def _checked(proof: str | None, out: str | None) -> Proof | None:
-    """Verify the certificate that the figure shows."""
-    if proof is None:
-        return None
-    if out is None:
-        raise InputError("--proof", shown(proof), "allowed only with --out, as it is shown in the figure")
-    from carom.proofs import check
-
-    return check(proof)
 
 
 def _range(subject: Parameters | Rotor, varied: Axis, option: str, given: str | None) -> tuple[float, float]:

@@ -19,15 +19,11 @@ from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
 from carom.plots.coexistence import coexistence, looks_between, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter, told_parameter
-from carom.plots.plane import legend_above
-from carom.plots.proven import proven_line
 from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
 from carom.plots.words import axis_label, number, told_in
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
-    from carom.proofs import Proof
-    from carom.proofs.proven_lines import ProvenLine
 
 POINTS = MappingProxyType(
     {
@@ -92,29 +88,19 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 
 @checked
 @styled
-def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None, virtual: bool = False) -> Figure:
+def bifurcation_diagram(diagram: Diagram, virtual: bool = False) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
     Upper: the radial speed of the orbits at the impact, in mm/s if the machine is known.  Middle: the gap of levitation and, on the right axis, the
     normal force of the rubs; both must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
     motions to which simulated disturbances settled.  The shaft speed is in rpm.
 
-    With a proof along the same parameter, a row below these bars shows where all orbits with one impact a period are
-    proven, and the proven points.
-
     Parameters
     ----------
     virtual : bool
         Draw virtual orbits and equilibria and their special points too, faint.
-
-    Raises
-    ------
-    InputError
-        The proof is along another parameter or of another machine, or the orbits drawn are not those proven.
     """
-    proven = _proven(proof, diagram)
-    rows = len(rows_of(diagram)) + (proven is not None)
-    strip = 0.18 * rows
+    strip = 0.18 * len(rows_of(diagram))
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip))
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = diagram.axis.field.usual_size
@@ -136,11 +122,10 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None, virtual: b
         _equilibrium_branch(panel, diagram, equilibrium, virtual)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
     coexistence(below, diagram, unit)
-    key = [] if proven is None else _proven_row(below, proven, unit)
     upper.set_ylabel(axis_label(r"radial speed at the impact, $\dot r$", "velocity", diagram.model.scales))
     lower.set_ylabel(axis_label("gap of\nlevitation", "length", diagram.model.scales))
     beside.set_ylabel(axis_label("force of rub", "force", diagram.model.scales))
-    aside = label_parameter(below, "x", diagram.axis.field, diagram.model.scales, own=upper)
+    label_parameter(below, "x", diagram.axis.field, diagram.model.scales, own=upper)
     present = _mark_present(diagram, (upper, lower, below), unit)
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     for panel, kinds in ((lower, ("contact-free",)), (beside, ("stable rub", "saddle rub"))):
@@ -154,8 +139,6 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None, virtual: b
     marked = _mark_points(diagram, (upper, lower, below, beside), unit, virtual)
     figure.align_ylabels([upper, lower])
     figure.legend(handles=[*_diagram_key(diagram, marked, virtual), *present], loc="outside lower center", ncols=4)
-    if key:
-        legend_above(upper, key, 2, aside=aside)
     return figure
 
 
@@ -182,24 +165,6 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
         return []
     words = f"present value: {told_parameter(value, diagram.axis.field, diagram.model.scales)}"
     return [panel.axvline(value / unit, gid="present", label=words, **_PRESENT) for panel in panels][:1]
-
-
-def _proven(proof: Proof | None, diagram: Diagram) -> ProvenLine | None:
-    if proof is None:
-        return None
-    # Imported only here: proofs need an extra, which is installed where a proof exists.
-    from carom.proofs.proven_lines import proven_of_diagram
-
-    return proven_of_diagram(proof, diagram)
-
-
-def _proven_row(below: Axes, proven: ProvenLine, unit: float) -> list[Line2D]:
-    """Add a row to the bars of motions; return its legend entries."""
-    ticks, labels = below.get_yticks(), [text.get_text() for text in below.get_yticklabels()]
-    below.axhline(0.5, color="#808080", lw=0.5)
-    below.set_yticks([*ticks, 0.0], [*labels, "proven"])
-    below.set_ylim(-0.6, below.get_ylim()[1])
-    return proven_line(below, proven, "proven: these orbits with one impact a period and no others", 0.0, unit)
 
 
 def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes, Axes], unit: float, virtual: bool) -> list[Look]:

@@ -19,13 +19,11 @@ from carom.plots.figure import StyledFigure
 from carom.plots.numerals import name_regions
 from carom.plots.parameter_axes import label_parameter
 from carom.plots.plane import Floats, legend_above
-from carom.plots.proven import proven_line
 from carom.plots.style import TWO_COLUMNS, styled
 from carom.plots.words import with_symbols
 
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap
-    from carom.proofs import Proof
 
 _BLACK, _MACHINE, _UNEXPLAINED = "#1a1a1a", "#f0e442", "#cc0000"
 _LONGEST_HALF = 100
@@ -36,36 +34,28 @@ _HEIGHT, _LINE = 0.6, 0.135
 
 @checked
 @styled
-def region_map(found: RegionMap, proof: Proof | None = None, virtual: bool = False) -> Figure:
+def region_map(found: RegionMap, virtual: bool = False) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
     Each region has the names of its motions in its area, without those of all regions.  A region without room for them
-    has its number in the JSON document, thin ones beside them with a leader line, and is described below the axes.  A
-    proof along one of the two parameters is shown on the line through the present machine.
+    has its number in the JSON document, thin ones beside them with a leader line, and is described below the axes.
 
     Parameters
     ----------
     virtual : bool
         Draw the curves of virtual motions too, faint.
-
-    Raises
-    ------
-    InputError
-        The proof is along another parameter or of another machine.
     """
     names = [_name(found, region) for region in found.regions]
     listed: set[int] = set()
     while True:  # what is listed changes the layout a little, so that another name may find no room
-        figure, axes, units = _drawn(found, proof, virtual, names, sorted(listed))
+        figure, axes, units = _drawn(found, virtual, names, sorted(listed))
         without = name_regions(axes, found, units, [with_symbols(name) for name in names], listed, virtual=virtual)
         if without <= listed:
             return figure
         listed |= without
 
 
-def _drawn(
-    found: RegionMap, proof: Proof | None, virtual: bool, names: Sequence[str], listed: Sequence[int]
-) -> tuple[Figure, Axes, Floats]:
+def _drawn(found: RegionMap, virtual: bool, names: Sequence[str], listed: Sequence[int]) -> tuple[Figure, Axes, Floats]:
     """Return a figure without the names in the areas, laid out, with its axes and the divisors of the parameters."""
     lines = [f"{number}: {names[number - 1].replace(chr(10), ', ')}" for number in listed]
     if found.everywhere:
@@ -78,11 +68,10 @@ def _drawn(
     units = np.array([axis.field.usual_size for axis in found.axes])
     if not found.model.has_closed_forms:
         _draw_cells(drawn, found, units)
-    # Draw the broad line of non-smooth Hopf bifurcations below all others, and what is proven between them.
+    # Draw the broad line of non-smooth Hopf bifurcations below all others.
     for curve in found.curves:
         if curve.kind == "non-smooth-hopf":
             curve_line(drawn, curve, units, virtual)
-    key = [] if proof is None else _draw_proof(drawn, found, proof, units)
     for curve in found.curves:
         if curve.kind != "non-smooth-hopf":
             curve_line(drawn, curve, units, virtual)
@@ -90,9 +79,7 @@ def _drawn(
     aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
     label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
     drawn.set(xlim=np.array(found.plane.first_range) / units[0], ylim=np.array(found.plane.second_range) / units[1])
-    legend_above(
-        drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual), *key], 3, aside=aside
-    )
+    legend_above(drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual)], 3, aside=aside)
     if lines:
         handles = [Line2D([], [], ls="none", label=words) for words in lines]
         figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
@@ -109,19 +96,6 @@ def _draw_cells(axes: Axes, found: RegionMap, units: np.ndarray) -> None:
     cells[np.searchsorted(ys, places[:, 1]), np.searchsorted(xs, places[:, 0])] = numbers
     axes.pcolormesh(
         xs / units[0], ys / units[1], cells, cmap="Pastel1", vmin=0, vmax=9, shading="nearest", rasterized=True
-    )
-
-
-def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -> list[Line2D]:
-    """Draw what is proven on the line through the present machine; return the legend entries."""
-    # Imported only here: proofs need an extra, which is installed where a proof exists.
-    from carom.proofs.proven_lines import proven_of_plane
-
-    line = proven_of_plane(proof, found)
-    upright = int(line.parameter == found.axes[1].name)
-    height = found.axes[1 - upright].value(found.model) / units[1 - upright]
-    return proven_line(
-        axes, line, "proven: all orbits with one impact a period", float(height), float(units[upright]), bool(upright)
     )
 
 

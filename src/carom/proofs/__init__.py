@@ -28,7 +28,6 @@
 ``several_impacts`` claims about them
 ``seeds``           what is looked at, found in double precision
 ``claims``          claims and proofs
-``proven_lines``    what a proof shows of a diagram or a plane, for figures
 ``proven_kicks``    what a proof shows of a disc of kicks, for figures and studies
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name

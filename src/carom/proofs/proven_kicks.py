@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import pi
 from typing import ClassVar
 
 import numpy as np
@@ -15,12 +16,14 @@ from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
 from carom.proofs.families import KICKS
+from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
-from carom.proofs.proven_lines import check_machine
 from carom.proofs.seeds import doubles_of
 from carom.results import Result
 
+_ROUNDING = 1e-12
+"""Relative difference of numbers of the same machine, once exact and once in doubles."""
 BEYOND = -1
 """Place of the part of a kick that is not in the disc."""
 _HALVED = {BY_SPEED: -1, BY_ANGLE: -2}
@@ -132,7 +135,7 @@ class ProvenKicks(Result):
             rotor = jeffcott(doubles_of(proof.hypotheses))
         else:
             rotor = exact_rotor_of(machine)
-            check_machine(proof.hypotheses, rotor)
+            _check_machine(proof.hypotheses, rotor)
         numbers = proof["kicks recover"].enclosures
         disc = Disc(KICKS, proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])
         return cls(
@@ -263,3 +266,17 @@ def _parts(tree: Tree) -> tuple[KickPart, ...]:
     proven += [KickPart(REFUTED, None, "", shares[REFUTED])] if REFUTED in shares else []
     left = [KickPart(letter, None, OPEN[letter], shares[letter]) for letter in shares if letter in OPEN]
     return (*proven, *sorted(left, key=lambda part: -part.share))
+
+
+def _check_machine(hypotheses: Hypotheses, model: Rotor) -> None:
+    """Compare the numbers of the equations with those of a proof; :class:`~carom.outcome.InputError` if they are others."""
+    parameters = exact_rotor_of(model).parameters
+    for name in NUMBERS:
+        number = hypotheses.numbers[name]
+        scale = pi**number.turns
+        low, high = float(number.low) * scale, float(number.high) * scale
+        value = parameters.omega**2 if name == "omega_squared" else float(getattr(parameters, name))
+        slack = _ROUNDING * abs(value)
+        if not low - slack <= value <= high + slack:
+            words = f"of another machine: its {name} is {low:.12g}"
+            raise InputError("proof", words, f"a proof of this machine, with {name} = {value:.12g}")
