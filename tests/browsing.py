@@ -27,9 +27,9 @@ PROGRAM = """
 import sys
 from types import SimpleNamespace
 from carom.cli import main
-from carom.explorer.page import planar
+from carom.explorer.page import questions
 # A study takes seconds; it has tests of its own.  This is what it says of one of the examples.
-planar.judge = lambda case, tell: SimpleNamespace(
+questions.judge = lambda case, tell: SimpleNamespace(
     advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
     lead="Came back each time from what it must survive, zone C: no guarantee, as disturbances are samples.",
     survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),

@@ -82,7 +82,7 @@ def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
     )
     assert names == [row.name for row in table_of(rotor).rows]
     # The line of the time shown is at the end: the figure is that of the motion, whose instants are in milliseconds.
-    assert said(page, "carom.begun.parts.now.location") == said(page, "carom.begun.parts.history.data.t.at(-1)")
+    assert said(page, "carom.begun.parts.now.location") == said(page, "carom.begun.parts.distances.data.xs[0].at(-1)")
 
 
 @pytest.mark.parametrize(
@@ -271,7 +271,7 @@ def test_motion_can_be_left_out(page):
 
 def test_light_and_dark(page):
     colours = (
-        "[getComputedStyle(document.body).backgroundColor, carom.begun.plots.history.left[0].axis_label_text_color]"
+        "[getComputedStyle(document.body).backgroundColor, carom.begun.plots.distances.left[0].axis_label_text_color]"
     )
     light = said(page, colours)
     page.emulate_media(color_scheme="dark")

@@ -19,7 +19,7 @@ from tornado.websocket import WebSocketClosedError, websocket_connect
 import carom
 from carom.explorer import server as servers
 from carom.explorer.computing.exports import Origin
-from carom.explorer.page import planar
+from carom.explorer.page import questions
 from carom.explorer.server import LEFT, Explorer, _compile
 from carom.outcome import InputError
 
@@ -224,7 +224,7 @@ def test_compiling_is_quiet_only_where_the_program_ends_meanwhile(monkeypatch):
     def fail(rotor):
         raise RuntimeError(words.pop(0))
 
-    monkeypatch.setattr(planar, "table_of", fail)
+    monkeypatch.setattr(questions, "table_of", fail)
     origin, ready = Origin(MACHINE, (), carom.load(MACHINE)), threading.Event()
     _compile(origin, ready)
     assert ready.is_set()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from machines import PAPER
 
-from carom.models import case_of, jeffcott, planar_case_of, rotor_of
+from carom.models import any_case_of, case_of, jeffcott, rotor_of
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Scales, Zones
 
@@ -35,13 +35,8 @@ def test_a_case_keeps_the_machine_it_was_made_from():
         case_of("machine.toml")
 
 
-def test_the_case_of_a_planar_machine_keeps_the_limits_that_it_states():
-    machine = Machine(
-        mass="50 kg", stiffness="9.8e5 N/m", damping="1400 N s/m", speed="184.2 rad/s", eccentricity="0.1 mm",
-        clearance="0.7 mm", rotor_radius="40 mm", friction=0.15, restitution=0.95, force_limit="300 N",
-    )  # fmt: skip
-    case = planar_case_of(machine)
-    assert rotor_of(case).limits == machine.control_limit
-    assert planar_case_of(case) is case
-    with pytest.raises(InputError, match="limits"):
-        planar_case_of(rotor_of(case))  # the limits of a model have no place in a case
+def test_any_rotor_has_a_case():
+    assert any_case_of(MACHINE) == case_of(MACHINE)
+    case = any_case_of(jeffcott(PAPER))
+    assert any_case_of(case) is case
+    assert rotor_of(case) == jeffcott(PAPER)

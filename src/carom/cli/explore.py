@@ -33,12 +33,12 @@ def explore(
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")
     from carom.explorer.computing.exports import Origin
     from carom.explorer.example import example_file
-    from carom.explorer.page.kinds import explored_case_of, kind_of
+    from carom.explorer.page.questions import Questions
     from carom.explorer.server import serve
 
     path = str(example_file()) if machine is None else machine
-    origin = Origin(path, tuple(settings or ()), explored_case_of(load(path, settings or ())))
-    words = kind_of(origin).words()
+    origin = Origin(path, tuple(settings or ()), load(path, settings or ()))
+    words = Questions(origin).words()
     serve(origin, port, browser=browser, tell=lambda address: _print_opening(address, words))
 
 

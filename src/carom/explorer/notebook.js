@@ -28,7 +28,6 @@ const render = ({ model, el }) => {
   el.append(host);
   const { slots, planes } = page;
   let asked = 0, active = 0, chosen = null;
-  at("reading").textContent = page.reading;
 
   // A flight for each kick and plane, with what is said of it below.
   const flights = slots.flatMap((name, slot) => Array.from({ length: planes }, (_, plane) => {

@@ -13,10 +13,11 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.explorer.computing.exports import Origin
-from carom.explorer.page.kinds import explored_case_of, kind_of
+from carom.explorer.page.questions import Questions
 from carom.explorer.page.scripts import PICTURES, joined
 from carom.explorer.page.session import Session
-from carom.models import Subject
+from carom.explorer.page.view import SLOTS
+from carom.models import Subject, any_case_of
 from carom.outcome import CaromError
 from carom.plots.style import LOOKS
 
@@ -25,14 +26,12 @@ from carom.plots.style import LOOKS
 def explore(machine: Subject) -> Any:
     """Where kicks of a machine lead, as a figure in a notebook: point at a kick, and the motion after it is shown.
 
-    The figure is that of ``carom explore`` without its sliders.  Of a planar rotor two kicks are followed: of those
-    that come back, and of those that are lost.
+    The figure is that of ``carom explore`` without its sliders.  Two kicks are followed at each touchdown bearing: of those that come
+    back, and of those that are lost.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        A planar rotor in a touchdown bearing of any kind, or the case or model of a flexible machine, of which one kick is followed at
-        each touchdown bearing.
 
     Returns
     -------
@@ -44,20 +43,20 @@ def explore(machine: Subject) -> Any:
     CaromError
         The extra ``carom[notebook]`` is not installed.
     InputError
-        It is another model.
+        It is none of these.
 
     See Also
     --------
     carom.map_basins : the ends of kicks and other disturbances as data, and as a figure on paper
     """
-    origin = Origin("", (), explored_case_of(machine))
-    kind = kind_of(origin)
-    return _figure_class(kind.slots, kind.planes_shown, kind.frame, kind.reading)(origin)
+    origin = Origin("", (), any_case_of(machine))
+    questions = Questions(origin)
+    return _figure_class(questions.bearings, questions.frame)(origin)
 
 
 @cache
-def _figure_class(slots: tuple[str, ...], planes: int, frame: str, reading: str) -> type:
-    """Class of the figure of machines with so many kicks and touchdown bearings."""
+def _figure_class(planes: int, frame: str) -> type:
+    """Class of the figure of machines with so many touchdown bearings."""
     try:
         from anywidget import AnyWidget
     except ModuleNotFoundError:
@@ -68,7 +67,7 @@ def _figure_class(slots: tuple[str, ...], planes: int, frame: str, reading: str)
     class KickFigure(AnyWidget):  # type: ignore[misc]
         """The figure of one machine: what the browser asks for goes to a session of the page, and its answers come back."""
 
-        _esm = script(slots, planes, frame, reading)
+        _esm = script(planes, frame)
 
         def __init__(self, origin: Origin) -> None:
             super().__init__()
@@ -106,15 +105,14 @@ def encoded(value: Any, buffers: list[bytes]) -> Any:
 
 
 @cache
-def script(slots: tuple[str, ...], planes: int, frame: str, reading: str) -> str:
-    """The figure as a module of JavaScript; see :class:`carom.explorer.page.kind.Kind`."""
+def script(planes: int, frame: str) -> str:
+    """The figure as a module of JavaScript; see :class:`carom.explorer.page.questions.Questions`."""
     page = {
         "body": _beside("notebook.html"),
         "looks": {name: look.colour for name, look in LOOKS.items()},
-        "slots": slots,
+        "slots": SLOTS,
         "planes": planes,
         "frame": frame,
-        "reading": reading,
     }
     return joined(PICTURES) + _beside("notebook.js").replace("PAGE", json.dumps(page), 1)
 

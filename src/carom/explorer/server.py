@@ -31,7 +31,7 @@ from tornado.web import ErrorHandler, RequestHandler
 
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.document import TOKEN, fill, write_page
-from carom.explorer.page.kinds import kind_of
+from carom.explorer.page.questions import Questions
 from carom.explorer.page.session import Session
 from carom.outcome import CaromError, InputError
 
@@ -218,7 +218,7 @@ def _bind(port: int) -> socket.socket:
 def _compile(origin: Origin, ready: threading.Event) -> None:
     """Compile the kernels, or load them, by a first small use."""
     try:
-        kind_of(origin).warm_up()
+        Questions(origin).warm_up()
     except CaromError:
         pass  # the page says what is wrong with this machine
     except RuntimeError as problem:

@@ -114,27 +114,16 @@ def case_of(subject: Subject) -> Case:
     return Case("machine", rotor.parameters, subject if isinstance(subject, Machine) else None, Zones())
 
 
-def planar_case_of(subject: Subject) -> Case:
-    """Case of the planar rotor in a touchdown bearing of any kind, with the default zones; a case is returned as it is.
-
-    A machine and a case may state limits of their magnetic bearings.
+def any_case_of(subject: Subject) -> Case:
+    """Case of any description of a rotor, with the default zones; a case is returned as it is.
 
     Raises
     ------
     InputError
-        It is none of these, another model, has weight, or the centre of the touchdown bearing is off the place of levitation.
+        It is none of these.
     """
-    rotor = rotor_of(subject)
-    if isinstance(subject, Machine | Case):
-        rotor = replace(rotor, limits=())
-        if rotor.has_closed_forms:
-            return subject if isinstance(subject, Case) else Case("machine", rotor.parameters, subject, Zones())
-    given = rotor.definition
-    if not isinstance(given, Planar) or given.bearing is None or not given.levitates or rotor.forces or rotor.limits:
-        return case_of(subject)
-    if given.bearing.centre:
-        allowed = "must be 0 here: off that centre the rotor is never at rest in the frame that turns with the shaft; carom.simulate works"
-        raise InputError("touchdown_offset", given.bearing.offset, allowed)
     if isinstance(subject, Case):
         return subject
-    return Case("machine", given.parameters, None, Zones(), touchdown=given.bearing, drive=given.drive)
+    if isinstance(subject, Machine):
+        return Case("machine", subject.parameters, subject, Zones())
+    return Case("machine", subject if isinstance(subject, Parameters) else rotor_of(subject), None, Zones())

@@ -160,16 +160,20 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
     reduced = rotor.finite_elements
     if reduced is not None:
         return levitating_of_machine(reduced.machine)
-    speed = rotor.scales.speed if rotor.scales else 1.0
-    exponents = speed * (np.asarray(rotor.system.exponents) + 1j)
-    still = np.ones(1, complex)
-    whirls = [
-        Whirl(complex(each), still, 0.0 * still)
-        for each in exponents[np.argsort(np.abs(exponents.imag))]
-        if turns(each)
-    ]
     loop = None if case.machine is None else _loop_of_mass(case.machine)
-    return Levitating(speed, rotor.scales is None, tuple(whirls[:WHIRLS]), (loop,) if loop else ())
+    speed = rotor.scales.speed if rotor.scales else 1.0
+    return Levitating(speed, rotor.scales is None, whirls_of(rotor), (loop,) if loop else ())
+
+
+def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[Whirl, ...]:
+    """The slowest whirls of the levitating rotor: of a flexible machine of all its modes."""
+    reduced = rotor.finite_elements
+    if reduced is not None:
+        return find_whirls(reduced.machine, count=count)
+    exponents = (rotor.scales.speed if rotor.scales else 1.0) * (np.asarray(rotor.system.exponents) + 1j)
+    still = np.ones(1, complex)
+    slowest = exponents[np.argsort(np.abs(exponents.imag))]
+    return tuple([Whirl(complex(each), still, 0.0 * still) for each in slowest if turns(each)][:count])
 
 
 def _loop_of_mass(machine: Machine) -> LoopPeak | None:

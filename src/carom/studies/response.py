@@ -13,10 +13,10 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response, synchronous_response
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Axis, Rotor, Subject, axis, rotor_of
+from carom.models import Axis, Rotor, Subject, any_case_of, axis, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
-from carom.parameters import Case, Machine, Parameters, Zones, read_quantity
+from carom.parameters import read_quantity
 from carom.parameters.fields import RPM
 from carom.results import in_a_line
 from carom.rotors import find_whirls
@@ -96,7 +96,7 @@ def unbalance_response(
     >>> round(response.contact_free.amplification_factor, 3)
     4.797
     """
-    case = _case_of(machine)
+    case = any_case_of(machine)
     model = rotor_of(case)
     if model.scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
@@ -111,15 +111,6 @@ def unbalance_response(
     found = UnbalanceResponse(case, whirl, free, (low, high), run, criticals, None, (), exact)
     rubs = _rubs(found, model, along)
     return replace(found, rubs=rubs, stretches=_stretches(replace(found, rubs=rubs), model, along))
-
-
-def _case_of(subject: Subject) -> Case:
-    """The case of any description of a rotor."""
-    if isinstance(subject, Case):
-        return subject
-    if isinstance(subject, Machine):
-        return Case("machine", subject.parameters, subject, Zones())
-    return Case("machine", subject if isinstance(subject, Parameters) else rotor_of(subject), None, Zones())
 
 
 def _usual_range(free: SpeedResponse | None, run: tuple[float, float]) -> tuple[float, float]:

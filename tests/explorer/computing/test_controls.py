@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import carom
-from carom.explorer.computing.controls import controls_of, unit_of, with_settings
+from carom.explorer.computing.controls import controls_of, in_options, unit_of, values_of, with_settings
 from carom.outcome import InputError
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -26,7 +26,7 @@ def dimensionless():
 
 def test_controls_are_in_units_of_engineers(case):
     found = {control.name: (control.unit, control.value) for control in controls_of(case)}
-    assert list(found) == ["stiffness", "damping", "speed", "eccentricity", "friction", "restitution"]
+    assert list(found) == ["speed", "eccentricity", "stiffness", "damping", "friction", "restitution"]
     assert found["eccentricity"] == ("mm", 0.3)
     assert found["speed"][0] == "rpm"
     assert found["speed"][1] == pytest.approx(184.2 * 30.0 / math.pi, rel=1e-11)
@@ -46,7 +46,7 @@ def test_a_control_whose_value_is_zero_has_a_slider(case, name):
 
 
 def test_machines_without_units_show_their_numbers(dimensionless):
-    assert [control.name for control in controls_of(dimensionless)] == ["omega", "gamma", "rho", "mu", "d"]
+    assert [control.name for control in controls_of(dimensionless)] == ["rho", "omega", "gamma", "mu", "d"]
     assert with_settings(dimensionless, {"gamma": "0.2"}).parameters == dimensionless.parameters.replace(gamma=0.2)
 
 
@@ -78,7 +78,7 @@ def test_nothing_else_is_taken_for_a_number(case, text):
 
 
 def test_only_controls_can_be_set(case):
-    with pytest.raises(InputError, match="clearance = 1 mm: one of: stiffness, damping"):
+    with pytest.raises(InputError, match="clearance = 1 mm: one of: speed, eccentricity"):
         with_settings(case, {"clearance": "1 mm"})
 
 
@@ -103,3 +103,38 @@ def test_a_gain_without_a_magnetic_bearing_is_refused_by_the_box_it_stands_in(ca
         InputError, match=r"^stiffness = 6000 A/m: is a proportional gain[^\n]*force_current_factor[^\n]*$"
     ):
         with_settings(case, {"stiffness": "6000 A/m"})
+
+
+@pytest.fixture(scope="module")
+def flexible():
+    return carom.load(EXAMPLES / "tum-flexible-rotor.toml")
+
+
+def test_parts_have_controls_of_all_together_and_of_each(flexible):
+    controls = {control.name: control for control in controls_of(flexible)}
+    assert list(controls)[:5] == ["speed", "unbalance", "proportional", "integral", "derivative"]
+    assert (controls["proportional_2"].among, controls["proportional_2"].group) == (
+        "proportional",
+        "Each bearing by itself",
+    )
+    assert controls["delay"].value == 0.0 < controls["delay"].high
+    changed = with_settings(flexible, {"proportional_2": "4500", "delay": "0.1 ms"})
+    values = values_of(changed, controls)
+    assert (values["proportional"], values["proportional_1"], values["proportional_2"]) == (None, 5000.0, 4500.0)
+    assert values["delay_1"] == 0.1
+
+
+def test_settings_of_parts_are_those_of_the_command_line(flexible):
+    settings = {"derivative": "7", "unbalance": "G 2.5", "touchdown_stiffness": "2e7"}
+    texts = [f"{name}={text}" for name, text in in_options(flexible, settings).items()]
+    again = carom.load(EXAMPLES / "tum-flexible-rotor.toml", texts)
+    assert values_of(again) == values_of(with_settings(flexible, settings))
+    # e ω = 2.5 mm/s of the whole rotor, in one part.
+    machine = again.parameters.finite_elements.machine
+    assert sum(each.size for each in machine.unbalances) * machine.speed / machine.rotor.mass == pytest.approx(
+        2.5e-3, rel=1e-8
+    )
+
+
+def test_a_gain_that_does_not_hold_the_rotor_can_be_set(flexible):
+    assert not carom.models.rotor_of(with_settings(flexible, {"proportional": "1500"})).system.levitates

@@ -23,6 +23,7 @@ from carom.explorer.computing.rest import rest_of
 from carom.models import jeffcott, rotor_of
 from carom.motions import Trajectory
 from carom.parameters import Requirement, Shock
+from carom.studies import UnbalanceResponse
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 KEOGH, PAPER, RIG = (str(EXAMPLES / name) for name in ("keogh-cole.toml", "source-paper.toml", "tum-test-rig.toml"))
@@ -78,20 +79,19 @@ def pictures(monkeypatch):
     """Have pictures written without being drawn; return what is written."""
     written: list[str] = []
     picture = SimpleNamespace(savefig=written.append)
-    for result in (Basin, Trajectory, Diagram):
+    for result in (Basin, Trajectory, Diagram, UnbalanceResponse):
         monkeypatch.setattr(result, "plot", lambda self: picture)
     return written
 
 
 @pytest.mark.jit_only
 @pytest.mark.parametrize("changes", [{"damping": "2500"}, {"damping": "300"}])
-def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, monkeypatch, tmp_path):
+def test_the_program_computes_what_is_shown(changes, capsys, monkeypatch, tmp_path):
     given = origin()
     case = shown(given, changes)
     rotor = jeffcott(case.parameters)
     (along,) = (one for one in controls_of(given.case) if one.name == "damping")
-    program = as_python(case, Kick(planes_of(given.case)[0], rest_of(rotor), 0.3, 0.1, 1.5), along)
-    assert given.path not in program
+    program = as_python(given, changes, rotor, Kick(planes_of(given.case)[0], rest_of(rotor), 0.3, 0.1, 1.5), along)
     monkeypatch.chdir(tmp_path)
     written, names = pictures(monkeypatch), {}
     exec(program.replace("(120, 120)", str((sized(20, 4),) * 2)), names)
@@ -103,7 +103,9 @@ def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, m
     assert names["diagram"].interval == pytest.approx((280.0, 7000.0))
     assert motion.outcome.meaning in capsys.readouterr().out
     assert written == [
-        name for name in ("basin.png", "motion.png", "diagram.png") if name != "basin.png" or rest_of(rotor).levitates
+        name
+        for name in ("basin.png", "motion.png", "response.png", "diagram.png")
+        if name != "basin.png" or rest_of(rotor).levitates
     ]
 
 
@@ -119,7 +121,7 @@ def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, m
 def test_machines_are_told_in_the_program(given, changes):
     case = shown(given, changes)
     kick = Kick(planes_of(case)[0], rest_of(jeffcott(case.parameters)), 0.1, 0.0, 1.0)
-    program = as_python(case, kick, controls_of(case)[0])
+    program = as_python(given, changes, jeffcott(case.parameters), kick, controls_of(case)[0])
     names: dict[str, object] = {}
     exec(program[: program.index("basin =")], names)
     told = rotor_of(names["machine"])
@@ -158,11 +160,11 @@ def test_shocks_and_losses_of_a_blade_are_copied_too(name, capsys, monkeypatch, 
     outcome = carom.simulate(after, state, settle=True).outcome
     assert main([*shlex.split(as_command(given, {}, rotor, kick))[1:], "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["outcome"] == outcome.label
-    program, names = as_python(given.case, kick, controls_of(given.case)[1]), {}
+    program, names = as_python(given, {}, rotor, kick, controls_of(given.case)[1]), {}
     monkeypatch.chdir(tmp_path)
     pictures(monkeypatch)
     program = program.replace("(60, 120)", "(4, 6)").replace("(360,)", "(6,)")
-    exec(program[: program.index("orbits =")], names)
+    exec(program[: program.index("response =")], names)
     assert names["motion"].outcome == outcome
     assert names["basin"].starts in (24, 6)
 

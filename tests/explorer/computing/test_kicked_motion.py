@@ -10,9 +10,9 @@ from machines import PAPER
 import carom
 from carom.explorer.computing.kicked_motion import LONGEST, MOST_IMPACTS, follow_kick
 from carom.explorer.computing.kicks import map_kicks
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import jeffcott
+from carom.models import jeffcott, rotor_of
 from carom.outcome import InputError, Outcome
 from carom.plots import OUTCOMES
 
@@ -33,20 +33,20 @@ def test_it_is_the_motion(rotor, radial, tangential):
     assert kicked.outcome == motion.outcome.label
     positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(kicked.times.astype(float))
     # Times of single precision at speeds of the order of one.
-    np.testing.assert_allclose(kicked.x + 1j * kicked.y, positions, atol=LONGEST * SINGLE)
-    count = len(kicked.impact_times)
+    np.testing.assert_allclose(kicked.planes[0].x + 1j * kicked.planes[0].y, positions, atol=LONGEST * SINGLE)
+    count = len(kicked.planes[0].impact_times)
     known = min(count, len(motion.contacts.time))
-    np.testing.assert_allclose(kicked.impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
-    assert kicked.hardest == motion.contacts.normal_impulse.max()
-    assert np.hypot(kicked.x, kicked.y).max() <= 1.0 + SINGLE
+    np.testing.assert_allclose(kicked.planes[0].impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
+    assert kicked.planes[0].hardest == motion.contacts.normal_impulse.max()
+    assert np.hypot(kicked.planes[0].x, kicked.planes[0].y).max() <= 1.0 + SINGLE
 
 
 def test_every_impact_is_on_the_wall_at_its_instant():
     kicked = follow_kick(BOUNCING, KICKS, 0.6, 0.1)
-    places = np.searchsorted(kicked.times, kicked.impact_times)
-    np.testing.assert_allclose(np.hypot(kicked.x, kicked.y)[places], 1.0, atol=SINGLE)
-    angles = np.angle(kicked.x + 1j * kicked.y)[places]
-    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * kicked.impact_angles), atol=LONGEST * SINGLE)
+    places = np.searchsorted(kicked.times, kicked.planes[0].impact_times)
+    np.testing.assert_allclose(np.hypot(kicked.planes[0].x, kicked.planes[0].y)[places], 1.0, atol=SINGLE)
+    angles = np.angle(kicked.planes[0].x + 1j * kicked.planes[0].y)[places]
+    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * kicked.planes[0].impact_angles), atol=LONGEST * SINGLE)
 
 
 def test_each_flight_has_the_colour_of_its_cell():
@@ -65,7 +65,12 @@ def test_each_flight_has_the_colour_of_its_cell():
 
 def test_a_small_kick_never_strikes():
     kicked = follow_kick(ROTOR, KICKS, 1e-4, 0.0)
-    assert (kicked.outcome, kicked.hardest, len(kicked.impact_times), kicked.spans) == ("levitated", 0.0, 0, ())
+    assert (kicked.outcome, kicked.planes[0].hardest, len(kicked.planes[0].impact_times), kicked.planes[0].spans) == (
+        "levitated",
+        0.0,
+        0,
+        (),
+    )
     assert kicked.words == "A kick of 0.0001 c_r Ω at 217° ends in levitation without an impact."
     assert kicked.whole
 
@@ -73,14 +78,14 @@ def test_a_small_kick_never_strikes():
 def test_no_kick_at_all_can_be_drawn():
     kicked = follow_kick(ROTOR, KICKS, 0.0, 0.0)
     assert kicked.times[-1] > 0.0
-    assert np.ptp(kicked.x) < SINGLE
+    assert np.ptp(kicked.planes[0].x) < SINGLE
 
 
 def test_long_motions_are_cut_and_say_so():
     weak = jeffcott(PAPER.replace(gamma=0.09))
     kicked = follow_kick(weak, KICKS, 0.9, 0.4)
     assert kicked.times[-1] <= LONGEST * (1.0 + SINGLE)
-    assert len(kicked.impact_times) <= MOST_IMPACTS
+    assert len(kicked.planes[0].impact_times) <= MOST_IMPACTS
     assert not kicked.whole
 
 
@@ -88,13 +93,30 @@ def test_lasting_contact_is_told_in_words_and_colours():
     kicked = next(
         found
         for speed in (0.4, 0.6, 0.9, 1.2, 1.5)
-        if (found := follow_kick(ROTOR, KICKS, speed, 0.3)).outcome == "forward-rub" and found.spans
+        if (found := follow_kick(ROTOR, KICKS, speed, 0.3)).outcome == "forward-rub" and found.planes[0].spans
     )
-    assert kicked.spans[-1].words.startswith("sliding")
-    assert kicked.spans[-1].end <= kicked.times[-1] * (1.0 + SINGLE)
+    assert kicked.planes[0].spans[-1].words.startswith("sliding")
+    assert kicked.planes[0].spans[-1].end <= kicked.times[-1] * (1.0 + SINGLE)
     assert kicked.colour == OUTCOMES[Outcome.FORWARD_RUB.label].colour
 
 
 def test_what_cannot_start_is_refused():
     with pytest.raises(InputError, match="start velocity"):
         follow_kick(ROTOR, KICKS, float("nan"), 0.0)
+
+
+@pytest.mark.jit_only
+def test_a_flexible_machine_is_followed_at_each_touchdown_bearing():
+    case = carom.load("examples/tum-flexible-rotor.toml")
+    rotor = rotor_of(case)
+    kicks = planes_of(case)[0]
+    size = kicks.own(0.3, rotor.scales)
+    kicked = follow_kick(rotor, kicks, size, 0.0)
+    motion = carom.simulate(rotor, rest_of(rotor).kicked(size, 0.0), settle=True)
+    assert kicked.outcome == motion.outcome.label
+    for place, found in enumerate(kicked.planes):
+        touches = motion.seen_at(place).touches
+        assert found.hardest == touches.peak_force.max()
+        assert found.words.startswith(f"{len(touches)} contact")
+        assert 0.5 < found.force.max() / (found.hardest * motion.seen_at(place).scales.force) <= 1.0 + SINGLE
+    assert "touchdown bearings 1 and 2" in kicked.words

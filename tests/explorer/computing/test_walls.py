@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 import carom
-from carom.explorer.computing.walls import RIGID, YIELDING, hits_of, wall_of
+from carom.explorer.computing.walls import COMPLIANT, RIGID, hits_of, wall_at
 from carom.models import jeffcott
 from carom.parameters import LoadLimits, Parameters, Scales, TouchdownBearing
 
@@ -22,8 +22,8 @@ def motion():
 
 
 def test_the_wall_is_that_of_the_rotor():
-    assert wall_of(SOFT) is YIELDING
-    assert wall_of(jeffcott(PLANAR)) is RIGID
+    assert wall_at(SOFT, 0) is COMPLIANT
+    assert wall_at(jeffcott(PLANAR), 0) is RIGID
 
 
 def test_impacts_of_a_rigid_wall_are_those_of_its_log():
@@ -49,7 +49,7 @@ def test_arrivals_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_m
 
 
 def test_force_and_depth_are_told_with_their_units(motion):
-    words = YIELDING.told(hits_of(motion), SCALES)
+    words = COMPLIANT.told(hits_of(motion), SCALES)
     force, depth = words.split(", largest depth ")
     assert float(force.removeprefix("largest force ").removesuffix(" N").replace(",", "")) == pytest.approx(
         hits_of(motion).hardest * SCALES.force,
@@ -69,6 +69,6 @@ def test_a_contact_in_which_a_motion_begins_is_no_arrival_but_its_force_counts()
 def test_a_limit_of_the_force_is_told_beside_the_largest():
     force = 0.5 * SCALES.force
     stated = LoadLimits(force=force)
-    assert YIELDING.beside(0.4, stated, SCALES).endswith(": kept")
-    assert YIELDING.beside(0.6, stated, SCALES) == f"; limit {LoadLimits.told('force', force)}: exceeded"
-    assert YIELDING.beside(0.6, LoadLimits(), SCALES) == RIGID.beside(0.6, stated, SCALES) == ""
+    assert COMPLIANT.beside(0.4, stated, SCALES).endswith(": kept")
+    assert COMPLIANT.beside(0.6, stated, SCALES) == f"; limit {LoadLimits.told('force', force)}: exceeded"
+    assert COMPLIANT.beside(0.6, LoadLimits(), SCALES) == RIGID.beside(0.6, stated, SCALES) == ""

@@ -16,15 +16,16 @@ from carom.explorer.background import SupersededError
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page import document as documents
 from carom.explorer.page.document import fill, write_page
-from carom.explorer.page.figures import looks, make_figures
-from carom.explorer.page.kinds import kind_of
+from carom.explorer.page.figures import FIGURES, looks, make_figures
 from carom.explorer.page.models import Answers
-from carom.explorer.page.scripts import FLEXIBLE, PICTURES, PLANAR, joined
+from carom.explorer.page.questions import Questions
+from carom.explorer.page.scripts import PAGE, PICTURES, joined
+from carom.explorer.page.view import SLOTS
 from carom.plots import LOOKS
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 MACHINE, OF_ROTOR = str(EXAMPLES / "keogh-cole.toml"), str(EXAMPLES / "tum-flexible-rotor.toml")
-KINDS = {"planar": (MACHINE, PLANAR), "flexible": (OF_ROTOR, FLEXIBLE)}
+KINDS = {"planar": MACHINE, "flexible": OF_ROTOR}
 FILES = Path(documents.__file__).parent / "files"
 
 
@@ -35,7 +36,7 @@ def kind(request):
 
 @pytest.fixture
 def filled(kind):
-    document, path = Document(), KINDS[kind][0]
+    document, path = Document(), KINDS[kind]
     session = fill(document, Origin(path, (), carom.load(path)), threading.Event())
     yield document
     session.close()
@@ -43,7 +44,7 @@ def filled(kind):
 
 @pytest.fixture(scope="module")
 def pages():
-    return {kind: written(carom.load(path)) for kind, (path, _) in KINDS.items()}
+    return {kind: written(carom.load(path)) for kind, path in KINDS.items()}
 
 
 @pytest.fixture
@@ -56,7 +57,10 @@ def written(case):
 
 
 def test_it_holds_the_figures_and_what_browser_and_server_share(filled, kind):
-    figures = {"planar": ["history", "section", "diagram"], "flexible": ["response", "distances", "forces"]}
+    figures = {
+        "planar": ["distances", "section", "response", "diagram"],
+        "flexible": ["distances", "section", "forces", "response"],
+    }
     assert [root.name for root in filled.roots] == figures[kind]
     assert {model.name for model in filled.select({"name": "requests"})} == {"requests"}
     assert {model.name for model in filled.select({"name": "answers"})} == {"answers"}
@@ -87,10 +91,10 @@ def test_the_page_has_a_place_for_each_figure_of_any_session(filled, page):
 def test_the_page_has_a_slider_and_a_box_for_every_control(pages):
     page = pages["planar"]
     assert re.findall(r'data-name="(\w+)"', page) == [
-        "stiffness",
-        "damping",
         "speed",
         "eccentricity",
+        "stiffness",
+        "damping",
         "friction",
         "restitution",
     ]
@@ -100,14 +104,13 @@ def test_the_page_has_a_slider_and_a_box_for_every_control(pages):
 
 def test_the_page_of_a_flexible_machine_has_a_flight_for_each_touchdown_bearing_and_folds_single_parts(pages):
     page = pages["flexible"]
-    assert re.findall(r'data-plane="(\d)"', page) == ["0", "1"]
+    assert re.findall(r'data-slot="(\d)" data-plane="(\d)"', page) == [("0", "0"), ("0", "1"), ("1", "0"), ("1", "1")]
     whole, folded = page.split('<details class="folded">')
     assert re.findall(r'data-name="(\w+)"', whole) == [
         "speed", "unbalance", "proportional", "integral", "derivative", "filter_time", "delay",
         "clearance", "friction", "touchdown_stiffness", "touchdown_dissipation",
     ]  # fmt: skip
     assert set(re.findall(r'data-name="proportional_(\d)"', folded)) == {"1", "2"}
-    assert 'id="motions"' not in page
 
 
 def test_names_of_machines_are_not_taken_for_markup():
@@ -117,8 +120,8 @@ def test_names_of_machines_are_not_taken_for_markup():
 
 
 def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(page, kind):
-    assert {path.name for path in FILES.glob("*.js")} == {*PLANAR, *FLEXIBLE}
-    for name in KINDS[kind][1]:
+    assert {path.name for path in FILES.glob("*.js")} == {*PAGE}
+    for name in PAGE:
         lines = (FILES / name).read_text(encoding="utf-8").splitlines()
         for line in lines:
             assert line.startswith("import ") or line.removeprefix("export ") in page
@@ -126,18 +129,19 @@ def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(page,
 
 
 def test_the_scripts_use_only_what_the_page_and_the_answers_have(page, kind):
-    path, names = KINDS[kind]
-    scripts = "\n".join((FILES / name).read_text(encoding="utf-8") for name in names)
-    for name in re.findall(r'\bat\("([\w-]+)"\)', scripts):
+    scripts = "\n".join((FILES / name).read_text(encoding="utf-8") for name in PAGE)
+    optional = {"prove", "proven", "places", "told", "response-keys", "forces-words", "diagram-words", "along"}
+    for name in set(re.findall(r'\bat\("([\w-]+)"\)', scripts)) - (
+        optional if kind == "flexible" else {"forces-words"}
+    ):
         assert f'id="{name}"' in page, name
-    machine = kind_of(Origin(path, (), carom.load(path)))
-    shown = set(re.findall(r'carom\.on\("(\w+)"', scripts)) | set(machine.slots)
-    tasks = (*machine.long.values(), *machine.wished.values())
-    assert shown == {"state", "reply", "exports", *machine.quick, *(task.answer for task in tasks)} | (
-        {"loss", "proven"} if kind == "flexible" else set()  # the picture and its ring are ready for them
-    )
+    machine = Questions(Origin(KINDS[kind], (), carom.load(KINDS[kind])))
+    tasks = (*machine.long.values(), *machine.on_request.values())
+    answered = {"state", "reply", "exports", *machine.quick, *(task.answer for task in tasks)}
+    shown = set(re.findall(r'carom\.on\("(\w+)"', scripts)) | set(SLOTS)
+    assert shown == answered | {"diagram"}  # which a flexible machine has not
     assert shown <= set(Answers.properties())
-    parts = make_figures(machine.figures).parts
+    parts = make_figures(tuple(FIGURES)).parts
     for name in re.findall(r"\bparts\.(\w+)", scripts):
         assert name in parts or name in ("push",), name
 

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import Any
 
 from carom.models import rotor_of
 from carom.outcome import InputError, Problems, printable, shown
-from carom.parameters import SETTINGS, Case, TouchdownBearing, read_quantity
-from carom.parameters.fields import Field
-from carom.parameters.terms import TERM_FIELDS, set_by
+from carom.parameters import MACHINE_FIELDS, SETTINGS, TERM_FIELDS, Case, Field, read_quantity
+from carom.parameters.terms import set_by
 from carom.parameters.touchdown_bearing import PREFIX
 
 _BARE = re.compile(r"[\s\d.,'+-]*\d[\s\d.,']*(?:[eE][+-]?\d+)?\s*")
 """A number without a unit, which is in the unit shown beside its box."""
+SHAFT, MAGNETS, TOUCHDOWNS = "The shaft", "The magnetic bearings", "The touchdown bearings"
+SINGLE = "Each bearing by itself"
+"""Headings of the controls, in their order."""
 
 
 @dataclass(frozen=True)
@@ -48,123 +53,191 @@ class Control:
     low: float
     high: float
     logarithmic: bool
-    group: str = "The machine"
+    group: str = SHAFT
     among: str = ""
-
-    def setting(self, value: float) -> str:
-        """A value as text that :func:`with_settings` reads, rounded to four digits."""
-        return f"{float(f'{value:.4g}'):g} {self.unit}".strip()
 
 
 @dataclass(frozen=True)
 class _Kind:
+    group: str
     words: str
     unit: str
     reach: float
-    """Ratio of the end of the slider to the value of the machine."""
+    """Ratio of the ends of the slider to the value of the machine."""
     least: float = 0.0
-    """Least end of the slider, where the value of the machine is small."""
-    most: float = float("inf")
-    logarithmic: bool = False
+    """Least upper end of the slider, where the value of the machine is small."""
+    most: float = math.inf
+    logarithmic: bool = True
     low: float = 0.0
     """Lower end of a slider that is not logarithmic, unless the value of the machine lies below it."""
 
 
 _KINDS: Mapping[str, _Kind] = {
-    "stiffness": _Kind("stiffness (P gain)", "N/m", 4.0, logarithmic=True),
-    "damping": _Kind("damping (D gain)", "N s/m", 5.0, logarithmic=True),
-    "speed": _Kind("speed", "rpm", 2.0),
-    "eccentricity": _Kind("unbalance (eccentricity)", "mm", 2.0),
-    "friction": _Kind("friction", "", 2.0, least=0.5, most=10.0),
+    "speed": _Kind(SHAFT, "speed", "rpm", 2.0, logarithmic=False),
+    "eccentricity": _Kind(SHAFT, "unbalance (eccentricity)", "mm", 2.0, logarithmic=False),
+    "unbalance": _Kind(SHAFT, "unbalance", "g mm", 4.0, logarithmic=False),
+    "stiffness": _Kind(MAGNETS, "stiffness (P gain)", "N/m", 4.0),
+    "damping": _Kind(MAGNETS, "damping (D gain)", "N s/m", 5.0),
+    "proportional": _Kind(MAGNETS, "P gain: stiffness", "A/m", 3.0),
+    "integral": _Kind(MAGNETS, "I gain: takes out the sag", "A/m/s", 10.0, least=5000.0),
+    "derivative": _Kind(MAGNETS, "D gain: damping", "A s/m", 4.0, least=10.0),
+    "filter_time": _Kind(MAGNETS, "filter of the D part", "ms", 10.0),
+    "delay": _Kind(MAGNETS, "delay of the controller", "ms", 5.0, least=0.2, logarithmic=False),
+    "amplifier_bandwidth": _Kind(MAGNETS, "bandwidth of the amplifier", "Hz", 10.0),
+    "current_limit": _Kind(MAGNETS, "largest current", "A", 5.0),
+    "force_limit": _Kind(MAGNETS, "largest force", "N", 5.0),
+    "slew_rate_limit": _Kind(MAGNETS, "fastest change of current", "A/s", 5.0),
+    "clearance": _Kind(TOUCHDOWNS, "clearance", "mm", 3.0),
+    "friction": _Kind(TOUCHDOWNS, "friction", "", 2.0, least=0.5, most=10.0, logarithmic=False),
+    "restitution": _Kind(TOUCHDOWNS, "restitution", "", 1.0, least=1.0, most=1.0, logarithmic=False),
+    "touchdown_stiffness": _Kind(TOUCHDOWNS, "touchdown stiffness", "N/m", 10.0),
+    "touchdown_restitution": _Kind(
+        TOUCHDOWNS, "touchdown restitution", "", 1.0, least=1.0, most=1.0, logarithmic=False, low=0.05
+    ),
+    "touchdown_damping": _Kind(TOUCHDOWNS, "touchdown damping", "N s/m", 10.0, least=1000.0),
+    "touchdown_dissipation": _Kind(TOUCHDOWNS, "touchdown dissipation", "s/m", 10.0, least=1.0),
 }
 _DIMENSIONLESS: Mapping[str, _Kind] = {
-    "omega": _Kind("stiffness: frequency ω over speed", "", 2.0, logarithmic=True),
-    "gamma": _Kind("damping γ", "", 5.0, logarithmic=True),
-    "rho": _Kind("unbalance ρ", "", 2.0),
-    "mu": _Kind("friction μ", "", 2.0, least=0.5, most=10.0),
+    "rho": _Kind(SHAFT, "unbalance ρ", "", 2.0, logarithmic=False),
+    "omega": _Kind(MAGNETS, "stiffness: frequency ω over speed", "", 2.0),
+    "gamma": _Kind(MAGNETS, "damping γ", "", 5.0),
+    "mu": _Kind(TOUCHDOWNS, "friction μ", "", 2.0, least=0.5, most=10.0, logarithmic=False),
+    "d": _Kind(TOUCHDOWNS, "restitution d", "", 1.0, least=1.0, most=1.0, logarithmic=False),
 }
-_OF_WALL: Mapping[str, _Kind] = {
-    "restitution": _Kind("restitution", "", 1.0, least=1.0, most=1.0),
-    "d": _Kind("restitution d", "", 1.0, least=1.0, most=1.0),
-}
-"""What a rigid wall has, of a machine and of a dimensionless one."""
-_OF_BEARING: Mapping[str, _Kind] = {
-    "touchdown_stiffness": _Kind("touchdown stiffness", "N/m", 10.0, logarithmic=True),
-    "touchdown_restitution": _Kind("touchdown restitution", "", 1.0, least=1.0, most=1.0, low=0.05),
-    "touchdown_damping": _Kind("touchdown damping", "N s/m", 10.0, least=1000.0, logarithmic=True),
-    "touchdown_dissipation": _Kind("touchdown dissipation", "s/m", 10.0, least=1.0, logarithmic=True),
-}
-"""What a touchdown bearing that gives way has; of its losses that which is stated."""
+"""The same of a rotor without scales."""
+_FIRST = 0.5
+"""Lower end of the slider of the speed, over the speed of the machine."""
+_STATED_AT_ZERO = ("unbalance", "proportional", "integral", "derivative", "delay")
+"""Of what several parts may have, what has a slider although it is zero."""
 
 
 def controls_of(case: Case) -> tuple[Control, ...]:
-    """Controls of a machine: in engineering units, or of a dimensionless one its numbers."""
-    values = values_of(case)
-    return tuple(_control(name, kind, values[name]) for name, kind in _kinds_of(case).items())
+    """Controls of a machine, those of single parts last: in engineering units, or of one without scales its numbers."""
+    return (*_shared(case), *_single(case))
 
 
-def values_of(case: Case) -> dict[str, float]:
-    """Values of a machine's controls, in their units."""
+def values_of(case: Case, controls: Mapping[str, Control] | None = None) -> dict[str, float | None]:
+    """Values of the controls of a machine, in their units; ``None`` of those of all parts that now differ."""
+    named = {each.name: each for each in controls_of(case)} if controls is None else controls
+    return {name: _value(case, name, control.unit) for name, control in named.items()}
+
+
+def _named(case: Case) -> Any:
+    """What has the parameters: a flexible machine, of which also those that are zero can be set, or the rotor."""
     rotor = rotor_of(case)
-    return {name: float(f"{rotor.value(name) / unit_of(name):.12g}") for name in _kinds_of(case)}
+    return rotor if rotor.finite_elements is None else rotor.finite_elements.machine
 
 
-def _kinds_of(case: Case) -> Mapping[str, _Kind]:
-    own, restitution = (_DIMENSIONLESS, "d") if case.machine is None else (_KINDS, "restitution")
-    of_wall = {restitution: _OF_WALL[restitution]} if restitution in rotor_of(case).varied else {}
-    return {**own, **of_wall, **(_kinds_of_bearing(case.touchdown) if case.touchdown else {})}
+def _entries(case: Case) -> Mapping[str, Any]:
+    """Entries that parts of a machine have, by name; none of a rotor with one of each."""
+    reduced = rotor_of(case).finite_elements
+    return {} if reduced is None else reduced.machine.entries
 
 
-def _kinds_of_bearing(bearing: TouchdownBearing) -> Mapping[str, _Kind]:
-    """Those of the entries that the bearing states, in SI units: that of the stiffness depends on its exponent."""
-    given = {PREFIX + name: bearing.unit(name) for name in bearing.given}
-    return {name: replace(kind, unit=given[name]) for name, kind in _OF_BEARING.items() if name in given}
+def _kinds(case: Case) -> Mapping[str, _Kind]:
+    return _KINDS if case.parameters.scales else _DIMENSIONLESS
+
+
+def _shared(case: Case) -> Iterator[Control]:
+    fields, parts, bearing = _named(case).varied, _entries(case), rotor_of(case).bearing_at(0)
+    stated = bearing.given if bearing else {}
+    for name, kind in _kinds(case).items():
+        # Of a touchdown bearing what it states; an entry that is not stated follows from others.
+        if name not in fields or (name.startswith(PREFIX) and not parts and name.removeprefix(PREFIX) not in stated):
+            continue
+        if name == "clearance" and not parts:  # on which the units of the equations depend
+            continue
+        value = _value(case, name, _unit(case, name, kind))
+        if value is not None and (value or name not in parts or name in _STATED_AT_ZERO):
+            yield _control(case, name, kind, value)
+
+
+def _single(case: Case) -> Iterator[Control]:
+    """One for each part that is not the only one of its kind."""
+    shared = {control.name for control in _shared(case)}
+    for name, entry in _entries(case).items():
+        own = entry.entry
+        if name == own or own not in _KINDS or len(entry.parts.of(_named(case))) < 2:
+            continue
+        kind, number = _KINDS[own], name.rpartition("_")[2]
+        value = _value(case, name, _unit(case, name, kind))
+        if value or own in _STATED_AT_ZERO:
+            part = {MAGNETS: "magnetic bearing", TOUCHDOWNS: "touchdown bearing"}.get(kind.group)
+            words = f"{part} {number}: {kind.words.partition(':')[0]}" if part else f"{kind.words} {number}"
+            found = _control(case, name, replace(kind, words=words), value or 0.0)
+            yield replace(found, group=SINGLE, among=own if own in shared else "")
+
+
+def _value(case: Case, name: str, unit: str) -> float | None:
+    """Value of a parameter in a unit; ``None`` if parts differ in it."""
+    named = _named(case)
+    try:
+        return float(f"{named.value(name) / _size(named.varied[name], unit):.12g}")
+    except InputError:
+        return None
+
+
+def _unit(case: Case, name: str, kind: _Kind) -> str:
+    """Unit of a control: that of a stiffness depends on its exponent."""
+    if not name.startswith("touchdown_stiffness"):
+        return kind.unit
+    place = int(name.rpartition("_")[2]) - 1 if name[-1].isdigit() else 0
+    bearing = _named(case).touchdowns[place].bearing if _entries(case) else rotor_of(case).bearing_at(0)
+    return str(bearing.unit("stiffness"))
+
+
+def _size(field: Field, unit: str) -> float:
+    """Size of a unit, in SI units, of which that of a curved stiffness is one."""
+    return read_quantity(replace(field, lowest=0.0, highest=math.inf), f"1 {unit}") if unit and "^" not in unit else 1.0
 
 
 def unit_of(name: str) -> float:
-    """Size in SI units of the unit in which the page shows a parameter."""
-    if name in _OF_BEARING:
-        return 1.0
-    unit = {**_KINDS, **_DIMENSIONLESS, **_OF_WALL}[name].unit
-    return read_quantity(SETTINGS[name], f"1 {unit}") if unit else 1.0
+    """Size in SI units of the unit in which the page shows a parameter of the planar rotor."""
+    return _size(SETTINGS[name], _KINDS[name].unit) if name in _KINDS and not name.startswith(PREFIX) else 1.0
 
 
-def _control(name: str, kind: _Kind, value: float) -> Control:
+def _control(case: Case, name: str, kind: _Kind, value: float) -> Control:
     logarithmic = kind.logarithmic and value > 0.0
     high = min(max(kind.reach * value, kind.least), kind.most) or 1.0
-    low = value / kind.reach if logarithmic or name == "speed" else min(kind.low, value)
-    return Control(name, kind.words, kind.unit, value, low, high, logarithmic)
+    low = value / kind.reach if logarithmic else _FIRST * value if name == "speed" else min(kind.low, value)
+    return Control(name, kind.words, _unit(case, name, kind), value, low, high, logarithmic, kind.group)
 
 
 def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
-    """Return the machine with other values of its controls.
+    """Return the machine with other values of its controls, whether it then levitates or not.
 
     A value is text: a number in the unit shown on the page, with a unit of its own, or in a term that a machine file may state
     instead, such as ``90 g mm`` for the eccentricity.  Unknown names and values that are not allowed are refused, all at once.
     """
-    kinds = _kinds_of(case)
+    units = {control.name: control.unit for control in controls_of(case)} if settings else {}
     problems = Problems()
     entries: dict[str, str | float] = {}
-    for name, text in settings.items():
-        if name not in kinds:
-            problems.errors.append(InputError(shown(name), shown(text), f"one of: {', '.join(kinds)}"))
+    for name, text in _without_terms(case, settings, units).items():
+        if name not in units:
+            problems.errors.append(InputError(shown(name), shown(text), f"one of: {', '.join(units)}"))
             continue
-        entry = problems.attempt(_entry, case, name, text)
+        entry = problems.attempt(_entry, case, name, units[name], text)
         if entry is not None:
             entries.update([entry])
     problems.raise_all()
-    return case.replace(**entries)
+    reduced = rotor_of(case).finite_elements
+    if reduced is None or not entries:
+        return case.replace(**entries)
+    changed = reduced.of(reduced.machine.replace(**entries))
+    return replace(case, parameters=replace(changed.unchecked, limits=changed.limits or ()))
 
 
-def _entry(case: Case, name: str, text: str) -> tuple[str, str | float]:
+def _entry(case: Case, name: str, unit: str, text: str) -> tuple[str, str | float]:
     """The entry of a machine file that a text sets, with its value: the control itself, or a term that stands for it."""
-    unit = _kinds_of(case)[name].unit
-    if name in _OF_BEARING:
-        text = with_unit(unit, text)
-        case.replace(**{name: text})  # the bearing reads it, also in a unit such as N/m^1.5
-        return name, text
+    given = with_unit(unit, text)
+    if name.startswith(PREFIX) and not _entries(case):
+        case.replace(**{name: given})  # the bearing reads it, also in a unit such as N/m^1.5
+        return name, given
+    field = _named(case).varied[name]
+    if "^" in unit:  # which the field does not read
+        given = given.removesuffix(unit).strip()
     try:
-        return name, read_quantity(replace(SETTINGS[name], bare=unit), with_unit(unit, text))
+        return name, read_quantity(replace(field, bare=unit), given)
     except InputError:
         term = term_of(case, name, text)
         if term == name:
@@ -179,7 +252,7 @@ def _entry(case: Case, name: str, text: str) -> tuple[str, str | float]:
 
 def term_of(case: Case, name: str, text: str) -> str:
     """The entry of a machine file in which a text for a control is stated; the control itself if no term has such a unit."""
-    if case.machine is None or _reads(SETTINGS[name], with_unit(_kinds_of(case)[name].unit, text)):
+    if case.machine is None or name not in SETTINGS or _reads(SETTINGS[name], with_unit(_KINDS[name].unit, text)):
         return name
     return next((term for term in TERM_FIELDS if set_by(term) == name and _reads(TERM_FIELDS[term], text)), name)
 
@@ -190,6 +263,39 @@ def _reads(field: Field, text: str) -> bool:
     except InputError:
         return False
     return True
+
+
+def _without_terms(case: Case, settings: Mapping[str, str], units: Mapping[str, str]) -> dict[str, str]:
+    """Settings with each unbalance that is stated by a term, as ``G 2.5`` or by an eccentricity, in g mm.
+
+    A grade is that of the whole rotor at the speed that is set with it; its unbalances have equal parts of it.
+    """
+    texts = {name: str(text) for name, text in settings.items()}
+    stated = [name for name in texts if name.startswith("unbalance") and name in units]
+    if not stated:
+        return texts
+    machine = _named(case)
+    speed = machine.speed
+    with suppress(InputError, KeyError):  # refused where it is read
+        speed = read_quantity(SETTINGS["speed"], with_unit("rpm", texts["speed"]))
+    for name in stated:
+        for field, per_unit in ((TERM_FIELDS["balance_grade"], 1e-3 / speed), (MACHINE_FIELDS["eccentricity"], 1.0)):
+            with suppress(InputError):
+                size = read_quantity(field, with_unit(units[name], texts[name])) * per_unit * machine.rotor.mass
+                texts[name] = f"{1e6 * size / len(machine.unbalances):.9g} g mm"
+    return texts
+
+
+def in_options(case: Case, changes: Mapping[str, str]) -> dict[str, str]:
+    """Changes on the page by the entry of a machine file that each sets, as ``--set`` reads them."""
+    units = {control.name: control.unit for control in controls_of(case)}
+    return {
+        # The unit of a curved stiffness is none that can be read.
+        term_of(case, name, text): text.removesuffix(units[name]).strip()
+        if "^" in units[name] and _entries(case)
+        else with_unit(units[name], text)
+        for name, text in _without_terms(case, changes, units).items()
+    }
 
 
 def with_unit(unit: str, text: str) -> str:

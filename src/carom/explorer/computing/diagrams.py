@@ -7,9 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
-from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, unit_of
-from carom.explorer.computing.rest import repeats
 from carom.models import Rotor
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
@@ -79,18 +77,6 @@ def picture_along(rotor: Rotor, control: Control, progress: ShowProgress = None)
         bars=tuple(bar for branch in diagram.equilibria for bar in _bars(branch, unit)),
         points=tuple(_points(diagram, unit)),
     )
-
-
-def why_none(rotor: Rotor) -> str:
-    """Why there is no diagram of the orbits of a rotor, in a sentence; nothing where there is one."""
-    if exact_results(rotor).orbits:
-        return ""
-    if not repeats(rotor):
-        return "None are known where friction turns a race or changes the speed of the shaft."
-    if rotor.limits:
-        return "None are known where the magnetic bearings have limits."
-    followed = "The program that is copied as Python follows them, in minutes."
-    return f"Not computed on this page: only orbits on a rigid wall that stands still have closed forms. {followed}"
 
 
 def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:

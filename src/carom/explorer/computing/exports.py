@@ -7,21 +7,19 @@ import hashlib
 import json
 import math
 import shlex
-import tomllib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from carom.closed_forms.exact_results import exact_results
-from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
+from carom.explorer.computing.controls import Control, in_options, unit_of
 from carom.explorer.computing.planes import Plane
-from carom.explorer.computing.rest import Rest, repeats
+from carom.explorer.computing.rest import Rest
 from carom.models import Rotor, rotor_of
 from carom.motions import State
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
-from carom.parameters.machine_file import UNUSED
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
 from carom.parameters.terms import set_by
 
 
@@ -72,17 +70,13 @@ class Origin:
 
     def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
         """``name=value`` for every parameter that differs from the file, those changed on the page last."""
-        units = {control.name: control.unit for control in controls_of(self.case)}
         moved = {set_by(name) for name in changes}
         kept = [
             self._in_si(setting) if changes else setting
             for setting in self.settings
             if set_by(_name(setting)) not in moved
         ]
-        return (
-            *kept,
-            *(f"{term_of(self.case, name, text)}={with_unit(units[name], text)}" for name, text in changes.items()),
-        )
+        return (*kept, *(f"{name}={text}" for name, text in in_options(self.case, changes).items()))
 
     def _in_si(self, setting: str) -> str:
         """A setting of a dimensionless number or of a term as one of the field that it sets.
@@ -96,9 +90,10 @@ class Origin:
         return f"{field.name}={getattr(machine, field.name)!r} {field.unit}".strip()
 
 
-def mark_of(name: str, text: str) -> str:
+def mark_of(case: Case) -> str:
     """Text that differs from machine to machine, by name and all numbers: what is set on a page is not meant for another one."""
-    return hashlib.sha256(f"{name}\n{text}".encode()).hexdigest()[:10]
+    text = as_toml(case) or json.dumps(rotor_of(case).attributes(), sort_keys=True)
+    return hashlib.sha256(f"{case.name}\n{text}".encode()).hexdigest()[:10]
 
 
 def _name(setting: str) -> str:
@@ -111,16 +106,19 @@ def as_options(origin: Origin, changes: Mapping[str, str]) -> str:
 
 
 def as_toml(case: Case) -> str:
-    """A machine file that is read as the machine on the page, bit for bit."""
+    """A machine file that is read as the machine on the page, bit for bit; empty of one whose numbers are matrices."""
     zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
     if case.machine is not None:
         machine = case.machine.to_toml()
         if case.touchdown and case.touchdown.yields:  # which has a restitution of its own
             machine = "".join(line for line in machine.splitlines(True) if not line.startswith("restitution = "))
-        others = "".join(f"\n{table.to_toml()}" for table in (case.touchdown, case.drive) if table)
+        others = "".join(f"\n{table.to_toml()}" for table in (case.touchdown, case.drive, case.gravity) if table)
         return f"{machine}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}{others}"
+    rotor = rotor_of(case)
+    if rotor.planar is None or rotor.scales:
+        return ""
     lines = [
-        f"{name} = {getattr(case.parameters, name)!r}  # {field.symbol}: {field.words}"
+        f"{name} = {getattr(rotor.planar, name)!r}  # {field.symbol}: {field.words}"
         for name, field in DIMENSIONLESS_FIELDS.items()
     ]
     return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
@@ -141,17 +139,19 @@ def as_command(origin: Origin, changes: Mapping[str, str], rotor: Rotor, kick: K
     return " ".join(filter(None, ("carom simulate", shlex.quote(origin.path), as_options(origin, changes), start)))
 
 
-def as_python(case: Case, kick: Kick, along: Control) -> str:
-    """A program that computes what the page shows, and draws it: basin, motion, orbits and the diagram along a parameter.
-
-    It holds the machine itself, so that it runs in any folder.
-    """
-    rotor = rotor_of(case)
+def as_python(origin: Origin, changes: Mapping[str, str], rotor: Rotor, kick: Kick, along: Control) -> str:
+    """A program that computes what the page shows, and draws it: basin, motion, response, orbits and the diagram along a parameter."""
     module, model, grid, start = _disturbance(rotor, kick)
+    settings = "".join(f"\n    {json.dumps(each, ensure_ascii=False)}," for each in origin.all_settings(changes))
+    response = """
+response = cm.studies.unbalance_response(machine)
+print(response)
+response.plot().savefig("response.png")
+"""
     return f"""import carom as cm
 from {module} import {model.partition("(")[0]}
 
-machine = {_constructed(case)}
+machine = cm.load({json.dumps(origin.path, ensure_ascii=False)}, [{settings}{chr(10) if settings else ""}])
 
 basin = cm.map_basins(machine, cm.Grid({model}, {grid}))
 print(basin.share_recovered.words)
@@ -160,12 +160,12 @@ print(basin.share_recovered.words)
 motion = cm.simulate({start}, settle=True)
 print(motion.outcome.meaning)
 motion.plot().savefig("motion.png")
-{_orbits(rotor, along)}"""
+{response if rotor.scales else ""}{_orbits(rotor, along)}"""
 
 
 def _orbits(rotor: Rotor, along: Control) -> str:
-    """The part of a program that finds orbits; none where there are none."""
-    if not repeats(rotor) or rotor.limits:
+    """The part of a program that finds orbits; none of a shaft that slows down, or of several touchdown bearings, where it takes long."""
+    if rotor.system.shaft is not None or rotor.planar is None:
         return ""
     searched = "" if exact_results(rotor).orbits else ", impacts=1"
     unit = unit_of(along.name)
@@ -182,24 +182,25 @@ diagram.plot().savefig("diagram.png")
 def _disturbance(rotor: Rotor, kick: Kick) -> tuple[str, str, str, str]:
     """Module, model, shape of its grid, and arguments of the motion in a program."""
     size, angle = math.hypot(kick.first, kick.second), math.atan2(kick.second, kick.first)
+    grid, rings, phases = ("(120, 120)", "(60, 120)", "(360,)") if rotor.planar else ("(24, 24)", "(12, 24)", "(72,)")
     if kick.plane.name == "shock":
         lasting = kick.plane.lasting(rotor)
         start = f"machine, BaseShock({size!r}, {lasting!r}).release(machine, {angle!r})"
-        return "carom.disturbances", f"BaseShock({kick.largest!r}, {lasting!r})", "(60, 120)", start
+        return "carom.disturbances", f"BaseShock({kick.largest!r}, {lasting!r})", rings, start
     if kick.plane.name == "blade-loss":
         start = f"*BladeLoss({size!r}).apply(machine, {angle!r})"
-        return "carom.disturbances", f"BladeLoss({size!r})", "(360,)", start
+        return "carom.disturbances", f"BladeLoss({size!r})", phases, start
     if not kick.rest.levitates:
         among = f", {kick.rest.among!r}" if kick.rest.among else ""
         model = f"RestKick({kick.largest!r}, {kick.rest.place!r}{among})"
         start = f"machine, cm.State({_numbers(kick.state.position)}, {_numbers(kick.state.velocity)})"
-        return "carom.explorer.computing.rest", model, "(120, 120)", start
+        return "carom.explorer.computing.rest", model, grid, start
     told, turned = kick.texts(rotor)
     told = json.dumps(told) if rotor.scales else told
     return (
         "carom.disturbances",
         f"KickPlane({kick.largest!r})",
-        "(120, 120)",
+        grid,
         f"machine, cm.kick({told}, {json.dumps(turned)})",
     )
 
@@ -207,27 +208,3 @@ def _disturbance(rotor: Rotor, kick: Kick) -> tuple[str, str, str, str]:
 def _numbers(given: Any) -> str:
     """A complex number, or an array of them, in a program."""
     return repr(given.tolist() if np.ndim(given) else given)
-
-
-def _constructed(case: Case) -> str:
-    """The machine as an expression, from the entries of its file."""
-    tables = tomllib.loads(as_toml(case))
-    (kind, name) = ("machine", "Machine") if case.machine is not None else ("dimensionless", "Parameters")
-    if case.touchdown is None and case.drive is None:
-        return _call(name, tables[kind])
-    unused = {"restitution": UNUSED} if case.machine is not None and "restitution" not in tables[kind] else {}
-    bearing = case.touchdown or TouchdownBearing()
-    parts = [f"cm.models.rotor_of({_call(name, tables[kind] | unused)}).parameters"]
-    parts.append(_call("TouchdownBearing", {"law": bearing.law, **bearing.given}))
-    if case.drive:
-        parts.append(f"drive={_call('Drive', asdict(case.drive))}")
-    return f"cm.models.jeffcott({', '.join(parts)})"
-
-
-def _call(name: str, entries: Mapping[str, Any]) -> str:
-    """A value of :mod:`carom.parameters` as an expression."""
-    lines = "".join(
-        f"    {entry}={json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)},\n"
-        for entry, value in entries.items()
-    )
-    return f"cm.parameters.{name}(\n{lines})"

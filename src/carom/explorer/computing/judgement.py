@@ -6,10 +6,12 @@ import math
 from dataclasses import dataclass
 
 from carom.basins import smallest_loss
+from carom.explorer.computing.kicked_motion import MOST_EVENTS
+from carom.explorer.computing.kicks import heavy
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import hits_of, wall_of
-from carom.models import Rotor, rotor_of
+from carom.explorer.computing.walls import hits_of, wall_at
+from carom.models import Rotor
 from carom.motions import simulate
 from carom.outcome import InputError
 from carom.parameters import Case, LoadLimits
@@ -20,7 +22,8 @@ from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import about
 
 SIZES, DIRECTIONS = 6, 24
-"""Disturbances whose blows are compared."""
+FEW = 2, 12
+"""Sizes and directions of the disturbances whose blows are compared, and of a rotor whose motions take long."""
 NO_LIMITS = LoadLimits()
 
 
@@ -57,7 +60,8 @@ def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress
     """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
     scales = rotor.scales
     try:
-        found = smallest_loss(rotor, plane.by_size(rotor, largest), progress=progress)
+        few = dict(zip(("sizes", "directions"), FEW, strict=True)) if heavy(rotor) else {}
+        found = smallest_loss(rotor, plane.by_size(rotor, largest), progress=progress, **few)
     except InputError:
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
     if found.size is None:
@@ -74,25 +78,25 @@ def find_hardest(
     rotor: Rotor, plane: Plane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
 ) -> Hardest:
     """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest blow."""
-    rest, wall = rest_of(rotor), wall_of(rotor)
+    rest, wall = rest_of(rotor), wall_at(rotor, 0)
+    sizes, directions = FEW if heavy(rotor) else (SIZES, DIRECTIONS)
     tell = Reporter.of(progress, wall.searching)
-    hardest, count = 0.0, SIZES * DIRECTIONS
+    hardest, scales, count = 0.0, rotor.scales, sizes * directions
     for place in range(count):
-        size, angle = (
-            largest * (place // DIRECTIONS + 0.5) / SIZES,
-            math.tau * (place % DIRECTIONS + 0.5) / DIRECTIONS,
-        )
+        size = largest * (place // directions + 0.5) / sizes
+        angle = math.tau * (place % directions + 0.5) / directions
         after, start, _ = plane.start(rotor, rest, size * math.cos(angle), size * math.sin(angle))
-        motion = simulate(after, start, settle=True)
-        hardest = max(hardest, hits_of(motion).hardest)
+        motion = simulate(after, start, settle=True, max_events=MOST_EVENTS)
+        for seen in map(motion.seen_at, range(len(after.system.planes))):
+            if (blow := hits_of(seen).hardest) > hardest:
+                hardest, scales = blow, seen.scales
         tell((place + 1) / count)
-    tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}{wall.beside(hardest, limits, rotor.scales)}"
-    return Hardest(hardest, wall.load(hardest, rotor.scales) if hardest else f"no {wall.noun}", tried)
+    tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}{wall.beside(hardest, limits, scales)}"
+    return Hardest(hardest, wall.load(hardest, scales) if hardest else f"no {wall.noun}", tried)
 
 
 def judge(case: Case, progress: ShowProgress = None) -> Judgement:
-    """Verdict and advice of a full study; refused where friction turns a race or changes the speed of the shaft."""
-    rotor_of(case).system.refuse_forces()
+    """Verdict and advice of a full study."""
     found = study(case, progress=progress)
     first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in (*CHANGES, BEYOND)), None)
     advice = f"{first.label}: {first.text}." if first else ""

@@ -1,4 +1,4 @@
-"""One kick, followed and sampled: what is needed to draw it over time."""
+"""One kick, followed and sampled at each touchdown bearing: what is needed to draw it over time."""
 
 from __future__ import annotations
 
@@ -10,28 +10,29 @@ import numpy as np
 from carom.attractors.naming import name_motions
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import Hits, hits_of, wall_of
+from carom.explorer.computing.walls import Hits, hits_of, wall_at
 from carom.models import Rotor
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
+from carom.parameters.told import shown_in
 from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.progress import ShowProgress
-from carom.studies.wording import counted
+from carom.studies.wording import counted, listed
 
 LONGEST, LONGEST_BOUNCING = 260.0, 110.0
 """Times in ``1/Ω`` that are drawn at most, of motions that come to rest and of others: some forty and seventeen turns."""
 MOST_IMPACTS = 600
 """Impacts that are drawn at most."""
 MOST_EVENTS = 20_000
-"""Events of the part drawn, of which chatter may have many."""
+"""Events after which a motion is given up, and of the part drawn, of which chatter may have many."""
 AFTERWARDS = 12.0
 """Time in ``1/Ω`` that is drawn after it is known where a motion ends."""
 PER_TURN = 90
-LEAST_SAMPLES = 500
-CALM = 4.0
-"""Time constants that are drawn after the last contact of a motion that comes back."""
+LEAST_SAMPLES, MOST_SAMPLES = 500, 6000
+CALM, LONGEST_CALM = 4.0, 120.0
+"""Time constants, and the longest time, that are drawn after the last contact of a motion that comes back."""
 
 
 @dataclass(frozen=True)
@@ -45,42 +46,64 @@ class Span:
 
 
 @dataclass(frozen=True, eq=False)
-class KickedMotion:
-    """A motion after a kick.
+class AtBearing:
+    """A motion at one touchdown bearing; lengths in its clearances.
 
     Attributes
     ----------
-    times, x, y : ndarray of float32, shape (n,)
-        Position in the co-rotating frame in clearances at times in ``1/Ω``; the instants of impacts are among them.
+    x, y : ndarray of float32, shape (n,)
+        Position in the co-rotating frame; the instants of impacts are among them.
+    force : ndarray of float32, shape (n,)
+        Normal force of a compliant bearing, in N or in ``m c_r Ω²``; zero in a rigid one.
+    force_unit : str
     impact_times, impact_angles, impact_speeds, blows : ndarray of float32, shape (m,)
-        Impacts that are drawn, or arrivals at a wall that gives way: time, angle in rad, radial speed before in ``c_r Ω``, and how hard
+        Impacts that are drawn, or arrivals at a compliant bearing: time in ``1/Ω``, angle in rad, radial speed before in ``c_r Ω``, and how hard
         each is: normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
     forward : ndarray of bool, shape (m,)
         Whether the rotor whirls forward in the fixed frame just before the impact.
     spans : tuple of Span
         Lasting contact.
-    whole : bool
-        Whether the motion is drawn up to where it is settled.
-    outcome, colour, words : str
-        Label of the outcome, its colour, and what is seen, as one sentence.
     hardest : float
-        The hardest of all blows; 0 without one.
+        The hardest of all blows, also of those that are not drawn; 0 without one.
+    words : str
+        What the bearing bears.
     """
 
-    times: np.ndarray
     x: np.ndarray
     y: np.ndarray
+    force: np.ndarray
+    force_unit: str
     impact_times: np.ndarray
     impact_angles: np.ndarray
     impact_speeds: np.ndarray
     blows: np.ndarray
     forward: np.ndarray
     spans: tuple[Span, ...]
+    hardest: float
+    words: str
+
+
+@dataclass(frozen=True, eq=False)
+class KickedMotion:
+    """A motion after a kick.
+
+    Attributes
+    ----------
+    times : ndarray of float32, shape (n,)
+        In ``1/Ω``.
+    planes : tuple of AtBearing
+    whole : bool
+        Whether the motion is drawn up to where it is settled.
+    outcome, colour, words : str
+        Label of the outcome, its colour, and what is seen, as one sentence.
+    """
+
+    times: np.ndarray
+    planes: tuple[AtBearing, ...]
     whole: bool
     outcome: str
     colour: str
     words: str
-    hardest: float
 
 
 def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progress: ShowProgress = None) -> KickedMotion:
@@ -89,35 +112,49 @@ def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progres
     motion = simulate(rotor, start, settle=True, progress=progress)
     # A motion is settled once its end is known, which may be long before it has arrived there.
     shown = simulate(rotor, start, _shown_until(rotor, motion), max_events=MOST_EVENTS)
-    times = shown.sample(max(LEAST_SAMPLES, int(PER_TURN * shown.time / math.tau)))
-    position, _ = shown.at_plane(times)
-    log = hits_of(shown)
+    times = shown.sample(max(LEAST_SAMPLES, min(MOST_SAMPLES, int(PER_TURN * shown.time / math.tau))))
+    times = times[:: math.ceil(len(times) / (2 * MOST_SAMPLES))]
     _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
     look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
-    every = hits_of(motion)
+    every = [hits_of(motion.seen_at(place)) for place in range(len(rotor.system.planes))]
     return KickedMotion(
         times=times.astype(np.float32),
+        planes=tuple(_at_bearing(shown.seen_at(place), times, hits) for place, hits in enumerate(every)),
+        whole=shown.time >= motion.time,
+        outcome=motion.outcome.label,
+        colour=look.colour,
+        words=_words(motion, begin, every, MotionLook(0, name, look, look.colour, 1.0).words),
+    )
+
+
+def _at_bearing(shown: Trajectory, times: np.ndarray, every: Hits) -> AtBearing:
+    """What is drawn of a motion at the touchdown bearing at which it is seen."""
+    position, _ = shown.at_plane(times)
+    wall, log = wall_at(shown.rotor, shown.plane), hits_of(shown)
+    factor, unit = shown_in("force", shown.scales)
+    force = factor * shown.forces(times)[0] if wall.compliant else np.zeros(len(times))
+    return AtBearing(
         x=position.real.astype(np.float32),
         y=position.imag.astype(np.float32),
+        force=force.astype(np.float32),
+        force_unit=unit,
         impact_times=log.time.astype(np.float32),
         impact_angles=np.angle(np.exp(1j * log.angle)).astype(np.float32),
         impact_speeds=log.radial_speed.astype(np.float32),
         blows=log.blow.astype(np.float32),
         forward=log.angular_speed > -1.0,
         spans=tuple(map(span_of, shown.lasting_contacts)),
-        whole=shown.time >= motion.time,
-        outcome=motion.outcome.label,
-        colour=look.colour,
-        words=_words(motion, begin, every, MotionLook(0, name, look, look.colour, 1.0).words),
         hardest=every.hardest,
+        words=f"{counted(every.count, wall.noun)}; {wall.told(every, shown.scales)}"
+        if every.count
+        else f"no {wall.noun}",
     )
 
 
 def _shown_until(rotor: Rotor, motion: Trajectory) -> float:
     events = motion.segment_starts[1:]
     if motion.outcome is Outcome.LEVITATED:
-        decay = rotor.system.decay
-        end = (float(events[-1]) if len(events) else 0.0) + CALM / decay
+        end = (float(events[-1]) if len(events) else 0.0) + min(CALM / rotor.system.decay, LONGEST_CALM)
     else:
         end = motion.time + AFTERWARDS
     if len(events) > MOST_IMPACTS:
@@ -131,10 +168,14 @@ def span_of(stretch: LastingContact) -> Span:
     return Span(stretch.start, stretch.end, look.words, look.colour)
 
 
-def _words(motion: Trajectory, begin: str, hits: Hits, ending: str) -> str:
-    wall, count = wall_of(motion.rotor), hits.count
-    load = wall.told(hits, motion.rotor.scales)
+def _words(motion: Trajectory, begin: str, hits: list[Hits], ending: str) -> str:
+    """What is seen, with the load of the bearing that bears most."""
+    worst = max(range(len(hits)), key=lambda place: hits[place].hardest)
+    wall, seen = wall_at(motion.rotor, worst), motion.seen_at(worst)
+    met = [str(place) for place, every in enumerate(hits, start=1) if every.count]
+    where = f" at touchdown bearing{'s' if len(met) > 1 else ''} {listed(met)}" if len(hits) > 1 and met else ""
+    load, count = wall.told(hits[worst], seen.scales), sum(every.count for every in hits)
     if motion.outcome in REPEATING:
         return f"{begin} ends in {ending}; {load}."
-    impacts = f"without {wall.one}" if count == 0 else f"after {counted(count, wall.noun)}; {load}"
+    impacts = f"without {wall.one}" if count == 0 else f"after {counted(count, wall.noun)}{where}; {load}"
     return f"{begin} {'ends in' if motion.outcome.settled else 'was given up,'} {ending} {impacts}."

@@ -22,8 +22,10 @@ from carom.progress import ShowProgress
 
 NOWHERE = 255
 """Cell without a start."""
-TRIED = 24
-"""Cells along each side of the pictures from which the first range is chosen."""
+TRIED, TRIED_SLOWLY = 24, 6
+"""Cells along each side of the pictures from which the first range is chosen, and of a rotor whose motions take long."""
+MANY_MODES = 6
+"""Modes from which motions take long to follow."""
 RANGES = tuple(math.sqrt(2.0) ** power for power in range(8))
 """Ranges that the page may begin with, relative to what must be survived: no narrower, so that this is in the picture."""
 MACHINES = 32
@@ -169,19 +171,23 @@ def _map_losses(rotor: Rotor, rest: Rest, plane: Plane, cells: int, largest: flo
     return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
 
 
-def opening_range(rotor: Rotor, plane: Plane) -> float:
-    """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
-    return _opening_range(rotor, plane)
+def heavy(rotor: Rotor) -> bool:
+    """Whether motions of a rotor take long to follow: it has many modes."""
+    return len(rotor.system.exponents) > MANY_MODES
 
 
 @lru_cache(maxsize=MACHINES)
-def _opening_range(rotor: Rotor, plane: Plane) -> float:
-    best, least = plane.usual, math.inf
-    for times in RANGES:
-        share = map_kicks(rotor, plane, TRIED, times * plane.usual).share.fraction
+def opening_range(rotor: Rotor, plane: Plane) -> float:
+    """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost.
+
+    Of a rotor whose motions take long it is the first at which some are lost.
+    """
+    best, least, slow = plane.usual, math.inf, heavy(rotor)
+    for times in RANGES[::2] if slow else RANGES:
+        share = map_kicks(rotor, plane, TRIED_SLOWLY if slow else TRIED, times * plane.usual).share.fraction
         if (apart := abs(math.log(max(share, 1e-9) / WANTED))) < least:
             best, least = times * plane.usual, apart
-        if share < WANTED:
+        if share < (1.0 if slow else WANTED):
             break
     return best
 

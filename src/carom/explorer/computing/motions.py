@@ -12,10 +12,9 @@ from carom.orbits.single_impact import orbits_within_reach
 from carom.studies import Wording
 from carom.studies.summaries import MotionRow, simple_motion_rows, steady_rows
 
-BESIDE_LIMITS = "Orbits are not known where the magnetic bearings have limits."
 NO_ORBITS = (
-    "Orbits are not searched on this page: only those on a rigid wall that stands still have closed forms. "
-    "carom.find_orbits(machine, impacts=1) searches them, in about a minute."
+    "Orbits are not searched on this page: only those on a rigid wall that stands still, of a rotor with one mass, have closed forms. "
+    "carom orbits searches them."
 )
 """What is said in place of orbits that are not known in closed form."""
 
@@ -44,13 +43,11 @@ class MotionTable:
 def table_of(rotor: Rotor) -> MotionTable:
     """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions.
 
-    Refuse one that never rests in contact, with a shaft whose speed changes.
+    Refuse one that never is at rest in the co-rotating frame.
     """
     if not exact_results(rotor).orbits:
-        rotor.system.refuse_forces()
         steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
-        why = BESIDE_LIMITS if rotor.limits else NO_ORBITS
-        return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), why)
+        return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), NO_ORBITS)
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
     rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))

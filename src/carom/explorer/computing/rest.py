@@ -11,7 +11,9 @@ from carom.closed_forms import Equilibrium, find_equilibria
 from carom.disturbances import Coordinate, Disturbance, KickPlane, Starts, outward_from
 from carom.models import Rotor
 from carom.motions import State
-from carom.outcome import STEADY_WORDS
+from carom.outcome import STEADY_WORDS, CaromError, InputError
+
+NONE = "No disturbance is followed: with these values there is no levitation that it could disturb."
 
 
 @dataclass(frozen=True)
@@ -92,18 +94,21 @@ class Rest:
         return tuple(self.position.tolist()) if np.ndim(self.position) else ()
 
 
-def repeats(rotor: Rotor) -> bool:
-    """Whether a motion in contact can rest or repeat: not while friction turns a race or changes the speed of the shaft."""
-    return rotor.system.races is None and rotor.system.shaft is None
-
-
 def rest_of(rotor: Rotor) -> Rest:
-    """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall."""
+    """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall.
+
+    Raises
+    ------
+    CaromError
+        It does not levitate in several touchdown bearings, in which no such motion is known.
+    """
     system = rotor.system
     rest, _ = system.kicked(0.0)
     place = complex(system.planes[0] @ rest)
-    if system.rest_radius < 1.0:
+    if system.levitates:
         return _rest(rotor, STEADY_WORDS["contact-free"], rest, place, outward_from(rotor))
+    if len(system.planes) > 1:
+        raise CaromError(NONE)
     for found in _rubs(rotor):
         if found.status == "admissible" and found.stable:
             there = complex(found.places[0])
@@ -114,13 +119,13 @@ def rest_of(rotor: Rotor) -> Rest:
 
 def _rest(rotor: Rotor, words: str, position: Any, place: complex, outward: complex) -> Rest:
     position = np.asarray(position)
-    levitates = rotor.system.rest_radius < 1.0
     own = position if position.size > 1 else complex(position.reshape(()))
-    return Rest(words, levitates, own, place, outward, rotor.system.translated)
+    return Rest(words, rotor.system.levitates, own, place, outward, rotor.system.translated)
 
 
 def _rubs(rotor: Rotor) -> tuple[Equilibrium, ...]:
     """Synchronous rubs, where they are known."""
-    if not repeats(rotor):
+    try:
+        return tuple(found for found in find_equilibria(rotor) if found.kind == "rub")
+    except InputError:
         return ()
-    return tuple(found for found in find_equilibria(rotor) if found.kind == "rub")

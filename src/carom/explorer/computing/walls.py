@@ -72,6 +72,8 @@ class Wall:
 
     Attributes
     ----------
+    compliant : bool
+        Whether forces have peaks there, and the rotor goes in; a rigid wall gives impulses.
     noun, one : str
         A contact, in a count and with its article.
     title, hits, section, shaded : str
@@ -80,6 +82,7 @@ class Wall:
         What is done while the hardest is searched.
     """
 
+    compliant: bool
     noun: str
     one: str
     title: str
@@ -90,36 +93,26 @@ class Wall:
 
     def load(self, hardest: float, scales: Scales | None) -> str:
         """Write a blow with its unit."""
-        return Wording(scales).impulse(hardest)
+        return Wording(scales).force(hardest) if self.compliant else Wording(scales).impulse(hardest)
 
     def told(self, hits: Hits, scales: Scales | None) -> str:
         """The load of a motion in words."""
-        return f"hardest impulse {self.load(hits.hardest, scales)}"
+        load = self.load(hits.hardest, scales)
+        if not self.compliant:
+            return f"hardest impulse {load}"
+        depth = f"{Wording(scales).length(hits.deepest)}, {number(100.0 * hits.deepest, 2)} % of the clearance"
+        return f"largest force {load}, largest depth {depth}"
 
     def beside(self, hardest: float, limits: LoadLimits, scales: Scales | None) -> str:
-        """What follows the hardest blow of many motions: nothing."""
-        return ""
-
-
-class _Yielding(Wall):
-    """A wall that gives way: forces have peaks there, and the rotor goes in."""
-
-    def load(self, hardest: float, scales: Scales | None) -> str:
-        return Wording(scales).force(hardest)
-
-    def told(self, hits: Hits, scales: Scales | None) -> str:
-        say = Wording(scales)
-        depth = f"{say.length(hits.deepest)}, {number(100.0 * hits.deepest, 2)} % of the clearance"
-        return f"largest force {self.load(hits.hardest, scales)}, largest depth {depth}"
-
-    def beside(self, hardest: float, limits: LoadLimits, scales: Scales | None) -> str:
-        if limits.force is None or scales is None:
+        """What follows the hardest blow of many motions: whether a limit of the force is kept."""
+        if not self.compliant or limits.force is None or scales is None:
             return ""
         kept = "kept" if hardest * scales.force <= limits.force else "exceeded"
         return f"; limit {LoadLimits.told('force', limits.force)}: {kept}"
 
 
 RIGID = Wall(
+    False,
     "impact",
     "an impact",
     "hardest impulse",
@@ -128,7 +121,8 @@ RIGID = Wall(
     "lasting contact",
     "looking for the hardest impact",
 )
-YIELDING = _Yielding(
+COMPLIANT = Wall(
+    True,
     "contact",
     "contact",
     "largest force",
@@ -139,6 +133,6 @@ YIELDING = _Yielding(
 )
 
 
-def wall_of(rotor: Rotor) -> Wall:
-    """What the page says of the wall of a rotor."""
-    return YIELDING if yields(rotor.system, 0) else RIGID
+def wall_at(rotor: Rotor, place: int) -> Wall:
+    """What the page says of a touchdown bearing of a rotor."""
+    return COMPLIANT if yields(rotor.system, place) else RIGID

@@ -2,12 +2,9 @@
 
 =============  ==============================================================
 ``models``     the two objects that browser and server share
-``messages``   results as plain dictionaries for the browser; of flexible machines ``flexible_messages``
+``messages``   results as plain dictionaries for the browser
 ``view``       what the page wishes to see of a machine
-``kind``       what a kind of machine brings to the page
-``planar``     the planar rotor
-``flexible``   a flexible machine
-``kinds``      which of both it is
+``questions``  what the page asks of a machine, and the work that answers it
 ``session``    takes requests, has the work done, sends the answers
 ``figures``    the figures with axes, which the browser fills
 ``document``   all of these in one document, with the template

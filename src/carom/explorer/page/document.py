@@ -23,10 +23,10 @@ from carom.explorer.background import SupersededError
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.figures import looks, make_figures
-from carom.explorer.page.kinds import kind_of
 from carom.explorer.page.messages import Message, control_message
 from carom.explorer.page.models import Answers, Requests
-from carom.explorer.page.scripts import joined, text_of
+from carom.explorer.page.questions import Questions
+from carom.explorer.page.scripts import PAGE, joined, text_of
 from carom.explorer.page.session import Session
 
 TOKEN = "key-of-a-session"
@@ -44,7 +44,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
             raise SupersededError from None
 
     session = Session(origin, hand_over, ready)
-    figures = make_figures(session.kind.figures)
+    figures = make_figures(session.questions.figures)
     asked: dict[str, Callable[[Any], None]] = {
         "machine": session.show,
         "kick": session.kick,
@@ -73,23 +73,23 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
 
 def write_page(origin: Origin, resources: Resources) -> str:
     """The page of a machine as text, the same for all who ask: :data:`TOKEN` stands for the key of a session in it."""
-    kind = kind_of(origin)
+    questions = Questions(origin)
     # The figures of every session have these names, so that the page need not know its document.
-    places = {plot: ID(f"place-{name}") for name, plot in make_figures(kind.figures).plots.items()}
+    places = {plot: ID(f"place-{name}") for name, plot in make_figures(questions.figures).plots.items()}
     return html_page_for_render_items(
         bundle_for_objs_and_resources(None, resources),
         {},
         [RenderItem(token=TOKEN, roots=places, use_for_title=True)],
         _title(origin),
-        template=_templates().get_template(kind.template),
+        template=_templates().get_template("page.html.jinja"),
         template_variables={
             "name": origin.case.name,
-            "mark": kind.mark,
-            "groups": _groups(kind.controls.values()),
+            "mark": questions.mark,
+            "groups": _groups(questions.controls.values()),
             "style": text_of("page.css"),
-            "script": joined(kind.scripts),
+            "script": joined(PAGE),
             "looks": json.dumps(looks()),
-            **kind.variables(),
+            **questions.variables(),
         },
     )
 

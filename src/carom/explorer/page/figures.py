@@ -1,7 +1,7 @@
 """The figures with axes, which the browser fills.
 
-Of the planar rotor they are radius over time, section of impacts and diagram along a slider; of a flexible machine the response to
-unbalance over the speed, and distance and contact force at each touchdown bearing over time.
+They are distance and contact force at each touchdown bearing over time, the section of impacts, the response to unbalance over the speed,
+and the diagram along a slider.  A machine has those of its questions.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ class Figures:
 
 
 def make_figures(names: Sequence[str]) -> Figures:
-    """Make the figures of a kind of machine, empty."""
+    """Make figures by their names, empty."""
     parts: dict[str, Any] = {}
-    plots = {name: _MAKERS[name](parts) for name in names}
+    plots = {name: FIGURES[name](parts) for name in names}
     for name, plot in plots.items():
         plot._id = ID(name)  # Bokeh has no public way to name an object; the text of the page refers to these
         for model in plot.references():
@@ -83,14 +83,13 @@ def _moving_line(**look: Any) -> Span:
     return Span(location=0.0, dimension="height", level="overlay", **look)
 
 
-def _history(parts: dict[str, Any]) -> Any:
-    """Radius over time: flight as a line, lasting contact shaded, impacts as marks on the wall."""
-    plot = _plot("history", _range(parts, "history_x", 0, 1), _range(parts, "history_y", 0, 1.06))
+def _distances(parts: dict[str, Any]) -> Any:
+    """Distance from the centre over time at each touchdown bearing, with its lasting contact shaded and impacts as marks on the wall, which is at one."""
+    plot = _plot("distances", _range(parts, "distances_x", 0, 1), _range(parts, "distances_y", 0, 1.06))
     plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
     spans = _source(parts, "spans", "left", "right", "bottom", "top", "colour")
     plot.quad("left", "right", "top", "bottom", source=spans, fill_color="colour", fill_alpha=0.35, line_alpha=0.0)
-    path = _source(parts, "history", "t", "r")
-    plot.line("t", "r", source=path, line_width=1.4, line_color=LOOKS["path"].colour, name="path")
+    _curves(plot, parts, "distances")
     struck = _source(parts, "struck", "t", "r", "colour", "marker")
     plot.scatter("t", "r", source=struck, marker="marker", size=6, color="colour", name="struck")
     parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
@@ -146,18 +145,8 @@ def _response(parts: dict[str, Any]) -> Any:
     _curves(plot, parts, "planes")
     walls = _source(parts, "walls", "xs", "ys")
     plot.multi_line("xs", "ys", source=walls, line_color=LOOKS["wall"].colour, line_width=1.5, name="wall")
-    parts["cursor"] = _moving_line(line_width=1.6, line_color="#808080")
-    plot.add_layout(parts["cursor"])
-    return plot
-
-
-def _distances(parts: dict[str, Any]) -> Any:
-    """Distance from the centre over time at each touchdown bearing; the wall is at one."""
-    plot = _plot("distances", _range(parts, "distances_x", 0, 1), _range(parts, "distances_y", 0, 1.06))
-    plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
-    _curves(plot, parts, "distances", line_alpha=0.85)
-    parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
-    plot.add_layout(parts["now"])
+    parts["speed"] = _moving_line(line_width=1.6, line_color="#808080")
+    plot.add_layout(parts["speed"])
     return plot
 
 
@@ -170,12 +159,11 @@ def _forces(parts: dict[str, Any]) -> Any:
     return plot
 
 
-_MAKERS: Mapping[str, Callable[[dict[str, Any]], Any]] = {
-    "history": _history,
+FIGURES: Mapping[str, Callable[[dict[str, Any]], Any]] = {
+    "distances": _distances,
     "section": _section,
     "diagram": _diagram,
     "response": _response,
-    "distances": _distances,
     "forces": _forces,
 }
 

@@ -13,15 +13,21 @@ from carom.explorer.computing.diagrams import Picture, Point
 from carom.explorer.computing.judgement import Loss
 from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
+from carom.explorer.computing.levitation import ResponseCurves, levitation_of
 from carom.explorer.computing.motions import MotionTable
 from carom.explorer.computing.planes import Plane
 from carom.models import Rotor
-from carom.parameters import Scales
+from carom.parameters import Case, Scales
+from carom.parameters.fields import RPM
 from carom.parameters.told import number, shown_in, told
 from carom.plots.style import LOOKS
 from carom.results import fields_of
 
 Message = dict[str, Any]
+FEW = 12
+"""Cells up to what must be survived below which the sentence tells of the whole picture."""
+LITTLE = 0.4
+"""Share of the clearance up to which the figure of the response leaves the clearance out."""
 MANY = 1e8
 """Size of numbers from which boxes have them with an exponent; ``controls.js`` does the same."""
 
@@ -94,10 +100,12 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
 def judged_share(found: KickMap, rotor: Rotor) -> tuple[Share, str]:
     """Share that comes back of what must be survived, where all of that is in the picture, otherwise of all in it; and of what."""
     required = None if found.plane.required is None else found.plane.own(found.plane.required, rotor.scales)
-    # A little above, for rounding where the picture ends with it.
-    if required is None or required > found.largest * (1.0 + 1e-9):
-        return found.share, found.plane.words_up_to(found.largest, rotor.scales)
-    return found.share_up_to(required * (1.0 + 1e-9)), found.plane.words_up_to(required, rotor.scales)
+    if required is not None and required <= found.largest * (1.0 + 1e-9):
+        # A little above, for rounding where the picture ends with it.
+        share = found.share_up_to(required * (1.0 + 1e-9))
+        if share.total >= FEW:
+            return share, found.plane.words_up_to(required, rotor.scales)
+    return found.share, found.plane.words_up_to(found.largest, rotor.scales)
 
 
 def plane_harmless(found: KickMap, rotor: Rotor) -> float:
@@ -130,12 +138,37 @@ def shown_share(share: Share, coarse: bool) -> str:
 
 
 def motion_message(motion: KickedMotion, rotor: Rotor) -> Message:
-    """A motion, with the factors of its axes."""
+    """A motion at each touchdown bearing, with the factors of the axes."""
     return {
         **vars(motion),
-        "forward": motion.forward.astype("uint8"),
-        "spans": [asdict(span) for span in motion.spans],
+        "planes": [
+            {**vars(each), "forward": each.forward.astype("uint8"), "spans": [asdict(span) for span in each.spans]}
+            for each in motion.planes
+        ],
         **units_message(rotor.scales),
+    }
+
+
+def levitation_message(case: Case) -> Message:
+    """How a machine levitates; speeds in rpm."""
+    scales = case.parameters.scales
+    return {**asdict(levitation_of(case)), "speed": scales.speed / RPM if scales else 1.0}
+
+
+def response_message(found: ResponseCurves, rotor: Rotor) -> Message:
+    """Amplitudes 0-to-peak in µm over speeds in rpm, and what is said of them."""
+    walls = sorted({1e6 * each for each in found.clearances.tolist()})
+    most = 1e6 * float(found.touchdowns.max())
+    # With the clearances, unless the whirl is much smaller.
+    top = 1.15 * most or 1.0 if most < LITTLE * walls[0] else 1.1 * max(walls[-1], min(most, 1.6 * walls[-1]))
+    return {
+        "speeds": (found.speeds / RPM).tolist(),
+        "touchdowns": (1e6 * found.touchdowns.T).tolist(),
+        "sensors": (1e6 * found.sensors.T).tolist(),
+        "walls": walls,
+        "speed": rotor.scales.speed / RPM if rotor.scales else 0.0,
+        "top": top,
+        "told": found.told,
     }
 
 

@@ -29,8 +29,7 @@ class Answers(DataModel):
 
     ``reply`` answers each request for a machine at once: ``number`` of the request, ``shown``, the number of the request whose
     machine is shown, ``values`` of its controls in their units, and in ``text`` and ``names`` what could not be used.
-    ``motion`` and ``beside`` are those after the kicks that are drawn.  ``levitating`` and ``told`` are of flexible machines, from ``beside`` to
-    ``diagram`` of the planar rotor.
+    ``motion`` and ``beside`` are those after the kicks that are drawn.
     """
 
     state = Any(default=None)
@@ -46,4 +45,4 @@ class Answers(DataModel):
     diagram = Any(default=None)
     exports = Any(default=None)
     levitating = Any(default=None)
-    told = Any(default=None)
+    response = Any(default=None)

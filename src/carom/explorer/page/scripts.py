@@ -8,10 +8,19 @@ from importlib.resources import files
 
 PICTURES = ("common.js", "basin.js", "clearance.js")
 """Modules of the pictures, each after those that it imports."""
-_SHARED = (*PICTURES, "page.js", "controls.js", "address.js", "stage.js", "panels.js")
-PLANAR = (*_SHARED, "plots.js", "closer.js", "sweep.js", "main.js")
-FLEXIBLE = (*_SHARED, "flexible.js", "main.js")
-"""All scripts of the page of each kind of machine, in their order."""
+PAGE = (
+    *PICTURES,
+    "page.js",
+    "controls.js",
+    "address.js",
+    "stage.js",
+    "panels.js",
+    "plots.js",
+    "found.js",
+    "sweep.js",
+    "main.js",
+)
+"""All scripts of the page, in their order."""
 
 
 @cache

@@ -41,7 +41,7 @@ carom.panels = { exports: null };
     if (message.refused) return;
     at("sentence").textContent = message.sentence;
     tile("share", message.share, message.share_remark);
-    at("lost-title").textContent = `smallest lost ${message.nouns[0]}`;
+    at("lost-title").textContent = `smallest ${message.nouns[0]} that does not come back`;
   });
   carom.on("exports", (message) => { carom.panels.exports = message; });
 

@@ -1,7 +1,17 @@
 // The figures with axes, drawn by Bokeh: the browser fills them and gives them the colours of the page.
 carom.begin_plots = (parts, plots) => {
   const motion = { message: null, drawn: -1, count: -1 };
+  const inks = [carom.looks.stable, carom.looks.unstable, carom.looks["contact-free"], carom.looks.rub];
+  const inkOf = (place) => inks[place % inks.length];
   let along = null, special = null;
+  const keys = (place, names) => place.replaceChildren(...names.map(([words, ink, dashed]) => {
+    const entry = document.createElement("span"), key = document.createElement("i");
+    key.className = `line${dashed ? " dashed" : ""}`;
+    key.style.borderColor = ink;
+    entry.append(key, words);
+    return entry;
+  }));
+  for (const key of document.querySelectorAll("[data-colour]")) key.style.borderColor = inkOf(+key.dataset.colour);
   // Near-black is not seen on dark paper.
   const mark = () => {
     if (!special) return;
@@ -10,15 +20,20 @@ carom.begin_plots = (parts, plots) => {
   };
   const theme = () => {
     const ink = carom.themed(plots);
-    parts.cursor.line_color = colour("ink");
-    parts.now.line_color = ink;
-    const path = plots.history.renderers.find((one) => one.name === "path"), wall = plots.history.center.find((one) => one.name === "wall");
-    if (path) path.glyph.line_color = colour("trail");
-    if (wall) wall.line_color = colour("wall");
+    for (const name of ["cursor", "speed"]) if (parts[name]) parts[name].line_color = colour("ink");
+    for (const name of ["now", "now_too"]) if (parts[name]) parts[name].line_color = ink;
+    for (const plot of Object.values(plots)) {
+      for (const one of plot.renderers) if (one.name === "wall") one.glyph.line_color = colour("wall");
+      for (const one of plot.center) if (one.name === "wall") one.line_color = colour("wall");
+    }
     mark();
   };
-  plots.history.left[0].axis_label = "radius (of the clearance)";
+  plots.distances.left[0].axis_label = "distance (of the clearance)";
   plots.section.below[0].axis_label = "angle on the bearing (°)";
+  if (plots.response) {
+    plots.response.below[0].axis_label = "speed (rpm)";
+    plots.response.left[0].axis_label = "amplitude, 0-to-peak (µm)";
+  }
   theme();
   carom.parts.push(theme);
 
@@ -28,15 +43,16 @@ carom.begin_plots = (parts, plots) => {
     marker: forward.map((one) => (one ? "triangle" : "inverted_triangle")),
   });
 
+  // Columns of the planes one after another.
+  const joined = (planes, column) => planes.flatMap((one) => Array.from(one[column]));
   const section = (now) => {
-    const message = motion.message, count = message.impact_times.filter((time) => time <= now).length;
-    if (count === motion.count) return;
-    motion.count = count;
-    const first = (values) => Array.from(values).slice(0, count), forward = first(message.forward);
+    const { planes, speed } = motion.message, times = joined(planes, "impact_times");
+    const chosen = times.map((_, place) => place).filter((place) => times[place] <= now);
+    if (chosen.length === motion.count) return;
+    motion.count = chosen.length;
+    const of = (column) => { const all = joined(planes, column); return chosen.map((place) => all[place]); };
     parts.section.data = {
-      angle: first(message.impact_angles).map((angle) => 180 * angle / Math.PI),
-      speed: first(message.impact_speeds).map((speed) => message.speed * speed),
-      ...marks(forward),
+      angle: of("impact_angles").map((angle) => 180 * angle / Math.PI), speed: of("impact_speeds").map((one) => speed * one), ...marks(of("forward")),
     };
   };
 
@@ -44,31 +60,38 @@ carom.begin_plots = (parts, plots) => {
     motion: carom.unhurried((message) => {
       motion.message = message;
       motion.count = -1;
-      const { times, x, y } = message, end = message.time * times[times.length - 1];
-      const r = Array.from(x, (part, place) => Math.hypot(part, y[place]));
-      // A rigid wall stands at one; into one that gives way the rotor goes farther.
-      const top = r.reduce((most, radius) => Math.max(most, radius + 0.04), 1.06);
-      parts.history.data = { t: Array.from(times, (time) => message.time * time), r };
-      parts.struck.data = {
-        t: Array.from(message.impact_times, (time) => message.time * time), r: Array.from(message.impact_times, () => top - 0.03),
-        ...marks(Array.from(message.forward)),
-      };
-      parts.history_x.setv({ start: 0, end });
-      parts.history_y.setv({ start: 0, end: top });
-      plots.history.below[0].axis_label = `time (${message.time_unit})`;
+      const { planes, time } = message, t = Array.from(message.times, (one) => time * one), end = t[t.length - 1], ink = planes.map((_, place) => inkOf(place));
+      const most = (values, least) => values.reduce((top, value) => Math.max(top, value), least);
+      const lines = planes.length > 1 ? ink : [colour("trail")];
+      const distances = planes.map((one) => Array.from(one.x, (x, place) => Math.hypot(x, one.y[place])));
+      // A rigid wall stands at one; into a compliant one the rotor goes farther.
+      const top = distances.reduce((found, one) => Math.max(found, most(one, 0) + 0.04), 1.06), struck = joined(planes, "impact_times");
+      parts.distances.data = { xs: planes.map(() => t), ys: distances, colour: lines };
+      parts.struck.data = { t: struck.map((one) => time * one), r: struck.map(() => top - 0.03), ...marks(joined(planes, "forward")) };
+      parts.distances_x.setv({ start: 0, end });
+      parts.distances_y.setv({ start: 0, end: top });
+      for (const name of ["distances", "forces"]) if (plots[name]) plots[name].below[0].axis_label = `time (${message.time_unit})`;
       plots.section.left[0].axis_label = `radial speed (${message.speed_unit})`;
-      parts.section_y.setv({ start: 0, end: 1.1 * message.speed * Math.max(...message.impact_speeds, 1e-3) });
-      const all = (value) => message.spans.map(() => value);
+      parts.section_y.setv({ start: 0, end: 1.1 * message.speed * most(joined(planes, "impact_speeds"), 1e-3) });
+      const spans = joined(planes, "spans"), all = (value) => spans.map(() => value);
       parts.spans.data = {
-        left: message.spans.map((span) => message.time * span.start), right: message.spans.map((span) => message.time * span.end),
-        bottom: all(0), top: all(top), colour: message.spans.map((span) => span.colour),
+        left: spans.map((span) => time * span.start), right: spans.map((span) => time * span.end), bottom: all(0), top: all(top), colour: spans.map((span) => span.colour),
       };
-      const kinds = new Map(message.spans.map((span) => [span.words, span.colour]));
-      at("regimes").replaceChildren(...[...kinds].flatMap(([words, ink]) => {
+      const kinds = new Map(spans.map((span) => [span.words, span.colour]));
+      at("regimes").replaceChildren(...[...kinds].flatMap(([words, shade]) => {
         const key = document.createElement("i");
-        key.className = "key"; key.style.background = ink;
+        key.className = "key"; key.style.background = shade;
         return [key, words];
       }));
+      if (plots.forces) {
+        const largest = planes.reduce((found, one) => most(one.force, found), 0), kilo = largest >= 1e4 ? 1e-3 : 1;
+        parts.forces.data = { xs: planes.map(() => t), ys: planes.map((one) => Array.from(one.force, (force) => kilo * force)), colour: lines };
+        parts.forces_x.setv({ start: 0, end });
+        parts.forces_y.setv({ start: 0, end: 1.08 * kilo * (largest || 1) });
+        plots.forces.left[0].axis_label = `contact force (${kilo < 1 ? "k" : ""}${planes[0].force_unit})`;
+        at("forces-words").textContent = largest ? "" : "No contact.";
+      }
+      if (planes.length > 1) for (const place of document.querySelectorAll(".bearing-keys")) keys(place, planes.map((_, one) => [`touchdown bearing ${one + 1}`, inkOf(one), false]));
       carom.panels.shown("figures", message);
       carom.plots.now(carom.motion.now, true);
     }),
@@ -76,8 +99,22 @@ carom.begin_plots = (parts, plots) => {
       const clock = performance.now();
       if (!motion.message || (!last && clock - motion.drawn < 120)) return;
       motion.drawn = clock;
-      parts.now.location = motion.message.time * time;
+      for (const name of ["now", "now_too"]) if (parts[name]) parts[name].location = motion.message.time * time;
       section(time);
+    },
+    response: (message) => {
+      if (message.refused) return;
+      const { speeds, touchdowns, sensors, walls } = message, ends = [speeds[0], speeds[speeds.length - 1]];
+      for (const [name, lines] of [["planes", touchdowns], ["sensors", sensors]]) {
+        parts[name].data = { xs: lines.map(() => speeds), ys: lines, colour: lines.map((_, place) => inkOf(place)) };
+      }
+      parts.walls.data = { xs: walls.map(() => ends), ys: walls.map((one) => [one, one]) };
+      parts.response_x.setv({ start: ends[0], end: ends[1] });
+      parts.response_y.setv({ start: 0, end: message.top });
+      parts.speed.location = message.speed;
+      const named = (lines, words, dashed) => lines.map((_, place) => [`${words} ${place + 1}`, inkOf(place), dashed]);
+      const above = walls[0] > message.top ? `, ${walls.map((one) => short(one, 3)).join(" and ")} µm: above the picture` : "";
+      keys(at("response-keys"), [...named(touchdowns, "touchdown bearing", false), ...named(sensors, "sensors of bearing", true), [`clearance${above}`, colour("wall"), false]]);
     },
     diagram: (message) => {
       if (message.refused) { at("diagram-words").textContent = message.refused; return; }
@@ -101,7 +138,8 @@ carom.begin_plots = (parts, plots) => {
       carom.showCursor(along, carom.controls.value(along));
     },
   };
-  carom.on("diagram", carom.plots.diagram);
+  if (plots.diagram) carom.on("diagram", carom.plots.diagram);
+  if (plots.response) carom.on("response", carom.plots.response);
   carom.showCursor = (name, value) => { if (name === along) parts.cursor.location = value; };
   if (carom.motion.message && !carom.motion.message.refused) carom.plots.motion(carom.motion.message);
 };

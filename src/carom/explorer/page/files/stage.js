@@ -4,7 +4,7 @@ carom.stage = {};
 
 (() => {
   const canvases = [...document.querySelectorAll("canvas[data-slot]")], slotOf = canvases.map((canvas) => +canvas.dataset.slot);
-  const slots = ["motion", "beside"].filter((_, slot) => slotOf.includes(slot));
+  const slots = ["motion", "beside"];
   const state = { kind: "kick", largest: null, kicks: null, active: 0, ring: null };
   let asked = 0, opening = 0, smallest = { number: 0, size: 0 }, pointed = null;
 
@@ -29,7 +29,7 @@ carom.stage = {};
   });
   const point = (kick, chosen, slot = null) => {
     const ending = basin.endingOf(kick);
-    const place = slots.length === 1 ? 0 : slot === null ? (ending && ending.back ? 0 : 1) : slot, both = marked();
+    const place = slot === null ? (ending && ending.back ? 0 : 1) : slot, both = marked();
     if (both.length < slots.length) return;
     state.kicks = both.map((one, other) => (other === place ? kick : one));
     state.active = place;
@@ -46,7 +46,7 @@ carom.stage = {};
     if (message.harmless > 0) rows.push(["dash", "proven never to touch"]);
     if (basin.veiled()) rows.push(["pale", `pale: nothing is proven; proven to come back ${basin.proven.share}`]);
     if (message.required > 0) rows.push(["must", `${message.required > message.largest * 1.0001 ? "out of the picture: " : ""}must survive ${short(message.required, 3)} ${message.unit}`]);
-    if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest lost ${one}: ${short(basin.ring, 3)} ${message.unit}`]);
+    if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest ${one} that does not come back: ${short(basin.ring, 3)} ${message.unit}`]);
     return rows;
   };
   // Rows stay while the motions are the same: only the shares change then.
@@ -112,7 +112,7 @@ carom.stage = {};
   };
   carom.on("basin", (message) => {
     if (basin.message && message.number < basin.message.number) return;
-    if (message.refused) { at("sentence").textContent = message.refused; return; }
+    if (message.refused) { at("sentence").textContent = message.refused; carom.controls.arrived(message.number); return; }
     for (const one of flights) one.rest = message.rest_position && { position: message.rest_position, colour: message.legend_rest };
     // All at once, so that it is drawn once.
     basin.kicks = marked();
@@ -122,7 +122,7 @@ carom.stage = {};
     ranged(message);
     at("rest").textContent = message.rest;
     at("kind").value = message.kind;
-    if (!carom.follows) carom.controls.arrived(message.number);
+    carom.controls.arrived(message.number);
   });
 
   // The motion after one of both; a newer wish keeps its own mark.

@@ -4,7 +4,7 @@ carom.sweep = { state: "waiting" }; // then "moving", and "over" for ever
 (() => {
   const still = window.matchMedia("(prefers-reduced-motion: reduce)"), wait = 2500, turn = 16000, turns = 2, pause = 140, reach = 0.24;
   const touches = ["pointerdown", "keydown", "wheel", "touchstart", "focusin", "input", "popstate"];
-  const name = document.getElementById("box-damping") ? "damping" : "gamma";
+  const name = at("sweeping").dataset.moves; // none where motions take long
   let began = 0, from = 0, timer = 0;
 
   const over = () => {
@@ -32,7 +32,7 @@ carom.sweep = { state: "waiting" }; // then "moving", and "over" for ever
     timer = setTimeout(move, pause);
   };
   const begin = () => {
-    if (document.hidden || still.matches || location.hash) { over(); return; }
+    if (!name || document.hidden || still.matches || location.hash) { over(); return; }
     carom.sweep.state = "moving";
     at("sweeping").hidden = false;
     from = carom.controls.share(name);
