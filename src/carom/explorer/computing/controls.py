@@ -104,7 +104,7 @@ _DIMENSIONLESS: Mapping[str, _Kind] = {
     "mu": _Kind(TOUCHDOWNS, "friction μ", "", 2.0, least=0.5, most=10.0, logarithmic=False),
     "d": _Kind(TOUCHDOWNS, "restitution d", "", 1.0, least=1.0, most=1.0, logarithmic=False),
 }
-"""The same of a rotor without scales."""
+"""The same of a rotor that is given by numbers of its equations."""
 _FIRST = 0.5
 """Lower end of the slider of the speed, over the speed of the machine."""
 _STATED_AT_ZERO = ("unbalance", "proportional", "integral", "derivative", "delay")
@@ -135,7 +135,7 @@ def _entries(case: Case) -> Mapping[str, Any]:
 
 
 def _kinds(case: Case) -> Mapping[str, _Kind]:
-    return _KINDS if case.parameters.scales else _DIMENSIONLESS
+    return _KINDS if "friction" in _named(case).varied else _DIMENSIONLESS
 
 
 def _shared(case: Case) -> Iterator[Control]:

@@ -115,7 +115,7 @@ class Questions:
         self.origin, self.mark = origin, mark_of(origin.case)
         self.controls: Mapping[str, Control] = {control.name: control for control in controls_of(origin.case)}
         self.planes: dict[str, Plane] = {plane.name: plane for plane in planes_of(origin.case)}
-        self.along = next(name for name in MOVING if name in self.controls)
+        self.along = next(name for name in (*MOVING, *self.controls) if name in self.controls)
         rotor = rotor_of(origin.case)
         self.bearings, self.slow, self.exact = len(rotor.system.planes), heavy(rotor), exact_results(rotor).orbits
         shown = {"forces": rotor.is_compliant, "response": rotor.scales is not None, "diagram": self.exact}
