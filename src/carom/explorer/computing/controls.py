@@ -182,7 +182,7 @@ def _unit(case: Case, name: str, kind: _Kind) -> str:
     if not name.startswith("touchdown_stiffness"):
         return kind.unit
     place = int(name.rpartition("_")[2]) - 1 if name[-1].isdigit() else 0
-    bearing = _named(case).touchdowns[place].bearing if _entries(case) else rotor_of(case).bearing_at(0)
+    bearing: Any = _named(case).touchdowns[place].bearing if _entries(case) else rotor_of(case).bearing_at(0)
     return str(bearing.unit("stiffness"))
 
 
