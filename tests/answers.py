@@ -19,7 +19,7 @@ def check_answer(question, machine, capsys):
     command, *options = MATRIX.questions(machine, small=True)[question]
     code = main([command, str(MATRIX.MACHINES[machine]), *options, "--json"])
     out, err = capsys.readouterr()
-    if (machine, question) in MATRIX.WITHOUT_MEANING | MATRIX.NOT_ANSWERED:
+    if (machine, question) in MATRIX.WITHOUT_MEANING:
         assert code == 2, out
         assert len(err.splitlines()) == 1
         assert "speed" in err

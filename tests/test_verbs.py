@@ -63,9 +63,6 @@ CALLS = {
     "attractors.find_attractors": lambda m: cm.find_attractors(m, FEW, known=False),
     "attractors.follow_until_settled": lambda m: cm.attractors.follow_until_settled(m, settled(m), impacts=100),
     "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
-    "attractors.locate_crisis": lambda m: told(
-        lambda: cm.attractors.locate_crisis(m, "gamma", 0.4, 0.41, count=4, impacts=50)
-    ),
     "attractors.measure_lifetimes": lambda m: cm.attractors.measure_lifetimes(m, count=4, impacts=50),
     "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
     "basins.map_cells": lambda m: cm.basins.map_cells(m, KICKS),
@@ -96,7 +93,6 @@ CALLS = {
     "closed_forms.speed_response": cm.closed_forms.speed_response,
     "closed_forms.synchronous_response": lambda m: cm.closed_forms.synchronous_response(m, [100.0]),
     "closed_forms.small_cycles": cm.closed_forms.small_cycles,
-    "closed_forms.yielding_rubs": lambda m: cm.closed_forms.yielding_rubs(m, 1e4),
     "disturbances.outward_from": cm.disturbances.outward_from,
     "explorer.explore": lambda m: told(lambda: case_explored(m)),
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
@@ -132,7 +128,6 @@ GENERAL = {
     "explorer.explore",
     "models.any_case_of",
     "attractors.character_of",
-    "attractors.locate_crisis",
     "attractors.measure_lifetimes",
     "orbits.lyapunov_exponents",
     "attractors.find_attractors",
@@ -151,7 +146,6 @@ GENERAL = {
     "closed_forms.harmless_shock",
     "closed_forms.slipping_whirls",
     "closed_forms.small_cycles",
-    "closed_forms.yielding_rubs",
     "disturbances.outward_from",
     "models.axis",
     "models.rotor_of",

@@ -27,8 +27,6 @@ MACHINES = {
 FLEXIBLE = ("flexible-support", "tum-flexible-rotor", "uberlandia-flexible-rotor")
 WITHOUT_MEANING = {("drive", question) for question in ("orbits", "two impacts", "bifurcations", "regions")}
 """A shaft that slows down never repeats itself."""
-NOT_ANSWERED = {("drive", "blade loss"), ("drive", "shocks")}
-"""What still is refused, in one line."""
 
 
 def questions(machine: str, small: bool = False) -> dict[str, list[str]]:
@@ -76,8 +74,8 @@ def answer(machine: str, question: str, limit: float) -> str:
     if code == 0:
         return f"{used.ru_utime + used.ru_stime:.0f}"
     cell = machine, question
-    if code == 2 and cell in WITHOUT_MEANING | NOT_ANSWERED:
-        return "—" if cell in WITHOUT_MEANING else "refused"
+    if code == 2 and cell in WITHOUT_MEANING:
+        return "—"
     return "late" if code < 0 else "FAILED"
 
 

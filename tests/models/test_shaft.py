@@ -357,3 +357,18 @@ def test_impulses_at_a_rigid_wall_are_those_that_brake_the_shaft(laws):
     ).all()
     assert contacts.drive_work == pytest.approx(-(ends[1] ** 2 - ends[0] ** 2)[motion.is_impact], rel=1e-12)
     assert (contacts.contact_work <= 0.0).all()
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("disturbance", [cm.disturbances.BladeLoss(0.5), cm.BaseShock(0.6, 1.5)])
+def test_disturbances_of_a_heavy_shaft_are_those_of_one_at_constant_speed(disturbance):
+    """In units of the rotor's mass and clearance: what contact takes from such a shaft is lost in rounding."""
+    before, after = single(SOFT, Shaft(1e12)), single(SOFT, None)
+    grid = cm.Grid(disturbance, (3,) * len(disturbance.coordinates))
+    basin, expected = cm.map_basins(before, grid), cm.map_basins(after, grid)
+    assert expected.touched.any()
+    assert basin.outcomes.tolist() == expected.outcomes.tolist()
+    for name in ("start_x", "start_vy"):
+        assert basin.dataset[name].values == pytest.approx(expected.dataset[name].values, abs=1e-9)
+    states = [cm.simulate(*disturbance.apply(rotor, 0.7), until=4.0).final for rotor in (before, after)]
+    assert states[0].position == pytest.approx(states[1].position, abs=1e-8)

@@ -6,7 +6,6 @@
 ``intervals``   :func:`exact_interval`: what a sample says of a probability
 ``survival``    :class:`Survival`: how long irregular motion lasts
 ``lifetimes``   :func:`measure_lifetimes`: after how many impacts motions stop bouncing; transient, or not seen to end
-``crises``      :func:`locate_crisis`: where along a parameter bouncing begins to end
 ``settled``     what a settled motion repeats, and whether two repeat the same
 ``names``       :class:`MotionName`: what a motion is called
 ``naming``      the motions on which starts end, by name
@@ -18,7 +17,6 @@
 """
 
 from carom.attractors.characters import Character, character_of
-from carom.attractors.crises import Crisis, locate_crisis
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
 from carom.attractors.intervals import exact_interval
@@ -32,7 +30,6 @@ __all__ = [
     "Attractor",
     "AttractorSet",
     "Character",
-    "Crisis",
     "DisturbanceSet",
     "Ending",
     "Lifetimes",
@@ -45,6 +42,5 @@ __all__ = [
     "find_attractors",
     "follow_until_settled",
     "known_starts",
-    "locate_crisis",
     "measure_lifetimes",
 ]

@@ -17,7 +17,7 @@
 ``local``           cycles that shrink into a boundary equilibrium
 ``piecewise``       motion next to a point of a wall that levitation touches
 ``wall_meetings``   what is born there, for any number of modes and both kinds of walls
-``yielding_walls``  rubs and slipping whirl on walls that give way
+``yielding_walls``  slipping whirl on walls that give way
 ``whirl_resonance`` speeds at which the whirls of a disc are in resonance
 ``hertz``           pressure between the balls and the race of a touchdown bearing
 ``exact_results``   what general code may ask of any rotor
@@ -42,7 +42,7 @@ from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.closed_forms.whirl_resonance import internal_resonance
-from carom.closed_forms.yielding_walls import SlippingWhirl, YieldingRub, slipping_whirls, yielding_rubs
+from carom.closed_forms.yielding_walls import SlippingWhirl, slipping_whirls
 
 __all__ = [
     "ContactSystem",
@@ -63,7 +63,6 @@ __all__ = [
     "SpeedResponse",
     "SynchronousResponse",
     "WallMeeting",
-    "YieldingRub",
     "ball_pressure",
     "cycle_determinant",
     "fading_speed",
@@ -83,5 +82,4 @@ __all__ = [
     "small_cycles",
     "speed_response",
     "synchronous_response",
-    "yielding_rubs",
 ]

@@ -45,7 +45,7 @@ def internal_resonance(polar_inertia: NotNegative, backward: Count, forward: Cou
 
     See Also
     --------
-    carom.closed_forms.yielding_rubs : the synchronous rubs of such a rotor
+    carom.find_equilibria : the synchronous rubs of such a rotor
 
     Examples
     --------

@@ -13,7 +13,7 @@ Squared, that is a sum of real powers of ``δ``,
 
     1 − |y*|² + 2δ + δ² + 2 Re(h)κ(δⁿ + δ^{n+1}) + |h|²κ²δ^{2n} = 0.
 
-All its positive roots are found (:mod:`carom.closed_forms.power_sums`), of whatever powers.
+All its positive roots are found (:mod:`carom.closed_forms.power_sums`), of whatever powers; :func:`carom.find_equilibria` lists them.
 
 For the disc of an overhung rotor in a frictionless ring, with the natural frequency as the unit of time, polar inertia ``J_p``
 per diametral one, damping ``2ζ``, unbalance ``mε`` and the ring's stiffness ``β``, the receptance is
@@ -36,7 +36,6 @@ a rigid wall (:func:`~carom.closed_forms.thresholds.sustaining_speed`).
 
 from __future__ import annotations
 
-import cmath
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -45,7 +44,6 @@ from scipy.linalg import eigvals  # type: ignore[import-untyped]
 
 from carom.arguments import Kind, Positive, Whole, checked
 from carom.closed_forms.power_sums import positive_roots
-from carom.closed_forms.statics import rubs_in_wall
 from carom.models import Subject, System, rotor_of
 from carom.outcome import InputError
 
@@ -57,25 +55,6 @@ EXACT = 1e-10
 CLOSEST = 4 * 2.220446049250313e-16
 """Last step of Newton's method that counts as rounding: close to a resonance ``g`` changes by more than :data:`EXACT` in it."""
 NEWTON_STEPS = 8
-
-
-@dataclass(frozen=True)
-class YieldingRub:
-    """A rotor at rest in the co-rotating frame, pressed on a wall that gives way.
-
-    Attributes
-    ----------
-    depth : float
-        Indentation ``δ``, in clearances.
-    place : complex
-        Displacement at the plane, ``(1 + δ)e^{iθ}``, in clearances.
-    normal_force : float
-        ``κδⁿ``, per felt mass, in ``c_r Ω²``.
-    """
-
-    depth: float
-    place: complex
-    normal_force: float
 
 
 @dataclass(frozen=True)
@@ -98,57 +77,6 @@ class SlippingWhirl:
     radius: float
     normal_force: float
     slips: bool
-
-
-@checked
-def yielding_rubs(
-    machine: Subject, stiffness: Positive, exponent: Exponent = 1.0, *, plane: Whole = 0
-) -> tuple[YieldingRub, ...]:
-    """All synchronous rubs of a rotor on one plane whose wall gives way, derived in :mod:`carom.closed_forms.yielding_walls`.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-        Any linear rotor; the law of its walls is not used.  Stability is not judged.
-    stiffness : float
-        ``κ`` of the force ``κδⁿ`` per felt mass, in ``Ω²`` and clearances.
-    exponent : float
-        ``n``, at least 1; 1 for a Kelvin–Voigt wall.
-    plane : int
-        The plane in contact; whether others are clear is not asked.
-
-    Returns
-    -------
-    tuple of YieldingRub
-        By growing depth; none where any angle would do, as for a balanced rotor.
-
-    Raises
-    ------
-    InputError
-        There is no such plane, a value is not allowed, or forces on the rotor change with time.
-
-    See Also
-    --------
-    carom.find_equilibria : the same on rigid walls
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> machine = cm.load("examples/source-paper.toml")
-    >>> [f"{rub.depth:.3e}" for rub in cm.closed_forms.yielding_rubs(machine, stiffness=1e4)]
-    ['5.871e-07', '7.910e-05']
-    """
-    system = rotor_of(machine).system
-    system.refuse_forces()
-    _check_plane(system, plane)
-    row, column = system.arrays["rows"][plane], system.arrays["columns"][:, plane]
-    receptance = complex(-row @ np.linalg.solve(system.generator, column))
-    lever = receptance * complex(1.0, system.arrays["friction"][plane])
-    rubs = rubs_in_wall(lever, complex(system.arrays["offsets"][plane]), stiffness, exponent)
-    return tuple(
-        YieldingRub(depth, cmath.rect(1.0 + depth, cmath.phase(turned)), stiffness * depth**exponent)
-        for depth, turned in rubs
-    )
 
 
 @checked
@@ -195,7 +123,8 @@ def slipping_whirls(
     """
     system = rotor_of(machine).system
     system.refuse_forces()
-    _check_plane(system, plane)
+    if plane >= (count := len(system.arrays["rows"])):
+        raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {count - 1}")
     surface = float(system.arrays["surface_speed"][plane]) - 1.0
     whirls = []
     for speed, lever in _slipping_speeds(system, plane):
@@ -242,9 +171,3 @@ def _refined(generator: np.ndarray, row: np.ndarray, column: np.ndarray, turn: f
         step = lever.imag / slope
         turn -= step
     return turn, lever, step
-
-
-def _check_plane(system: System, plane: int) -> None:
-    """Refuse a plane that the rotor does not have."""
-    if plane >= len(system.arrays["rows"]):
-        raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {len(system.arrays['rows']) - 1}")

@@ -87,13 +87,14 @@ def starts_after(
 def levitating_before(rotor: Rotor, turned: np.ndarray, instants: np.ndarray) -> Starts:
     """Levitation at instants of the turn, seen in frames that have turned by these angles with the unbalance after it."""
     levitates = rotor.system.rest_radius < 1.0
-    if levitates:
+    if levitates and rotor.system.externally_forced:
         rotor.system.refuse_non_stationary()
-    system, n = rotor.system, len(rotor.system.rest)
-    whirls = system.states_of(np.array([system.forced_at(instant) for instant in np.ravel(instants).tolist()]))
+    system = rotor.system
+    positions, velocities = system.kicked(np.zeros(np.shape(instants)), instants)
     turn, none = complex_of(np.cos(turned), -np.sin(turned)), np.zeros(turned.shape, bool)
-    seen = whirls.reshape(*np.shape(instants), 2 * n) * turn[..., None]
-    places, speeds = (seen[..., 0], seen[..., 1]) if n == 1 else (seen[..., :n], seen[..., n:])
+    places, speeds = positions * turn[..., None], velocities * turn[..., None]
+    if len(system.rest) == 1:
+        places, speeds = places[..., 0], speeds[..., 0]
     # What does not turn with the shaft, as weight, is seen in a frame that has turned as it is later in the turn.
     begins = turned + instants if system.is_time_dependent else np.zeros(turned.shape)
     return Starts(places, speeds, none | levitates, none, none, begins)

@@ -132,7 +132,8 @@ class BaseShock(Disturbance):
     """The housing and its bearings are accelerated by ``a(t) = â sin(πt/T)`` along a line for a time ``T``.
 
     The motion of the levitating rotor relative to the housing is followed exactly through the pulse, contacts included
-    (:mod:`carom.disturbances.shocks`); the start is the state at its end.  Directions are those of the acceleration in the fixed
+    (:mod:`carom.disturbances.shocks`); the start is the state at its end, but for the speeds of a race and of the shaft, which then are
+    those before the pulse (:meth:`apply` keeps them).  Directions are those of the acceleration in the fixed
     frame, measured from the real axis of the co-rotating frame at the instant when the pulse begins.
 
     Attributes
@@ -187,7 +188,8 @@ class BaseShock(Disturbance):
         peaks, directions, begun = np.broadcast_arrays(*values, instant)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        rotor.system.refuse_non_stationary()
+        if rotor.system.externally_forced:
+            rotor.system.refuse_non_stationary()
         positions, velocities, ended, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
         )

@@ -60,7 +60,7 @@ def states_after_shocks(
     reached during the pulse.
     """
     begins = np.broadcast_to(begins, peaks.shape)
-    if rotor.system.is_anisotropic:
+    if rotor.system.is_anisotropic or rotor.system.shaft is not None:
         return _states_one_by_one(rotor, peaks, duration, directions, begins)
     system = shaken(rotor, duration, 1.0).system
     at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))
@@ -107,7 +107,7 @@ def states_after_shocks(
 def _states_one_by_one(
     rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """:func:`states_after_shocks` where bearings act differently in two directions: the motion is no multiple of that of another shock."""
+    """:func:`states_after_shocks` where bearings are anisotropic or the shaft changes its speed: the motion is no multiple of that of another shock."""
     planes, limits = len(rotor.system.arrays["rows"]), rotor.system.limits
     found, ended, touched = [], [], []
     for peak, direction, begun in zip(*(each.ravel().tolist() for each in (peaks, directions, begins)), strict=True):
