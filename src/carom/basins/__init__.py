@@ -10,9 +10,9 @@
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy
+``maps``                maps over two numbers of any measure: the next two
 ``gains``               these measures against two parameters: gain maps
 ``drops``               how drops end and what the bearing bears, against two numbers
-``drop_axes``           what these numbers may be: of the release, or of the machine
 ``changes``             the least change of both that brings back a wanted share
 ``document``            results as JSON
 ======================  ==================================================================================

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -14,18 +14,17 @@ import numpy as np
 
 from carom.arguments import Count, checked
 from carom.attractors import MotionName
-from carom.basins.dataset import Stored, outcome_flags, programs
-from carom.basins.drop_axes import TURN, Node, moved, present_of, told_range, told_value, values_of, varied_of
-from carom.basins.gains import Several
+from carom.basins.dataset import outcome_flags, programs
+from carom.basins.maps import Entry, Measure, OverPlane, Several, Told, map_over
 from carom.core.processors import available_cores
 from carom.disturbances.following import NO_START
-from carom.models import Axis, Subject, rotor_of
+from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, follow_loads
 from carom.motions.bearing_loads import DropLoads
 from carom.motions.starts import Until
 from carom.outcome import STEADY_WORDS, InputError
-from carom.parameters import Case, LoadLimits, Scales, own_time
+from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
 from carom.parameters.told import number
 from carom.progress import Reporter, ShowProgress, shows_progress
 
@@ -35,26 +34,53 @@ if TYPE_CHECKING:
 MOST_STEPS = 100_000
 """Default number of impacts and steps of contact after which a drop is given up: several seconds of a machine on its bearing."""
 MEASURES = {
-    "force": ("N", "peak force"),
-    "impulse": ("N s", "largest impulse"),
-    "depth": ("m", "largest depth in the bearing"),
-    "heat": ("J", "slip energy, turned into heat"),
-    "power": ("W", "largest friction power"),
-    "pressure": ("Pa", "pressure of balls"),
-    "contacts": ("1", "contacts, or impacts on a rigid wall"),
-    "contact_time": ("s", "time in contact"),
-    "settled_at": ("s", "time from the release since which the rotor rests or whirls"),
-    "time": ("s", "time for which it was followed"),
-    "whirl": ("Hz", "whirl at the end, negative backward"),
+    "force": Told("N", "peak force"),
+    "impulse": Told("N s", "largest impulse"),
+    "depth": Told("m", "largest depth in the bearing"),
+    "heat": Told("J", "slip energy, turned into heat"),
+    "power": Told("W", "largest friction power"),
+    "pressure": Told("Pa", "pressure of balls"),
+    "contacts": Told("1", "contacts, or impacts on a rigid wall"),
+    "contact_time": Told("s", "time in contact"),
+    "settled_at": Told("s", "time from the release since which the rotor rests or whirls"),
+    "time": Told("s", "time for which it was followed"),
+    "whirl": Told("Hz", "whirl at the end, negative backward"),
 }
 """Numbers of each drop, with unit and words: the largest of all planes, or the sum of contacts, heat and time."""
+TURN = 2.0 * math.pi
+_RELEASED = (
+    ("phase", "phase of the unbalance at the release", "an angle", "rad", -1e6, '"90 deg"', "°", math.radians(1.0)),
+    ("regained_after", "time until levitation is back", "a time", "s", 1e-9, '"50 ms"', "ms", 1e-3),
+    (
+        "race_speed",
+        "speed of the race at the release",
+        "an angular speed",
+        "rad/s",
+        -1e6,
+        '"500 rpm"',
+        "rpm",
+        math.pi / 30,
+    ),
+)
+RELEASED = {
+    name: Axis(Field(name, "", words, kind, unit, lowest, 1e6, example, usual=usual, usual_size=size))
+    for name, words, kind, unit, lowest, example, usual, size in _RELEASED
+}
+"""What of the release itself can be varied, besides the parameters of the machine."""
+_OWN_UNITS = {"regained_after": "time", "race_speed": "speed"}
+"""Those that a drop has in units of the equations."""
 LIMITED = {"impacts": "contacts"}
 """Numbers of a drop that a limit of another name is about."""
 
 
+def varied_of(rotor: Rotor, name: str) -> Axis:
+    """What is varied under a name: of the release, or a parameter of the machine."""
+    return RELEASED[name] if name in RELEASED else axis(rotor, name)
+
+
 @checked
 @dataclass(frozen=True, eq=False, repr=False)
-class DropMap(Stored):
+class DropMap(OverPlane):
     """How drops end, and what they ask of the touchdown bearing, against two numbers.
 
     Attributes
@@ -74,21 +100,9 @@ class DropMap(Stored):
         """Mass, clearance and speed of the present machine."""
         return self.rotor.scales
 
-    @property
-    def axes(self) -> tuple[Axis, Axis]:
-        """What is varied."""
-        first, second = self.dataset["outcome"].dims
-        return varied_of(self.rotor, str(first)), varied_of(self.rotor, str(second))
-
-    @property
-    def plane(self) -> str:
-        """Both with their ranges, in words."""
-        return ", ".join(told_range(axis, self.dataset[axis.name].values) for axis in self.axes)
-
-    @property
-    def present(self) -> tuple[float, float]:
-        """Values of the present machine and release; NaN where levitation is not regained."""
-        return tuple(json.loads(self.dataset.attrs["present"]))
+    def varied(self, name: str) -> Axis:
+        """What is varied under a name."""
+        return varied_of(self.rotor, name)
 
     @cached_property
     def motions(self) -> tuple[MotionName, ...]:
@@ -136,9 +150,8 @@ class DropMap(Stored):
         if not np.isfinite(values).any():
             return "none touched"
         at = np.unravel_index(np.nanargmax(values), values.shape)
-        where = ", ".join(
-            told_value(axis, float(self.dataset[axis.name].values[place]))
-            for axis, place in zip(self.axes, at, strict=True)
+        where = self.at(
+            [float(self.dataset[axis.name].values[place]) for axis, place in zip(self.axes, at, strict=True)]
         )
         unit, words = MEASURES[self.hardest]
         return f"{words} {number(float(values[at]), 4)} {unit} at {where}"
@@ -207,36 +220,30 @@ def map_drops(
     """
     rotor, released = rotor_of(machine), released or Drop()
     released.stages(rotor)  # refuses what cannot be dropped at all
-    axes = varied_of(rotor, names[0]), varied_of(rotor, names[1])
-    if axes[0].name == axes[1].name:
-        raise InputError("names", ",".join(names), "two different ones")
     scales = rotor.scales
     if scales is None:
         raise InputError("machine", "no scales", "a rotor with mass, clearance and speed, in which weight is in m/s^2")
-    present = [present_of(rotor, released, varied) for varied in axes]
-    values = [values_of(*each) for each in zip(axes, present, ranges, shape, strict=True)]
-    nodes = [moved(rotor, released, axes, (float(x), float(y))) for x in values[0] for y in values[1]]
     longest = None if until is None else own_time("until", until, scales) * scales.time
-    tell, rows = Reporter.of(progress, "following drops"), list[_Row]()
-    for row in _followed(nodes, longest, max_events, threads or available_cores()):
-        rows.append(row)
-        tell(len(rows) / len(nodes))
-    if all(row.name is None for row in rows):
+    measure, tell = (
+        Landing(released, longest, max_events, threads or available_cores()),
+        Reporter.of(progress, "following drops"),
+    )
+    dataset, rows = map_over(rotor, measure, names, ranges, shape, tell)
+    if not any(rows):
         raise InputError(
             STEADY_WORDS["contact-free"],
             "of none of the machines",
             "static sag and whirl must stay inside the wall: below 1",
         )
+    dataset = dataset.assign(_ends(rows, dataset))
     limits = machine.limits if isinstance(machine, Case) else LoadLimits()
-    dataset = _dataset(axes, values, rows)
-    dataset.attrs = {
+    dataset.attrs |= {
         **(source or {}),
         "Conventions": "CF-1.11",
         "title": "How drops of a rotor on its touchdown bearing end, against two numbers",
         "source": programs(),
         **rotor.attributes(),
         "released": repr(released),
-        "present": json.dumps(present),
         "load_limits": json.dumps(limits.given),
         "gives_way": int(any(rotor.system.arrays.stiffness > 0.0)),
     }
@@ -244,35 +251,71 @@ def map_drops(
 
 
 @dataclass(frozen=True)
-class _Row:
-    """A drop: the name of its end, ``None`` if there is nothing to drop, and its numbers in SI units."""
+class Landing(Measure):
+    """How drops end, and what the touchdown bearing bears; ``longest`` is in seconds."""
 
-    name: MotionName | None
-    numbers: dict[str, float]
+    released: Drop
+    longest: float | None
+    max_events: int
+    threads: int
 
+    told: ClassVar[Mapping[str, Told]] = MEASURES
 
-def _followed(nodes: list[Node], longest: float | None, max_events: int, threads: int) -> Iterator[_Row]:
-    """Drop all nodes in their order, several at a time; when the caller stops, no other one is begun."""
-    if threads == 1:
-        yield from (_dropped(node, longest, max_events) for node in nodes)
-        return
-    with ThreadPoolExecutor(threads) as pool:
-        try:
-            yield from pool.map(lambda node: _dropped(node, longest, max_events), nodes)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    def varied(self, rotor: Rotor, name: str) -> Axis:
+        """What is varied under a name."""
+        return varied_of(rotor, name)
 
+    def present(self, rotor: Rotor, varied: Axis) -> float:
+        """Value of the present machine and release, in SI units; NaN if it has none."""
+        if varied.name not in RELEASED:
+            return super().present(rotor, varied)
+        if varied.name == "phase":
+            return math.remainder(self.released.unbalance_angle(rotor) - rotor.direction_of_fall, TURN) % TURN
+        given = getattr(self.released, varied.name)
+        if given is None:
+            return 0.0 if varied.name == "race_speed" else math.nan
+        kind = _OWN_UNITS[varied.name]
+        return own_size(varied.name, given, kind, rotor.scales) * float(getattr(rotor.scales, kind))
 
-def _dropped(node: Node, longest: float | None, max_events: int) -> _Row:
-    """Drop a node and evaluate it; ``longest`` is in seconds."""
-    rotor, released = node
-    if not isinstance(released.at, State | Whirl) and rotor.system.rest_radius >= 1.0:
-        return _Row(None, {})
-    scales: Any = rotor.scales
-    until = None if longest is None else longest / scales.time
-    found = follow_loads(rotor, released, until, settle=True, max_events=max_events, progress=False)
-    return _Row(MotionName(found.outcome, found.multiplicity), _numbers(found, scales))
+    def values(self, varied: Axis, present: float, given: Ends | None, count: int) -> np.ndarray:
+        """Values over a range; those of the phase are the middles of cells that fill a turn, unless a range is given."""
+        if given is None and varied.name == "phase":
+            return TURN * (np.arange(count) + 0.5) / count
+        if given is None and varied.name in RELEASED and not present > 0.0:
+            raise InputError("ranges", None, f"needed: the drop states no {varied.name} around which a range could be")
+        return super().values(varied, present, given, count)
+
+    def entries(self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]) -> Iterator[Entry]:
+        """Drop all nodes in their order, several at a time; when the caller stops, no other one is begun."""
+        moved = [self._moved(rotor, axes, node) for node in nodes]
+        with ThreadPoolExecutor(self.threads) as pool:
+            try:
+                yield from pool.map(lambda node: self._dropped(*node), moved)
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+
+    def _moved(self, rotor: Rotor, axes: tuple[Axis, Axis], node: tuple[float, float]) -> tuple[Rotor, Drop]:
+        """Machine and release of a node; the release comes last, for its units may be those of the machine."""
+        released = self.released
+        for varied, value in sorted(zip(axes, node, strict=True), key=lambda pair: pair[0].name in RELEASED):
+            if varied.name not in RELEASED:
+                rotor = varied.move(rotor, value)
+            else:
+                kind = _OWN_UNITS.get(varied.name)
+                unit = 1.0 if kind is None else float(getattr(rotor.scales, kind))
+                changes: dict[str, Any] = {varied.name: value / unit}
+                released = replace(released, **changes)
+        return rotor, released
+
+    def _dropped(self, rotor: Rotor, released: Drop) -> Entry:
+        """The name of its end, and its numbers in SI units; nothing if there is nothing to drop."""
+        if not isinstance(released.at, State | Whirl) and rotor.system.rest_radius >= 1.0:
+            return {}
+        scales: Any = rotor.scales
+        until = None if self.longest is None else self.longest / scales.time
+        found = follow_loads(rotor, released, until, settle=True, max_events=self.max_events, progress=False)
+        return {"name": MotionName(found.outcome, found.multiplicity)} | _numbers(found, scales)
 
 
 def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
@@ -298,23 +341,14 @@ def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     }
 
 
-def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], rows: list[_Row]) -> xarray.Dataset:
-    import xarray
-
-    shape, dimensions = (len(values[0]), len(values[1])), (axes[0].name, axes[1].name)
-    names = sorted({row.name for row in rows if row.name is not None}, key=lambda name: (name.outcome, str(name)))
-    outcomes = [NO_START if row.name is None else int(row.name.outcome) for row in rows]
-    motions = [-1 if row.name is None else names.index(row.name) for row in rows]
+def _ends(rows: Sequence[Entry], dataset: xarray.Dataset) -> dict[str, Any]:
+    """Outcomes, and indices of the names of motions, over the nodes of a dataset."""
+    (dimensions, shape), first = (tuple(zip(*dataset.sizes.items(), strict=True)), [row.get("name") for row in rows])
+    names = sorted({name for name in first if name is not None}, key=lambda name: (name.outcome, str(name)))
+    outcomes = [NO_START if name is None else int(name.outcome) for name in first]
+    motions = [-1 if name is None else names.index(name) for name in first]
     notes = {"long_name": "motion in which it ends", "motions": json.dumps([asdict(name) for name in names])}
-    variables: dict[str, Any] = {
+    return {
         "outcome": (dimensions, np.array(outcomes, np.int8).reshape(shape), outcome_flags()),
         "motion": (dimensions, np.array(motions, np.int16).reshape(shape), notes),
     }
-    for measure, (unit, words) in MEASURES.items():
-        each = np.array([row.numbers.get(measure, math.nan) for row in rows]).reshape(shape)
-        variables[measure] = (dimensions, each, {"units": unit, "long_name": words})
-    coordinates = {
-        varied.name: (varied.name, along, {"units": varied.field.unit or "1", "long_name": varied.field.words})
-        for varied, along in zip(axes, values, strict=True)
-    }
-    return xarray.Dataset(variables, coords=coordinates)

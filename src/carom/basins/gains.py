@@ -4,39 +4,35 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import tee
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked, whole
+from carom.arguments import Count, Whole, checked
 from carom.basins.dataset import Mapped, provenance
 from carom.basins.entropy import entropies, usual_side
 from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
+from carom.basins.maps import Measure, OverPlane, Several, Told, map_over
 from carom.basins.shares import Population, Share
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
 from carom.models import Axis, Rotor, Subject, axis, depends_on_instant, rotor_of
-from carom.models.axes import Ends, read_interval, usual_range
+from carom.models.axes import Ends
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
-from carom.outcome import InputError, Outcome
-from carom.parameters.told import told_entry, told_range
+from carom.outcome import Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import fields_of
 
 if TYPE_CHECKING:
-    import xarray
-
     from carom.parameters import Scales
 
-Several = Annotated[int, whole(2)]
-"""A number of values of a parameter."""
 Node: TypeAlias = tuple[Plan, tuple[float, float]]
 """Disturbances, and values of the two parameters."""
 CHUNK = 50_000
@@ -45,7 +41,7 @@ CHUNK = 50_000
 
 @checked
 @dataclass(frozen=True, eq=False, repr=False)
-class GainMap(Mapped):
+class GainMap(OverPlane, Mapped):
     """Measures of recoverability against two parameters.
 
     Attributes
@@ -66,33 +62,9 @@ class GainMap(Mapped):
     needed: ClassVar[tuple[str, ...]] = ("recovered", "levitates")
 
     @property
-    def axes(self) -> tuple[Axis, Axis]:
-        """The two parameters."""
-        first, second = self.dataset["recovered"].dims
-        return axis(self.rotor, str(first)), axis(self.rotor, str(second))
-
-    @property
-    def plane(self) -> str:
-        """Both parameters and their ranges, in words."""
-        return ", ".join(f"{axis.name} {told_range(axis.field, self.dataset[axis.name].values)}" for axis in self.axes)
-
-    def line_of(self, name: str, value: object) -> str:
-        """Present values are told in the units of both parameters."""
-        if name == "present":
-            values = zip(self.axes, self.present, strict=True)
-            return ", ".join(f"{axis.name} {told_entry(axis.field, at)}" for axis, at in values)
-        return super().line_of(name, value)
-
-    @property
-    def present(self) -> tuple[float, float]:
-        """Values of the two parameters in the present machine."""
-        first, second = self.axes
-        return first.value(self.rotor), second.value(self.rotor)
-
-    @property
     def present_share(self) -> Share:
         """Share that comes back in the present machine."""
-        share: dict[str, Any] = json.loads(self.dataset.attrs["present"])
+        share: dict[str, Any] = json.loads(self.dataset.attrs["present_share"])
         return Share(**share, drawn=isinstance(self.plan, Sample), population=self.population)
 
     @property
@@ -163,26 +135,21 @@ def map_gains(
     """
     rotor = rotor_of(machine)
     names = names or usual_gains(rotor)
-    axes = axis(rotor, names[0]), axis(rotor, names[1])
-    if axes[0].name == axes[1].name:
-        raise InputError("names", ",".join(names), "two different parameters")
-    values = [_values(rotor, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)]
     limits = {"patience": patience, "max_events": max_events}
-    nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
-    tried: list[Node] = [(disturbances.fresh(number), node) for number, node in enumerate(nodes)]
-    tried.append((disturbances, (axes[0].value(rotor), axes[1].value(rotor))))
-    measures, tell = [], Reporter.of(progress, "following starts of other gains")
-    for done, found in enumerate(measured(rotor, axes, tried, {**limits, "threads": threads}), start=1):
-        measures.append(found)
-        tell(done / len(tried))
-    *grid, now = measures
-    dataset = _dataset(axes, values, grid)
-    dataset.attrs = {
+    measure, tell = (
+        Recovery(disturbances, {**limits, "threads": threads}),
+        Reporter.of(progress, "following starts of other gains"),
+    )
+    dataset, _ = map_over(rotor, measure, names, ranges, shape, tell)
+    axes = axis(rotor, names[0]), axis(rotor, names[1])
+    here = axes[0].value(rotor), axes[1].value(rotor)
+    (now,) = measured(rotor, axes, [(disturbances, here)], measure.limits)
+    dataset.attrs |= {
         **(source or {}),
         **provenance(rotor, disturbances),
         "title": "Share of disturbances that come back to levitation, against two parameters",
         **limits,
-        "present": json.dumps(fields_of(now["share"], "fraction", "low", "high", "count", "total")),
+        "present_share": json.dumps(fields_of(now["share"], "fraction", "low", "high", "count", "total")),
     }
     return GainMap(dataset)
 
@@ -191,12 +158,6 @@ def usual_gains(rotor: Rotor) -> tuple[str, str]:
     """Names of P and D gain: of the controllers, or what they are to the planar rotor, in its units without scales."""
     known = (("proportional", "derivative"), ("stiffness", "damping"), ("omega", "gamma"))
     return next((pair for pair in known if all(name in rotor.varied for name in pair)), known[1])
-
-
-def _values(rotor: Rotor, varied: Axis, given: Ends | None, count: int) -> np.ndarray:
-    """Evenly spaced values of a parameter over its range."""
-    usual = given or usual_range(varied, varied.value(rotor), "ranges")
-    return np.linspace(*read_interval(varied, usual), count)
 
 
 def measured(
@@ -231,7 +192,7 @@ def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None, at: str)
     if not exists.any():
         population = Population.of_model(plan.model, present, at)
         none = Share(0.0, 0.0, 0.0, 0, plan.count, isinstance(plan, Sample), population)
-        nothing = dict.fromkeys(_WORDS, 0.0) | {"share": none}
+        nothing = dict.fromkeys(_SHARES, 0.0) | {"share": none}
         return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
     share = Share.over(plan, back, exists, present, at=at)
     given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, present)
@@ -263,40 +224,37 @@ def _smallest(present: Scales | None, rotor: Rotor, starts: Starts, outcomes: np
     return found | ({"smallest_unrecovered_kick_instant": instant} if depends_on_instant(rotor) else {})
 
 
-_WORDS = {
-    "recovered": "share of the disturbances that comes back to levitation, by area",
-    "recovered_low": "lower end of its 95 % confidence interval (of a grid: the share)",
-    "recovered_high": "upper end of its 95 % confidence interval (of a grid: the share)",
-    "unresolved": "share given up, or gone beyond the model, before it was known where it ends",
-    "levitates": "1 where the rotor levitates without contact and no motion about that grows, else 0",
-    "integrity": "size up to which no disturbance is lost, as a fraction of the largest one",
-    "basin_entropy": "basin entropy of the outcomes",
-    "boundary_basin_entropy": "boundary basin entropy of the outcomes",
+_SHARES = {
+    "recovered": Told("1", "share of the disturbances that comes back to levitation, by area"),
+    "recovered_low": Told("1", "lower end of its 95 % confidence interval (of a grid: the share)"),
+    "recovered_high": Told("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
+    "unresolved": Told("1", "share given up, or gone beyond the model, before it was known where it ends"),
+    "levitates": Told("1", "1 where the rotor levitates without contact and no motion about that grows, else 0"),
+    "integrity": Told("1", "size up to which no disturbance is lost, as a fraction of the largest one"),
+    "basin_entropy": Told("1", "basin entropy of the outcomes"),
+    "boundary_basin_entropy": Told("1", "boundary basin entropy of the outcomes"),
 }
-_KICK_WORDS = {
-    "smallest_unrecovered_kick": "smallest kick tried that does not come back, in c_r Omega of the present machine",
-    "smallest_unrecovered_kick_angle": "its direction, from the real axis of the co-rotating frame",
-    "smallest_unrecovered_kick_instant": INSTANT.words,
+_KICKS = {
+    "smallest_unrecovered_kick": Told(
+        "1", "smallest kick tried that does not come back, in c_r Omega of the present machine"
+    ),
+    "smallest_unrecovered_kick_angle": Told("rad", "its direction, from the real axis of the co-rotating frame"),
+    "smallest_unrecovered_kick_instant": Told("rad", INSTANT.words),
 }
-_UNITS = {"smallest_unrecovered_kick_angle": "rad", "smallest_unrecovered_kick_instant": "rad"}
 
 
-def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], measures: list[dict[str, Any]]) -> xarray.Dataset:
-    import xarray
+@dataclass(frozen=True)
+class Recovery(Measure):
+    """Where disturbances of a plan end; each node draws its own sample."""
 
-    dimensions = axes[0].name, axes[1].name
-    shape = tuple(len(along) for along in values)
-    variables = {
-        name: (
-            dimensions,
-            np.array([entry[name] for entry in measures], float).reshape(shape),
-            {"units": _UNITS.get(name, "1"), "long_name": words},
-        )
-        for name, words in (_WORDS | _KICK_WORDS).items()
-        if name in measures[0]
-    }
-    coordinates = {
-        varied.name: (varied.name, along, {"units": varied.field.unit or "1", "long_name": varied.field.words})
-        for varied, along in zip(axes, values, strict=True)
-    }
-    return xarray.Dataset(variables, coords=coordinates)
+    plan: Plan
+    limits: Mapping[str, Any]
+
+    told: ClassVar[Mapping[str, Told]] = _SHARES | _KICKS
+
+    def entries(
+        self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]
+    ) -> Iterator[dict[str, Any]]:
+        """Measures of each node."""
+        tried = [(self.plan.fresh(number), node) for number, node in enumerate(nodes)]
+        return measured(rotor, axes, tried, self.limits)

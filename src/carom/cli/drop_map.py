@@ -41,7 +41,7 @@ def read_plane(
             if given is not None:
                 raise InputError(option, given, "allowed only with --map NAME,NAME")
         return None
-    from carom.basins.drop_axes import RELEASED, varied_of
+    from carom.basins.drops import RELEASED, varied_of
     from carom.cli.starts import read_range
     from carom.models import rotor_of
     from carom.parameters.fields import unknown_name
