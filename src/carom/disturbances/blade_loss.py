@@ -87,7 +87,7 @@ def starts_after(
 def levitating_before(rotor: Rotor, turned: np.ndarray, instants: np.ndarray) -> Starts:
     """Levitation at instants of the turn, seen in frames that have turned by these angles with the unbalance after it."""
     levitates = rotor.system.rest_radius < 1.0
-    if levitates and rotor.system.externally_forced:
+    if levitates and rotor.system.is_externally_forced:
         rotor.system.refuse_non_stationary()
     system = rotor.system
     positions, velocities = system.kicked(np.zeros(np.shape(instants)), instants)

@@ -188,7 +188,7 @@ class BaseShock(Disturbance):
         peaks, directions, begun = np.broadcast_arrays(*values, instant)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        if rotor.system.externally_forced:
+        if rotor.system.is_externally_forced:
             rotor.system.refuse_non_stationary()
         positions, velocities, ended, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
