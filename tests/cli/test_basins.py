@@ -306,8 +306,8 @@ def test_a_map_over_another_term_than_that_of_the_file_is_told_in_it(carom, mach
         (
             ("--plane", "integral_gain,derivative_gain"),
             (
-                "--plane = integral_gain,derivative_gain: integral_gain: unknown name in the parameters; an integral gain is not modelled: "
-                "the levitation is a spring and a damper; allowed: "
+                "--plane = integral_gain,derivative_gain: integral_gain: unknown name in the parameters; that is stated in "
+                "a table [[magnetic_bearing]] beside [rotor]; allowed: "
             ),
         ),
         (("--plane", "kp,damping"), "did you mean proportional_gain?"),

@@ -12,7 +12,7 @@ from carom.parameters.drive import DRIVE_FIELDS
 from carom.parameters.gravity import GRAVITY_FIELDS
 from carom.parameters.load_limits import LIMIT_FIELDS
 from carom.parameters.terms import ENTRIES
-from carom.rotors.machine_file import PART_ENTRIES, ROTOR_ENTRIES
+from carom.rotors.part_tables import PARTS, ROTOR_ENTRIES
 from carom.rotors.rigid_body import RIGID_FIELDS
 
 SUPPORT = ("node", "kx", "ky", "cx", "cy")
@@ -40,8 +40,8 @@ def named_in(text):
 
 
 def test_it_explains_every_entry(text):
-    of_rigid = {*RIGID_FIELDS, "position", "sensor_positions"} - {*PART_ENTRIES["disc"]}
-    own = {*ROTOR_ENTRIES, *(name for entries in PART_ENTRIES.values() for name in entries)}
+    of_rigid = {*RIGID_FIELDS, "position", "sensor_positions"} - {*PARTS["disc"].entries}
+    own = {*ROTOR_ENTRIES, *(name for part in PARTS.values() for name in part.entries)}
     assert own - named_in(text) == {"restitution", "restitution_speed", "offset", "offset_direction", *of_rigid}
 
 
@@ -89,7 +89,7 @@ def test_the_table_of_a_support_loads(tmp_path, text):
     path.write_text(text.replace(block, re.sub("^# ", "", block, flags=re.MULTILINE)), encoding="utf-8")
     (support,) = cm.rotors.load_machine(path).supports
     assert support.kxx == 2e4
-    assert all(getattr(support, name) for name in PART_ENTRIES["support"] if name not in ("node", "position"))
+    assert all(getattr(support, name) for name in PARTS["support"].entries if name not in ("node", "position"))
 
 
 def test_every_line_that_may_be_used_loads(tmp_path, text):

@@ -24,7 +24,7 @@ def of(**entries):
 
 def restituted(model, speed):
     """Speed after an impact along the normal of a rotor that floats without any other force, over that before it."""
-    alone = jeffcott(model.parameters.replace(rho=0.0, mu=0.0), model.bearing_at(0), levitates=False)
+    alone = jeffcott(model.parameters.replace(rho=0.0, mu=0.0), model.definition.bearing_at(0), levitates=False)
     # In the turning frame a free rotor has the speed of a straight path in the fixed one.
     motion = cm.simulate(alone, cm.State(0.5, speed - 0.5j), 2.0 / speed)
     hits = motion.segment_starts[1:][(motion.segment_phases[1:, 0] != 0) & (motion.segment_phases[:-1, 0] == 0)]
@@ -81,7 +81,7 @@ def test_parameters_by_name():
     assert not {"d", "restitution", "touchdown_damping"} & set(model.varied)
     assert model.value("touchdown_stiffness") == STIFFNESS
     changed = model.replace(touchdown_stiffness=2.0 * STIFFNESS, mu=0.3)
-    assert changed.bearing_at(0).stiffness == 2.0 * STIFFNESS
+    assert changed.definition.bearing_at(0).stiffness == 2.0 * STIFFNESS
     assert changed.touchdowns[0].friction == 0.3
     with pytest.raises(InputError, match=r"d = 0\.9"):
         model.replace(d=0.9)

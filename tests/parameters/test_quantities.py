@@ -379,14 +379,13 @@ def test_unknown_names_suggest_the_nearest(written, meant):
 @pytest.mark.parametrize(
     ("written", "advice"),
     [
-        ("bearing_stiffness", "stiffness and damping are those of the levitation; the touchdown bearing is rigid"),
-        ("contact-damping", "stiffness and damping are those of the levitation; the touchdown bearing is rigid"),
-        ("gravity", "weight is stated in a table [gravity]"),
-        ("integral_gain", "an integral gain is not modelled"),
-        ("polar_inertia", "moments of inertia are not modelled"),
+        ("contact-damping", "that is stated in a table [touchdown]"),
+        ("gravity", "that is stated in a table [gravity]"),
+        ("integral_gain", "that is stated in a table [[magnetic_bearing]] beside [rotor]"),
+        ("polar_inertia", "that is stated in a table [rotor]"),
+        ("mount_mass", "that is stated in a table [touchdown]"),
         ("bearing_force", "allowed: "),
         ("voltage_limit", "allowed: "),
-        ("mount_mass", "allowed: "),
         ("unbalance_mass", "allowed: "),
     ],
 )

@@ -81,7 +81,7 @@ class _Search(Bracket):
         self.rotor, self.node, self.threads = rotor, model.node, threads
         self.random = np.random.default_rng(0)
         self.timed = depends_on_instant(rotor)
-        before = rotor.unbalance_along(model.node)
+        before = rotor.definition.unbalance_along(model.node)
         self.before, self.shared = before or 0.0, before is not None
 
     def follow(self, sizes: np.ndarray, angles: np.ndarray, instants: np.ndarray) -> np.ndarray:

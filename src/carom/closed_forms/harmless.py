@@ -150,13 +150,13 @@ def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
     levitation = _levitation(model)
     if levitation is None:
         return 0.0
-    shift, deviation = _after_step(model, levitation, model.unbalance_push(node))
+    shift, deviation = _after_step(model, levitation, model.definition.unbalance_push(node))
     return float((levitation.rooms / (shift + deviation)).min())
 
 
 def shift_by_unbalance(model: Rotor, node: int | None = None) -> np.ndarray:
     """Displacement (n,) of levitation per change of the unbalance, in the frame that turns."""
-    return _shift(model, model.unbalance_push(node))
+    return _shift(model, model.definition.unbalance_push(node))
 
 
 def _shift(model: Rotor, push: np.ndarray) -> np.ndarray:

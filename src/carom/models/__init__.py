@@ -12,6 +12,7 @@
 ``from_modes``            systems from their modes
 ``planar``                :func:`jeffcott`: the planar rigid rotor by its parameters, in a touchdown bearing of any kind
 ``linear``                :class:`LinearEquations`: the equations of any linear rotor
+``linear_system``         its system
 ``by_matrices``           :func:`from_matrices`: any linear rotor, by its matrices
 ``anisotropic``           its system where bearings act differently in two directions
 ``linear_parameters``     its named parameters

@@ -135,11 +135,15 @@ class Definition:
         return self.equations.without_levitation()
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :meth:`carom.models.Rotor.unbalance_push`."""
+        """Force (n,) of an unbalance of one, as an eccentricity in ``c_r`` of the whole mass, that has the phase of the one before.
+
+        It is distributed like the unbalance of the rotor; of a balanced one it is that of all masses off centre by the same.  Of a flexible
+        machine it acts at a node.
+        """
         return self.equations.unbalance_push(node)
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :meth:`carom.models.Rotor.unbalance_along`."""
+        """Unbalance that changes, as an eccentricity in ``c_r``; ``None`` where others stay, so that no change leads to the machine of another one."""
         return self.equations.unbalance_along(node)
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Definition, float]:

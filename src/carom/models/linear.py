@@ -13,22 +13,16 @@ import numpy as np
 
 from carom.arguments import checked, having
 from carom.models import linear_parameters
-from carom.models.anisotropic import Doubled, anisotropic_system
 from carom.models.definition import Definition
-from carom.models.forcing import Force, with_forces
-from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.linear_system import is_singular, system_of
 from carom.models.matrices import Matrices, Rates
-from carom.models.modes import modes_of
-from carom.models.race import RaceModes
-from carom.models.shaft import Shaft, ShaftModes
+from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 from carom.results import Result
 
-SINGULAR = 1e-14
-"""Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
@@ -163,7 +157,7 @@ class LinearEquations(Definition, Result):
             raise InputError(
                 "shaft", shown(self.shaft), "None for a rotor with a gyroscopic matrix: its modes change with the speed"
             )
-        if _singular(self.stiffness, self.mass, self.damping, self.stiffness):
+        if is_singular(self.stiffness, self.mass, self.damping, self.stiffness):
             raise InputError("shaft", shown(self.shaft), "None for a rotor in undamped resonance with its unbalance")
 
     @cached_property
@@ -209,94 +203,7 @@ class LinearEquations(Definition, Result):
     @cached_property
     def system(self) -> System:
         """Modes, contact planes and contact law."""
-        n = len(self.mass)
-        if self.conjugate is not None and self.conjugate.any():
-            return self._anisotropic(self.conjugate)
-        self._check_inverses()
-        if _singular(self.stiffness, self.mass, self.damping, self.stiffness) and self.forcing.any():
-            # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
-            push = Force(0.0, self.accelerations(self.forcing))
-            return with_forces(dataclasses.replace(self, forcing=np.zeros(n)).system, (push,))
-        turning = None if self.shaft is None else ShaftModes(self.shaft, self.accelerations(self.forcing))
-        rests = turning is None and self.forcing.any()
-        rest = np.linalg.solve(self.stiffness, self.forcing) if rests else np.zeros(n, complex)
-        moved = self.accelerations(self.planes.conj().T)
-        found = modes_of(self._generator(), self.mass if self.heavy.all() else None)
-        mobilities = np.einsum("pn,np->p", self.planes, moved)
-        if not (mobilities.real > 0.0).all() or (np.abs(mobilities.imag) > 1e-9 * np.abs(mobilities)).any():
-            raise InputError(
-                "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
-            )
-        races = [each.race for each in self.touchdowns]
-        if n == 1 and self.planes.tolist() == [[1.0]] and races == [None] and turning is None and self.magnets is None:
-            return self._one_coordinate(found.exponents, complex(rest[0]))
-        inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
-        inverse[:, np.append(np.ones(n, bool), self.heavy)] = np.linalg.inv(found.basis)
-        return modal_system(
-            exponents=found.exponents,
-            driven=found.driven,
-            rest=rest,
-            shapes=found.basis[:n],
-            inverse=inverse,
-            offsets=self.planes @ rest,
-            rows=self.planes @ found.basis[:n],
-            columns=inverse[:, n:] @ (moved / mobilities),
-            races=RaceModes.of(races, masses),
-            shaft=turning,
-            limits=None,
-            **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
-            masses=masses,
-            translation=self.translation,
-            clearances=tuple(each.clearance for each in self.touchdowns),
-            magnets=self.magnets,
-        )
-
-    def _anisotropic(self, conjugate: np.ndarray) -> System:
-        """System where bearings act differently in two directions."""
-        doubled = Doubled.of(self.mass, self.damping, self.stiffness, conjugate)
-        none = np.zeros(len(self.mass))
-        if _singular(doubled.stiffness, doubled.mass, doubled.damping, doubled.stiffness) and self.forcing.any():
-            raise InputError("forcing", self.forcing.tolist(), "none in undamped resonance with it")
-        planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in self.touchdowns]
-        system = LinearEquations(*doubled, np.append(self.forcing, none), planes).system
-        return anisotropic_system(
-            system,
-            self.accelerations(self.planes.conj().T) * system.arrays["masses"],
-            races=RaceModes.of([each.race for each in self.touchdowns], system.arrays["masses"]),
-            translation=self.translation,
-            clearances=tuple(each.clearance for each in self.touchdowns),
-            magnets=self.magnets,
-        )
-
-    def _check_inverses(self) -> None:
-        """Refuse masses that are singular, and coordinates without mass whose rates do not follow from the state."""
-        heavy, light = (np.ix_(those, those) for those in (self.heavy, ~self.heavy))
-        if not self.heavy.any() or _singular(self.mass[heavy], self.mass):
-            raise InputError(
-                "mass", "singular", "a matrix that can be inverted, but for rows and columns that are zero"
-            )
-        if not self.heavy.all() and _singular(self.damping[light], self.damping[light]):
-            raise InputError("damping", "singular", "a matrix that gives the rates of all coordinates without mass")
-
-    def _generator(self) -> np.ndarray:
-        """Rates of the coordinates, then accelerations of those with mass, per coordinate, then per rate of those with mass."""
-        n, heavy = len(self.mass), self.heavy
-        rates = np.zeros((n, n + heavy.sum()), complex)
-        rates[heavy] = np.eye(heavy.sum(), n + heavy.sum(), n)
-        if not heavy.all():
-            held = np.concatenate([self.stiffness[~heavy], self.damping[np.ix_(~heavy, heavy)]], axis=1)
-            rates[~heavy] = -np.linalg.solve(self.damping[np.ix_(~heavy, ~heavy)], held)
-        forces = np.concatenate([self.stiffness, np.zeros((n, heavy.sum()))], axis=1) + self.damping @ rates
-        return np.concatenate([rates, -self.accelerations(forces)[heavy]])
-
-    def _one_coordinate(self, exponents: np.ndarray, equilibrium: complex) -> System:
-        """System of a rotor with one coordinate, which is its displacement at the only plane."""
-        slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
-        mass = float(self.mass[0, 0].real)
-        system = second_order_system(
-            exponents=(fast, slow), equilibrium=equilibrium, wall=self.touchdowns[0].wall(mass), mass=mass
-        )
-        return dataclasses.replace(system, translation=self.translation)
+        return system_of(self)
 
     @property
     def matrices(self) -> Matrices:
@@ -332,12 +239,12 @@ class LinearEquations(Definition, Result):
         )
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :meth:`carom.models.Rotor.unbalance_push`: all masses are off centre by the same, along the translation."""
+        """See :meth:`carom.models.Definition.unbalance_push`: all masses are off centre by the same, along the translation."""
         linear_parameters.refuse_node(node)
         return np.asarray(self.mass @ self.translation * np.exp(1j * self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :meth:`carom.models.Rotor.unbalance_along`."""
+        """See :meth:`carom.models.Definition.unbalance_along`."""
         return linear_parameters.forcing_along(self, self.unbalance_push(node))
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Self, float]:
@@ -415,11 +322,6 @@ class LinearEquations(Definition, Result):
         numbers["touchdowns"] = tuple(map(Touchdown.from_attributes, numbers["touchdowns"]))
         shaft = numbers.pop("shaft")
         return cls(**numbers, shaft=Shaft(**shaft) if shaft else None, scales=Scales(**scales) if scales else None)
-
-
-def _singular(matrix: np.ndarray, *terms: np.ndarray) -> bool:
-    """Whether a matrix is singular to the rounding of these."""
-    return bool(np.linalg.svd(matrix, compute_uv=False)[-1] <= SINGULAR * max(map(np.linalg.norm, terms)))
 
 
 def _numbers(name: str, values: Any) -> np.ndarray:

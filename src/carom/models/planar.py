@@ -265,13 +265,13 @@ class Planar(Definition):
         return super().without_levitation() if self.bearing is None else replace(self, levitates=False)
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :meth:`carom.models.Rotor.unbalance_push`; a mount is not pushed."""
+        """See :meth:`carom.models.Definition.unbalance_push`; a mount is not pushed."""
         refuse_node(node)
         push = np.array([cmath.rect(1.0, self.unbalance_phase)])
         return push if self.bearing is None else np.append(push, np.zeros(len(self.equations.mass) - 1))
 
     def unbalance_along(self, node: int | None = None) -> float:
-        """See :meth:`carom.models.Rotor.unbalance_along`."""
+        """See :meth:`carom.models.Definition.unbalance_along`."""
         return self.parameters.rho
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Planar, float]:

@@ -20,7 +20,7 @@ from carom.models.forcing import Force, with_forces
 from carom.models.limits import Limit, limits_as_text, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.outcome import InputError, shown
-from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, TouchdownBearing, read_quantity
+from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
 from carom.parameters.settings import GRAVITY_NAME
 from carom.results import Result
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from carom.models.stages import Stage
     from carom.models.system import System
 
-_PLANAR = (
+PLANAR_ALONE = (
     "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
     "carom.drop, carom.study, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands study, simulate, drop, attractors, basins, "
     "orbits, explore, and sweep with [basins]"
@@ -41,11 +41,6 @@ _WITHOUT_FORCES = (
     "carom.drop, carom.study, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
     "losses of a blade, steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
 )
-_WITHOUT_LIMITS = (
-    "none: this result is known for magnetic bearings without limits alone, so leave force_limit and current_limit out for it; "
-    "carom.simulate, carom.settle and others work"
-)
-_RIGID = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
@@ -192,7 +187,7 @@ class Rotor(Result):
             It is another one.
         """
         if self.planar is None:
-            raise InputError("machine", shown(self), _PLANAR)
+            raise InputError("machine", shown(self), PLANAR_ALONE)
         return self.planar
 
     @property
@@ -232,14 +227,10 @@ class Rotor(Result):
         """The race at each touchdown bearing; ``None`` where it stands still."""
         return tuple(touchdown.race for touchdown in self.equations.touchdowns)
 
-    def bearing_at(self, plane: int) -> TouchdownBearing | None:
-        """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""
-        return self.definition.bearing_at(plane)
-
     @property
     def is_on_mount(self) -> bool:
         """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
-        bearing = None if self.planar is None else self.bearing_at(0)
+        bearing = None if self.planar is None else self.definition.bearing_at(0)
         return bearing is not None and bearing.mount_mass is not None
 
     @property
@@ -443,18 +434,6 @@ class Rotor(Result):
 
     # Its unbalance.
 
-    def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """Force (n,) of an unbalance of one, as an eccentricity in ``c_r`` of the whole mass, that has the phase of the one before.
-
-        It is distributed like the unbalance of the rotor; of a balanced one it is that of all masses off centre by the same.  Of a flexible
-        machine it acts at a node.
-        """
-        return self.definition.unbalance_push(node)
-
-    def unbalance_along(self, node: int | None = None) -> float | None:
-        """Unbalance that changes, as an eccentricity in ``c_r``; ``None`` where others stay, so that no change leads to the machine of another one."""
-        return self.definition.unbalance_along(node)
-
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Rotor, float]:
         """The rotor with another unbalance, and the angle by which its frame has turned, so that the phase stays what it was.
 
@@ -479,24 +458,6 @@ class Rotor(Result):
     def has_closed_forms(self) -> bool:
         """Whether exact results are known: of the planar rotor in a rigid wall that stands still, without forces and limits."""
         return self.planar is not None and self.definition.has_closed_forms and not self.forces and not self.limits
-
-    def refuse_without_closed_forms(self) -> None:
-        """Refuse a rotor of which exact results are not known.
-
-        Raises
-        ------
-        InputError
-            It says what is in the way.
-        """
-        if self.has_closed_forms:
-            return
-        if self.planar is None:
-            raise InputError("machine", shown(self), _PLANAR)
-        if self.limits:
-            raise InputError("limits", self.words_of_limits, _WITHOUT_LIMITS)
-        if self.forces:
-            self.refuse_forces()
-        raise InputError("touchdown", self.definition.words_of_bearing, _RIGID)
 
     def refuse_forces(self) -> None:
         """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""

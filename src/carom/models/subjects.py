@@ -15,13 +15,18 @@ from carom.models.forces import forces_from
 from carom.models.limits import limits_from
 from carom.models.linear import LinearEquations
 from carom.models.planar import RIGID, Planar, jeffcott
-from carom.models.rotor import Rotor
+from carom.models.rotor import PLANAR_ALONE, Rotor
 from carom.models.stages import Stage, Trigger, in_stages
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
 Subject = Machine | Case | Parameters | Rotor
 """Any description of a rotor."""
+_WITHOUT_LIMITS = (
+    "none: this result is known for magnetic bearings without limits alone, so leave force_limit and current_limit out for it; "
+    "carom.simulate, carom.settle and others work"
+)
+_RIGID = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 
 
@@ -64,8 +69,15 @@ def exact_rotor_of(subject: Subject) -> Rotor:
         It is none of these, or a rotor without exact results: no planar one, or with weight, limits or a touchdown bearing of its own.
     """
     rotor = rotor_of(subject)
-    rotor.refuse_without_closed_forms()
-    return rotor
+    if rotor.has_closed_forms:
+        return rotor
+    if rotor.planar is None:
+        raise InputError("machine", shown(rotor), PLANAR_ALONE)
+    if rotor.limits:
+        raise InputError("limits", rotor.words_of_limits, _WITHOUT_LIMITS)
+    if rotor.forces:
+        rotor.refuse_forces()
+    raise InputError("touchdown", rotor.definition.words_of_bearing, _RIGID)
 
 
 @checked

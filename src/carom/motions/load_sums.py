@@ -298,7 +298,7 @@ class _AtPlane:
         """Loads up to the end of a piece."""
         rotor, scales, plane = last.rotor, last.scales, last.plane
         soft = yields(rotor.system, plane)
-        force, bearing = float(self.largest[FORCE]), rotor.bearing_at(plane)
+        force, bearing = float(self.largest[FORCE]), rotor.definition.bearing_at(plane)
         if not soft and last.outcome is Outcome.ROLLING:
             force = max(force, exact_results(rotor).rolling_force)
         return TouchdownLoads(

@@ -222,21 +222,13 @@ _MISSPELT = 0.66
 """Likeness from which a name counts as misspelt: one wrong letter of three."""
 _OTHER_WORDS = 0.2
 """Taken off the likeness of names with more or fewer words: a word more mostly says something else."""
-_CONSTANTS = {"stiffness", "damping"}
-_NOT_MODELLED = (
-    (({"gravity", "weight"},), "weight is stated in a table [gravity]"),
-    (
-        ({"integral", "i"}, {"gain", "action", "time"}),
-        "an integral gain is not modelled: the levitation is a spring and a damper",
-    ),
-    (({"delay", "filter", "bandwidth"},), "of the controller only P and D gain are modelled"),
-    (({"inertia", "gyroscopic"},), "moments of inertia are not modelled"),
-    (
-        ({"bearing", "touchdown", "contact", "wall", "mount", "housing", "stator"}, _CONSTANTS),
-        "stiffness and damping are those of the levitation; the touchdown bearing is rigid",
-    ),
-)
-"""What is not modelled: words of its name, one of each set, and what to say."""
+_ELSEWHERE = {
+    "gravity weight": "a table [gravity]",
+    "integral integrator delay filter bandwidth": "a table [[magnetic_bearing]] beside [rotor]",
+    "inertia gyroscopic": "a table [rotor]",
+    "touchdown contact wall mount": "a table [touchdown]",
+}
+"""Words of names, and where what they mean is stated."""
 
 
 @checked
@@ -244,12 +236,12 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     """Error for a name that does not exist, with the nearest name that does.
 
     ``where`` says where the name stood, for example ``"[machine]"``.  Where none means the same, but the name is one of something
-    that is not modelled, that is said.  Of the known names, those allowed there, the symbol or the
+    that another table states, that is said.  Of the known names, those allowed there, the symbol or the
     partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds all of them to the message.
     """
     best = nearest_name(name, known)
-    missing = None if best else _not_modelled(name)
-    advice = [f"did you mean {best}?"] if best else [f"{missing};"] if missing else []
+    table = None if best else _stated_elsewhere(name)
+    advice = [f"did you mean {best}?"] if best else [f"that is stated in {table};"] if table else []
     names = [f"allowed: {', '.join(known)}"] if listed else []
     remedy = " ".join(advice + names).removesuffix(";")
     return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
@@ -309,7 +301,7 @@ def _likeness(one: str, other: str) -> float:
     return difflib.SequenceMatcher(None, "".join(words), "".join(others)).ratio() - _OTHER_WORDS
 
 
-def _not_modelled(name: str) -> str | None:
-    """Say so if a name means something that no number of the model stands for."""
+def _stated_elsewhere(name: str) -> str | None:
+    """The table in which that is stated which a name seems to mean."""
     words = set(name[:_LONGEST_NAME].lower().replace("-", "_").replace(" ", "_").split("_"))
-    return next((words_of for needed, words_of in _NOT_MODELLED if all(words & choice for choice in needed)), None)
+    return next((table for each, table in _ELSEWHERE.items() if words & set(each.split())), None)

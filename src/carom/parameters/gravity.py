@@ -14,11 +14,9 @@ from carom.parameters.tables import Table
 from carom.parameters.told import number, told_angle
 
 GRAVITY_FIELDS: Mapping[str, Field] = by_name(
-    Field(
-        "acceleration", "g", "acceleration of free fall", "an acceleration", "m/s^2", 1e-9, 1e9, '"9.81 m/s^2"', True
-    ),
+    Field("acceleration", "g", "acceleration of free fall", "an acceleration", "m/s^2", 1e-9, 1e9, '"9.81 m/s^2"', True),
     Field("direction", "", "direction of the fall, from the x axis", "an angle", "rad", -1e6, 1e6, '"-90 deg"'),
-)
+)  # fmt: skip
 """Entries of a ``[gravity]`` table, in SI units; each may be left out."""
 
 

@@ -20,24 +20,10 @@ LIMIT_FIELDS: Mapping[str, Field] = by_name(
     Field("force", "", "normal force", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
     Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
     Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
-    Field(
-        "depth", "", "depth in the bearing", "a length", "m", 1e-12, 1.0, '"20 um"', True, usual="µm", usual_size=1e-6
-    ),
-    Field(
-        "pressure",
-        "",
-        "pressure of balls",
-        "a pressure",
-        "Pa",
-        1.0,
-        1e13,
-        '"4.2 GPa"',
-        True,
-        usual="GPa",
-        usual_size=1e9,
-    ),
+    Field("depth", "", "depth in the bearing", "a length", "m", 1e-12, 1.0, '"20 um"', True, usual="µm", usual_size=1e-6),
+    Field("pressure", "", "pressure of balls", "a pressure", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual="GPa", usual_size=1e9),
     Field("impacts", "", "impacts of a touchdown", "a whole number", "", 1, 1e9, "20", zero=True, whole=True),
-)
+)  # fmt: skip
 """Entries of a ``[limits]`` table, in SI units; each may be left out."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from numbers import Real
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown, together
@@ -53,6 +53,15 @@ class Zones:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "limits", _read_limits(self.limits))
+
+    @classmethod
+    def of(cls, table: Mapping[str, Any]) -> Zones:
+        """Read a table ``[zones]``; what cannot be used is refused."""
+        problems = Problems()
+        problems.errors += unknown_names(table, {"limits": None}, "[zones]")
+        zones = problems.attempt(cls, *(value for name, value in table.items() if name == "limits"))
+        problems.raise_all()
+        return zones or cls()
 
     @property
     def labels(self) -> tuple[str, str, str, str]:
@@ -219,6 +228,25 @@ class Case(Tabular):
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
+class Beside(NamedTuple):
+    """What a file states beside its machine, in tables that all kinds of files share."""
+
+    zones: Zones
+    limits: LoadLimits
+    gravity: Gravity | None
+    drive: Drive | None
+
+
+def read_beside(tables: MachineTables, problems: Problems, has_scales: bool = True) -> Beside:
+    """Read the tables ``[zones]``, ``[limits]``, ``[gravity]`` and ``[drive]``; errors are added to those before."""
+    return Beside(
+        problems.attempt(Zones.of, tables.zones) or Zones(),
+        problems.attempt(LoadLimits.of, tables.limits, has_scales) or LoadLimits(),
+        None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, has_scales),
+        None if tables.drive is None else problems.attempt(Drive.of, tables.drive, has_scales),
+    )
+
+
 def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], problems: Problems) -> Case:
     """Case of a file with a ``[machine]`` or a ``[dimensionless]`` table and these settings.
 
@@ -232,13 +260,11 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     CaromWarning
         The rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
-    zones = problems.attempt(_read_zones, tables.zones)
-    limits = problems.attempt(LoadLimits.of, tables.limits, tables.kind == "machine") or LoadLimits()
     of_machine = tables.kind == "machine"
-    gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, of_machine)
+    beside = read_beside(tables, problems, of_machine)
+    gravity = beside.gravity
     values, bearing = problems.attempt(_with_restitution, tables.values, tables.touchdown) or (tables.values, {})
     touchdown = problems.attempt(TouchdownBearing.of, bearing, of_machine) if bearing else None
-    drive = None if tables.drive is None else problems.attempt(Drive.of, tables.drive, of_machine)
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
@@ -258,12 +284,12 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
         physical = {name: text for name, text in texts.items() if name in SETTABLE and name not in DIMENSIONLESS_FIELDS}
         problems.attempt(_refuse_physical, physical)
     problems.raise_all()
-    rest = (zones or Zones(), limits, requirement or Requirement(), gravity, touchdown, drive)
+    rest = {**beside._asdict(), "gravity": gravity, "requirement": requirement or Requirement(), "touchdown": touchdown}
     if isinstance(base, Machine):
-        case = Case(name, base.parameters, base, *rest).replace(**texts)
+        case = Case(name, base.parameters, base, **rest).replace(**texts)
         warn_of_proportions(case.machine)
         return case
-    return Case(name, cast("Parameters", base), None, *rest).replace(**numbers)
+    return Case(name, cast("Parameters", base), None, **rest).replace(**numbers)
 
 
 def _scales(base: Machine | Parameters | None, of_machine: bool) -> Scales | None:
@@ -351,14 +377,6 @@ def _read_dimensionless(tables: MachineTables) -> Parameters:
     }
     problems.raise_all()
     return Parameters(**cast("dict[str, float]", numbers), scales=None)
-
-
-def _read_zones(table: Mapping[str, Any]) -> Zones:
-    problems = Problems()
-    problems.errors += unknown_names(table, {"limits": None}, "[zones]")
-    zones = problems.attempt(Zones, *(value for name, value in table.items() if name == "limits"))
-    problems.raise_all()
-    return zones or Zones()
 
 
 def _read_limits(limits: object) -> tuple[float, float, float]:

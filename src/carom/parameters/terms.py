@@ -51,92 +51,28 @@ class Term(NamedTuple):
 
 
 TERM_FIELDS: Mapping[str, Field] = by_name(
-    Field(
-        "unbalance",
-        "U",
-        "unbalance: mass times eccentricity",
-        "an unbalance",
-        "kg m",
-        1e-30,
-        1e12,
-        '"15 g mm"',
-        True,
-        usual="g mm",
-        usual_size=1e-6,
-    ),
+    Field("unbalance", "U", "unbalance: mass times eccentricity", "an unbalance", "kg m", 1e-30, 1e12, '"15 g mm"', True, usual="g mm", usual_size=1e-6),
     # By definition a velocity in mm/s: a plain number is the grade.
-    Field(
-        "balance_grade",
-        "G",
-        "balance quality grade (ISO 21940-11) that the rotor just meets",
-        "a balance grade",
-        "mm/s",
-        1e-12,
-        1e9,
-        '"G 2.5"',
-        zero=True,
-        letter="G",
-    ),
+    Field("balance_grade", "G", "balance quality grade (ISO 21940-11) that the rotor just meets", "a balance grade", "mm/s", 1e-12, 1e9, '"G 2.5"', zero=True, letter="G"),
     length_field("rotor_diameter", "2R", "rotor diameter at the contact", 2e-9, 2e6, '"80 mm"'),
     length_field("diametral_clearance", "2c_r", "diameter of the clearance circle", 2e-9, 2e3, '"1.4 mm"'),
-    Field(
-        "natural_frequency",
-        "ω_n",
-        "undamped natural frequency",
-        "an angular speed",
-        "rad/s",
-        1e-9,
-        1e9,
-        '"22 Hz"',
-        usual="Hz",
-        usual_size=2.0 * math.pi,
-    ),
+    Field("natural_frequency", "ω_n", "undamped natural frequency", "an angular speed", "rad/s", 1e-9, 1e9, '"22 Hz"', usual="Hz", usual_size=2.0 * math.pi),
     Field("damping_ratio", "ζ", "damping over critical damping", "a number", "", 1e-30, 1e6, "0.1", True),
-    Field(
-        "proportional_gain", "P", "proportional gain, current over displacement", "a gain", "A/m", 0, 1e15, '"2e4 A/m"'
-    ),
+    Field("proportional_gain", "P", "proportional gain, current over displacement", "a gain", "A/m", 0, 1e15, '"2e4 A/m"'),
     Field("derivative_gain", "D", "derivative gain, current over velocity", "a gain", "A s/m", 0, 1e15, '"20 A s/m"'),
-)
+)  # fmt: skip
 """Entries that stand for a field of the machine."""
 
 HELPER_FIELDS: Mapping[str, Field] = by_name(
     speed_field("rated_speed", "Ω_r", "speed for which a balance grade is meant", '"30 Hz"'),
     Field("magnetic_bearings", "n", "number of equal bearings", "a whole number", "", 1, 1000, "2", whole=True),
-    Field(
-        "force_current_factor",
-        "k_i",
-        "force over current of a bearing",
-        "a force per current",
-        "N/A",
-        1e-9,
-        1e12,
-        '"150 N/A"',
-    ),
-    Field(
-        "negative_stiffness",
-        "k_s",
-        "size of the negative stiffness of a bearing",
-        "a stiffness without its sign",
-        "N/m",
-        1e-30,
-        1e30,
-        '"4e5 N/m"',
-        zero=True,
-    ),
+    Field("force_current_factor", "k_i", "force over current of a bearing", "a force per current", "N/A", 1e-9, 1e12, '"150 N/A"'),
+    Field("negative_stiffness", "k_s", "size of the negative stiffness of a bearing", "a stiffness without its sign", "N/m", 1e-30, 1e30, '"4e5 N/m"', zero=True),
     Field("force_limit", "F_max", "largest force of a bearing", "a force", "N", 1e-12, 1e15, '"500 N"'),
     Field("current_limit", "i_max", "largest control current of a bearing", "a current", "A", 1e-12, 1e9, '"3 A"'),
-    Field(
-        "slew_rate_limit",
-        "(di/dt)_max",
-        "largest rate of the control current of a bearing: voltage over inductance",
-        "a rate of current",
-        "A/s",
-        1e-12,
-        1e15,
-        '"5000 A/s"',
-    ),
+    Field("slew_rate_limit", "(di/dt)_max", "largest rate of the control current of a bearing: voltage over inductance", "a rate of current", "A/s", 1e-12, 1e15, '"5000 A/s"'),
     length_field("air_gap", "s_0", "radial air gap of a bearing's magnets", 1e-9, 1e3, '"0.5 mm"'),
-)
+)  # fmt: skip
 """Entries that set nothing themselves: those that formulas need, and limits."""
 
 BEARING_FIELDS = tuple(name for name in HELPER_FIELDS if name != "rated_speed")

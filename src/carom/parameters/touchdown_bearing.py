@@ -20,13 +20,11 @@ LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
 BALL_FIELDS: Mapping[str, Field] = by_name(
     Field("balls", "Z", "balls that share the force", "a whole number", "", 3, 1000, "12", whole=True),
     length_field("ball_diameter", "D", "diameter of a ball", 1e-5, 10.0, '"6.35 mm"'),
-    length_field(
-        "race_diameter", "d_i", "diameter of the inner race at the bottom of its groove", 1e-4, 100.0, '"42 mm"'
-    ),
+    length_field("race_diameter", "d_i", "diameter of the inner race at the bottom of its groove", 1e-4, 100.0, '"42 mm"'),
     Field("conformity", "f", "radius of the groove over the ball diameter", "a number", "", 0.501, 1.0, "0.52"),
     Field("ball_modulus", "", "elastic modulus of the balls", "a modulus", "Pa", 1e6, 1e13, '"208 GPa"'),
     Field("race_modulus", "", "elastic modulus of the inner race", "a modulus", "Pa", 1e6, 1e13, '"208 GPa"'),
-)
+)  # fmt: skip
 """Entries of a ``[touchdown]`` table that say how its balls are pressed on; they change no motion."""
 TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
     Field("stiffness", "k_t", "stiffness of the touchdown bearing", "a stiffness", "N/m", 1e-6, 1e18, '"1e8 N/m"'),

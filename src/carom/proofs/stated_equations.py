@@ -60,7 +60,7 @@ class StatedEquations:
         weight = np.sum([force.accelerations for force in whole.acting_forces], axis=0) * np.ones(n)
         across, push = whole.acting_on_conjugates, np.zeros(n)
         with suppress(InputError):  # of several nodes with an unbalance, a step of which is meant?
-            push = whole.unbalance_push()
+            push = whole.definition.unbalance_push()
         limits = [[*each.displacement, *each.velocity, each.bound] for each in whole.listed_limits]
         given = {
             "mass": mass,

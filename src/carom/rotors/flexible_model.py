@@ -145,14 +145,14 @@ class FlexibleDefinition(LinearEquations):
         return made
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :meth:`carom.models.Rotor.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
+        """See :meth:`carom.models.Definition.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
         reduced, (node, own) = self.reduced, self._unbalance_at(node)
         push, size = np.zeros(len(self.mass), complex), math.sqrt(reduced.machine.rotor.mass)
         push[: reduced.vectors] = size * (reduced.machine.rotor.row_at(node) @ reduced.basis.shapes)
         return push * cmath.exp(1j * (cmath.phase(own) if own else self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :meth:`carom.models.Rotor.unbalance_along`."""
+        """See :meth:`carom.models.Definition.unbalance_along`."""
         node, own = self._unbalance_at(node)
         others = any(each.node != node for each in self.reduced.machine.unbalances)
         return None if others else abs(own) / self.reduced.scales.unbalance

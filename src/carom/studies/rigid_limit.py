@@ -66,7 +66,7 @@ def on_other_walls(rotor: Rotor, disturbances: Sequence[Sample]) -> tuple[OtherW
     others: list[tuple[float | None, Rotor]]
     if rotor.planar is None or rotor.limits or rotor.forces or rotor.system.shaft is not None:
         return ()
-    bearing = rotor.bearing_at(0)
+    bearing = rotor.definition.bearing_at(0)
     if rotor.has_closed_forms and rotor.planar.d > 0.0:
         unit, restitution = rotor.scales.stiffness if rotor.scales else 1.0, rotor.planar.d
         stiffnesses = [each / unit for each in (BEARINGS if rotor.scales else RATIOS)]

@@ -120,7 +120,7 @@ def largest_change(rotor: Rotor) -> float:
     Larger ones that add to the unbalance before lead to no levitation inside the wall; just below it motions do not settle.  Zero for a model whose
     unbalance is not known by one number, and of a shaft whose speed changes.
     """
-    system, before = rotor.system, rotor.unbalance_along() if "rho" in rotor.varied else None
+    system, before = rotor.system, rotor.definition.unbalance_along() if "rho" in rotor.varied else None
     if before is None or system.is_anisotropic or system.shaft is not None:
         return 0.0
     sags = np.abs(system.arrays["rows"] @ system.outer)

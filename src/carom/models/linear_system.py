@@ -1,0 +1,124 @@
+"""The system of any linear rotor, from its equations of motion."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.models.anisotropic import Doubled, anisotropic_system
+from carom.models.forcing import Force, with_forces
+from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.modes import modes_of
+from carom.models.race import RaceModes
+from carom.models.shaft import ShaftModes
+from carom.models.system import System
+from carom.outcome import InputError
+
+if TYPE_CHECKING:
+    from carom.models.linear import LinearEquations
+
+SINGULAR = 1e-14
+"""Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
+
+
+def system_of(given: LinearEquations) -> System:
+    """Modes, contact planes and contact law of a rotor with these equations of motion."""
+    n = len(given.mass)
+    if given.conjugate is not None and given.conjugate.any():
+        return _anisotropic(given, given.conjugate)
+    _check_inverses(given)
+    if is_singular(given.stiffness, given.mass, given.damping, given.stiffness) and given.forcing.any():
+        # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
+        push = Force(0.0, given.accelerations(given.forcing))
+        return with_forces(dataclasses.replace(given, forcing=np.zeros(n)).system, (push,))
+    turning = None if given.shaft is None else ShaftModes(given.shaft, given.accelerations(given.forcing))
+    rests = turning is None and given.forcing.any()
+    rest = np.linalg.solve(given.stiffness, given.forcing) if rests else np.zeros(n, complex)
+    moved = given.accelerations(given.planes.conj().T)
+    found = modes_of(_generator(given), given.mass if given.heavy.all() else None)
+    mobilities = np.einsum("pn,np->p", given.planes, moved)
+    if not (mobilities.real > 0.0).all() or (np.abs(mobilities.imag) > 1e-9 * np.abs(mobilities)).any():
+        raise InputError(
+            "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
+        )
+    races = [each.race for each in given.touchdowns]
+    if n == 1 and given.planes.tolist() == [[1.0]] and races == [None] and turning is None and given.magnets is None:
+        return _one_coordinate(given, found.exponents, complex(rest[0]))
+    inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
+    inverse[:, np.append(np.ones(n, bool), given.heavy)] = np.linalg.inv(found.basis)
+    return modal_system(
+        exponents=found.exponents,
+        driven=found.driven,
+        rest=rest,
+        shapes=found.basis[:n],
+        inverse=inverse,
+        offsets=given.planes @ rest,
+        rows=given.planes @ found.basis[:n],
+        columns=inverse[:, n:] @ (moved / mobilities),
+        races=RaceModes.of(races, masses),
+        shaft=turning,
+        limits=None,
+        **walls_as_arrays([each.wall(mass) for each, mass in zip(given.touchdowns, masses, strict=True)]),
+        masses=masses,
+        translation=given.translation,
+        clearances=tuple(each.clearance for each in given.touchdowns),
+        magnets=given.magnets,
+    )
+
+
+def _anisotropic(given: LinearEquations, conjugate: np.ndarray) -> System:
+    """System where bearings act differently in two directions."""
+    from carom.models.linear import LinearEquations  # which are defined with their system
+
+    doubled = Doubled.of(given.mass, given.damping, given.stiffness, conjugate)
+    none = np.zeros(len(given.mass))
+    if is_singular(doubled.stiffness, doubled.mass, doubled.damping, doubled.stiffness) and given.forcing.any():
+        raise InputError("forcing", given.forcing.tolist(), "none in undamped resonance with it")
+    planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in given.touchdowns]
+    system = LinearEquations(*doubled, np.append(given.forcing, none), planes).system
+    return anisotropic_system(
+        system,
+        given.accelerations(given.planes.conj().T) * system.arrays["masses"],
+        races=RaceModes.of([each.race for each in given.touchdowns], system.arrays["masses"]),
+        translation=given.translation,
+        clearances=tuple(each.clearance for each in given.touchdowns),
+        magnets=given.magnets,
+    )
+
+
+def _check_inverses(given: LinearEquations) -> None:
+    """Refuse masses that are singular, and coordinates without mass whose rates do not follow from the state."""
+    heavy, light = (np.ix_(those, those) for those in (given.heavy, ~given.heavy))
+    if not given.heavy.any() or is_singular(given.mass[heavy], given.mass):
+        raise InputError("mass", "singular", "a matrix that can be inverted, but for rows and columns that are zero")
+    if not given.heavy.all() and is_singular(given.damping[light], given.damping[light]):
+        raise InputError("damping", "singular", "a matrix that gives the rates of all coordinates without mass")
+
+
+def _generator(given: LinearEquations) -> np.ndarray:
+    """Rates of the coordinates, then accelerations of those with mass, per coordinate, then per rate of those with mass."""
+    n, heavy = len(given.mass), given.heavy
+    rates = np.zeros((n, n + heavy.sum()), complex)
+    rates[heavy] = np.eye(heavy.sum(), n + heavy.sum(), n)
+    if not heavy.all():
+        held = np.concatenate([given.stiffness[~heavy], given.damping[np.ix_(~heavy, heavy)]], axis=1)
+        rates[~heavy] = -np.linalg.solve(given.damping[np.ix_(~heavy, ~heavy)], held)
+    forces = np.concatenate([given.stiffness, np.zeros((n, heavy.sum()))], axis=1) + given.damping @ rates
+    return np.concatenate([rates, -given.accelerations(forces)[heavy]])
+
+
+def _one_coordinate(given: LinearEquations, exponents: np.ndarray, equilibrium: complex) -> System:
+    """System of a rotor with one coordinate, which is its displacement at the only plane."""
+    slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
+    mass = float(given.mass[0, 0].real)
+    system = second_order_system(
+        exponents=(fast, slow), equilibrium=equilibrium, wall=given.touchdowns[0].wall(mass), mass=mass
+    )
+    return dataclasses.replace(system, translation=given.translation)
+
+
+def is_singular(matrix: np.ndarray, *terms: np.ndarray) -> bool:
+    """Whether a matrix is singular to the rounding of these."""
+    return bool(np.linalg.svd(matrix, compute_uv=False)[-1] <= SINGULAR * max(map(np.linalg.norm, terms)))
