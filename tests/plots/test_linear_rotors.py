@@ -44,7 +44,7 @@ def test_energies_and_motions_of_two_planes_are_drawn():
 def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
     ends = np.array([[1.0, 0.8], [1.0, -0.7]])
     found = carom.find_orbits(tilting(damping=0.02 * ends.T @ ends).model, impacts=2, guesses=120)
-    (second,) = (orbit for orbit in found if str(orbit.word) == "impact+@2")
+    second = next(orbit for orbit in found if orbit.segments == "impact+@2")
     for drawn in second.plot().axes:
         (line,) = (line for line in drawn.lines if line.get_gid() == "path")
         assert np.hypot(*line.get_xydata()[0]) == pytest.approx(1.0, abs=1e-12)

@@ -16,9 +16,12 @@ from carom.models import Rotor, Subject, rotor_of
 from carom.motions.settling import REPEATING
 from carom.motions.simulation import simulate
 from carom.motions.trajectories import Trajectory
+from carom.orbits.closing import close
 from carom.orbits.exponents import LOST, LyapunovExponents, lyapunov_exponents, orbit_exponents
+from carom.orbits.happenings import arrives
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.recognising import arrives, with_impacts
+from carom.orbits.recognising import with_impacts
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.word import Kind
 from carom.outcome import CaromError, Outcome
 from carom.results import Result
@@ -67,7 +70,7 @@ class Character(Result):
     kind: CharacterKind
     words: str
     lasting: Lasting
-    orbit: Orbit | None = None
+    orbit: Orbit | SimulatedOrbit | None = None
     exponents: LyapunovExponents | None = None
     rates: np.ndarray | None = None
     rotation: Rotation | None = None
@@ -191,7 +194,7 @@ def _undecided(attractor: Attractor, words: str) -> Character:
     return Character("undecided", words, lasting)
 
 
-def _periodic(attractor: Attractor, orbit: Orbit) -> Character:
+def _periodic(attractor: Attractor, orbit: Orbit | SimulatedOrbit) -> Character:
     """Character of bouncing next to an orbit: periodic if the orbit attracts and is a motion of the machine."""
     if not orbit.admissible:
         return _undecided(attractor, f"The orbit found next to it is no motion of the machine: {orbit.reason}.")
@@ -202,16 +205,22 @@ def _periodic(attractor: Attractor, orbit: Orbit) -> Character:
     return Character("periodic", words, "attractor", orbit, exponents, exponents.values)
 
 
-def _approached_orbit(motion: Trajectory) -> Orbit | None:
+def _approached_orbit(motion: Trajectory) -> Orbit | SimulatedOrbit | None:
     """Attracting orbit to which a motion comes closer and closer."""
-    states = motion.rotor.system.nodes.of(motion.arrivals[arrives(motion)])
+    struck = arrives(motion)
+    states, times = motion.rotor.system.states_of(motion.arrivals[struck]), motion.segment_starts[1:][struck]
     count = len(states)
     if count < 4 * MOST_IMPACTS:
         return None
     apart = np.abs(states[-1] - states[-1 - MOST_IMPACTS : -1][::-1]).max(axis=1)
     for impacts in np.sort(np.argsort(apart, kind="stable")[:TRIED] + 1).tolist():
-        guess = with_impacts(motion, count - 1 - impacts, impacts)
-        orbit = orbit_near(motion.rotor, *guess) if guess else None
+        orbit: Orbit | SimulatedOrbit | None
+        if motion.rotor.has_closed_forms:
+            guess = with_impacts(motion, count - 1 - impacts, impacts)
+            orbit = orbit_near(motion.rotor, *guess) if guess else None
+        else:
+            begun = count - 1 - impacts
+            orbit = close(motion, 0.5 * float(times[begun - 1] + times[begun]), float(times[-1] - times[begun]))
         if orbit is not None and orbit.stable and orbit.admissible:
             early, late = (_distance(orbit, states[place]) for place in (count // 2, count - 1))
             if late < max(0.5 * early, APPROACHED):
@@ -219,6 +228,7 @@ def _approached_orbit(motion: Trajectory) -> Orbit | None:
     return None
 
 
-def _distance(orbit: Orbit, state: np.ndarray) -> float:
-    """Distance of a state from the nearest node of an orbit, relative to one plus its size."""
-    return float(np.abs(orbit.nodes - state).max(axis=1).min() / (1.0 + np.abs(state).max()))
+def _distance(orbit: Orbit | SimulatedOrbit, state: np.ndarray) -> float:
+    """Distance of a state at an arrival from the nearest one of an orbit, relative to one plus its size."""
+    states = orbit.arrivals if isinstance(orbit, SimulatedOrbit) else orbit.nodes
+    return float(np.abs(states - state).max(axis=1).min() / (1.0 + np.abs(state).max()))

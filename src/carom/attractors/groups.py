@@ -15,6 +15,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
+from carom.orbits.simulated import SimulatedOrbit
 from carom.outcome import Outcome, Phase
 from carom.parameters import Scales
 from carom.parameters.told import told
@@ -74,7 +75,7 @@ class Attractor(Result):
     largest_impulse: float
     largest_force: float
     survival: Survival | None = None
-    orbit: Orbit | None = None
+    orbit: Orbit | SimulatedOrbit | None = None
     scales: Scales | None = None
 
     @property

@@ -14,8 +14,10 @@ from carom.closed_forms.exact_results import exact_results
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
+from carom.orbits.happenings import arrives, first_of_period
 from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import arrives, first_of_period, orbit_of_motion, orbit_of_whirl, whole_turns
+from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
+from carom.orbits.simulated import SimulatedOrbit
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 
@@ -39,7 +41,7 @@ class SettledMotion(Result):
     outcome: Outcome
     multiplicity: int = 0
     """Impacts per period; 0 without a period or impacts."""
-    orbit: Orbit | None = None
+    orbit: Orbit | SimulatedOrbit | None = None
     """The orbit of periodic bouncing or of a whirl that slides; ``None`` for other motions, and where Newton's method closes none."""
     period: float | None = None
     """In ``1/Ω``; ``None`` if it is at rest, does not repeat or has not settled."""
@@ -54,40 +56,47 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     then have the same one, however far from it they were when found to be periodic.
     """
     outcome, motion = motion.outcome, seen_in_contact(motion)
-    if outcome not in REPEATING and motion.rotor.system.forced is not None:
-        return _settled_under_weight(motion)
+    if not motion.rotor.has_closed_forms:
+        return _settled_elsewhere(motion)
     if outcome is Outcome.ROLLING:
-        arrays = motion.rotor.system.arrays
-        rigid = not arrays["stiffness"][motion.plane]
-        turn = 2.0 * math.pi / float(arrays.surface_speed[motion.plane]) if rigid else _turn_time(motion)
-        return SettledMotion(motion, outcome, period=turn)
+        return SettledMotion(
+            motion, outcome, period=2.0 * math.pi / float(motion.rotor.system.arrays.surface_speed[motion.plane])
+        )
     if outcome not in REPEATING:
         resting = outcome is Outcome.LEVITATED or (
             outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME
         )
         whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
         turn = _turn_time(motion) if whirling else None
-        orbit = orbit_of_whirl(motion, turn) if turn is not None else None
-        return SettledMotion(motion, outcome, 0, orbit, orbit.period if orbit is not None else turn, resting)
-    count = motion.multiplicity
-    if count == 0:
-        return SettledMotion(motion, outcome)
+        whirl = orbit_of_whirl(motion, turn) if turn is not None else None
+        return SettledMotion(motion, outcome, 0, whirl, whirl.period if whirl is not None else turn, resting)
+    return _bouncing(motion, orbit_of_motion(motion)) if motion.multiplicity else SettledMotion(motion, outcome)
+
+
+def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> SettledMotion:
+    """What periodic bouncing repeats, with the orbit that it ends on."""
+    count, outcome = motion.multiplicity, motion.outcome
     span = motion.time - float(motion.segment_starts[1:][arrives(motion)][first_of_period(motion, count)])
-    orbit = orbit_of_motion(motion)
     if orbit is None:
         return SettledMotion(motion, outcome, count, period=span)
     return SettledMotion(motion, outcome, max(1, round(count * orbit.period / span)), orbit, orbit.period)
 
 
-def _settled_under_weight(motion: Trajectory) -> SettledMotion:
-    """What a motion without impacts repeats under weight: nothing is at rest in the co-rotating frame, and periods are whole turns."""
-    if motion.outcome is Outcome.LEVITATED:
-        return SettledMotion(motion, motion.outcome, period=2.0 * math.pi)
-    turns = whole_turns(motion) if motion.outcome.settled else 0
-    if not turns:
-        return SettledMotion(motion, motion.outcome)
-    period = 2.0 * math.pi * turns
-    return SettledMotion(motion, motion.outcome, 0, orbit_of_whirl(motion, period), period)
+def _settled_elsewhere(motion: Trajectory) -> SettledMotion:
+    """What a motion repeats of another machine than the planar rotor in a rigid bearing."""
+    outcome, count = motion.outcome, motion.multiplicity
+    if outcome is Outcome.LEVITATED:
+        resting = motion.rotor.system.forced is None
+        return SettledMotion(motion, outcome, period=None if resting else 2.0 * math.pi, synchronous=resting)
+    if outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME:
+        return SettledMotion(motion, outcome, synchronous=True)
+    orbit = orbit_of_motion(motion)
+    if not count and (outcome in REPEATING or not outcome.settled):
+        return SettledMotion(motion, outcome)
+    if not count:
+        turn = None if motion.rotor.system.is_time_dependent else _turn_time(motion)
+        return SettledMotion(motion, outcome, 0, orbit, orbit.period if orbit is not None else turn)
+    return _bouncing(motion, orbit)
 
 
 def seen_in_contact(motion: Trajectory) -> Trajectory:
@@ -146,7 +155,7 @@ def _last_states(settled: SettledMotion) -> np.ndarray:
     return motion.rotor.system.nodes.of(motion.arrivals[last[-settled.multiplicity :]])
 
 
-def known_orbit(orbit: Orbit | None, orbits: Sequence[Orbit]) -> Orbit | None:
+def known_orbit(orbit: Orbit | SimulatedOrbit | None, orbits: Sequence[Orbit]) -> Orbit | None:
     """Return the admissible one among ``orbits`` that is the given one, or ``None``."""
     if orbit is None:
         return None

@@ -14,7 +14,6 @@ from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.several import lies_on, searched_branches
-from carom.bifurcations.simulated import SimulatedBranch
 from carom.bifurcations.simulated_branches import simulated_branches
 from carom.bifurcations.steady import (
     EquilibriumBranch,
@@ -24,13 +23,13 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.bifurcations.words import continue_orbit, renamed
-from carom.closed_forms.exact_results import exact_results
 from carom.models import Rotor, Subject, exact_rotor_of, jeffcott, rotor_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
-from carom.orbits.search import Impacts, Searched
+from carom.orbits.search import Impacts
+from carom.orbits.searched import Searched
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import STEADY_WORDS
 from carom.parameters import Parameters
@@ -167,8 +166,8 @@ def find_bifurcations(
     All single-impact orbits are computed (:func:`~carom.orbits.single_impact.find_orbits`) at 13 evenly spaced values.
     Each orbit that does not lie on a known branch is continued in both directions.
 
-    Of other models than the planar rotor these orbits have no closed form: they are searched at 9 values, as those with
-    several impacts are, and some may be missing.  Rolling, and special points of levitation and rubs, are left out there.
+    Of other machines than the planar rotor in a rigid bearing orbits have no closed form: they are searched at 3 values and followed on the
+    flow of the simulator, and some may be missing.  Rolling, and special points of levitation and rubs, are left out there.
 
     Parameters
     ----------
@@ -215,9 +214,7 @@ def find_bifurcations(
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
-    follow = (
-        _follow_simulated if is_simulated(model) else _follow_known if exact_results(model).orbits else _follow_searched
-    )
+    follow = _follow_known if model.has_closed_forms else _follow_simulated
     found = follow(model, along, limits, tell.part(0.0, followed), impacts=impacts, virtual=virtual, lasting=lasting)
     disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
     samples: tuple[AttractorSample, ...] = ()
@@ -282,7 +279,7 @@ def _follow_known(
     search: Searched | None = None
     if impacts > 1:
         rest = tell.part(SINGLE_SHARE, 1.0)
-        several, search = searched_branches(model, along, limits, (2, impacts), branches, virtual=virtual, tell=rest)
+        several, search = searched_branches(model, along, limits, impacts, branches, virtual=virtual, tell=rest)
     points = [
         *steady_points(model.parameters, along, limits),
         *(point for branch in branches for point in branch.special),
@@ -292,26 +289,6 @@ def _follow_known(
     points.sort(key=lambda point: point.value)
     rolling = rolling_branch(model, along, limits)
     return _Followed(rolling, tuple(branches), several, search, tuple(rubbing), tuple(points))
-
-
-def _follow_searched(
-    model: Rotor,
-    along: Axis,
-    limits: tuple[float, float],
-    tell: Reporter,
-    *,
-    impacts: int,
-    virtual: bool,
-    lasting: bool,
-) -> _Followed:
-    """Follow the branches of orbits that a search finds, of a model without closed forms; it has none with ``lasting``."""
-    found, search = searched_branches(model, along, limits, (1, impacts), (), virtual=virtual, tell=tell)
-    return _of_searched([branch for branch in found if branch.impacts], search, _special(found))
-
-
-def is_simulated(model: Rotor) -> bool:
-    """Whether orbits are closed and followed on the flow of the simulator: where motions have no words, and where walls give way."""
-    return model.system.why_not_periodic is not None or bool(model.system.arrays["stiffness"].any())
 
 
 def _follow_simulated(
@@ -326,14 +303,7 @@ def _follow_simulated(
 ) -> _Followed:
     """Follow the branches of the periodic motions of any machine that a search finds; all are motions, with lasting contact or without."""
     found, search = simulated_branches(model, along, limits, impacts, tell)
-    return _of_searched(found, search, [point for branch in found for point in branch.special])
-
-
-def _of_searched(
-    found: Sequence[OrbitBranch | SimulatedBranch], search: Searched, points: Sequence[Bifurcation]
-) -> _Followed:
-    """What was followed, of branches that a search found, without rolling."""
-    nothing = np.empty(0)
+    points, nothing = [point for branch in found for point in branch.special], np.empty(0)
     return _Followed(
         RollingBranch(nothing, nothing, nothing > 0.0),
         tuple(branch for branch in found if branch.impacts == 1),

@@ -14,7 +14,7 @@ from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import lift_off_of
-from carom.orbits.search import Searched
+from carom.orbits.searched import Searched
 from carom.parameters import Scales
 from carom.results import fields_of
 

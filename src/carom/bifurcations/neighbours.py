@@ -8,8 +8,7 @@ import numpy as np
 
 from carom.bifurcations.points import OF_CONTACT
 from carom.core.friction import slip_of, spare_friction
-from carom.core.laws.choice import press_coefficient
-from carom.core.margins import highest_point, local_motion
+from carom.core.margins import highest_point
 from carom.core.wall import set_on_wall
 from carom.models import Rotor
 from carom.motions.simulation import simulate
@@ -25,8 +24,6 @@ SIMULATED = 3.3
 """Periods that are simulated to read two."""
 SAME_TIME = 0.02
 """Relative difference of the period read from that on the border."""
-TOUCHES = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
-"""Speeds, in ``c_r Ω``, from which a contact that just begins is sought."""
 MOST_EVENTS = 20_000
 """Events of a motion from which a period is read."""
 
@@ -58,7 +55,7 @@ def read_beside(orbit: Orbit, rotor: Rotor) -> list[tuple[Word, Start]]:
     Returns
     -------
     list of (Word, Start)
-        Fewer if nothing recurs after about a period, or if what happens in it has no word.
+        Fewer if nothing recurs after about a period.
     """
     # The orbit of the same word there is no motion, but nearer to the one that is sought than that on the border.
     beside = orbit_near(rotor, orbit.word, orbit.start) or orbit
@@ -84,17 +81,9 @@ def read_beside(orbit: Orbit, rotor: Rotor) -> list[tuple[Word, Start]]:
         last = alike[int(np.argmin(np.abs(times[alike] - times[first] - orbit.period)))]
         if abs(times[last] - times[first] - orbit.period) > SAME_TIME * orbit.period:
             break
-        try:
-            read.append(segments_of(motion, int(first), int(last)))
-        except InputError:  # an impact at one plane while another stays in contact has no word
-            break
+        read.append(segments_of(motion, int(first), int(last)))
         first = last
     return read
-
-
-def gives_way(orbit: Orbit) -> bool:
-    """Whether a wall of the rotor gives way: then what lies beyond any border is read from a simulated period."""
-    return bool(orbit.rotor.system.arrays["stiffness"].any())
 
 
 def is_other(word: Word, known: Word) -> bool:
@@ -129,38 +118,6 @@ def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
     durations = np.insert(orbit.durations, i + 1, orbit.durations[i] - top)
     durations[i] = top
     return word, Start(states, durations)
-
-
-def with_touch(orbit: Orbit) -> list[tuple[Word, Start]]:
-    """One contact more with a wall that gives way, which begins at some small speeds where the highest maximum of the radius touches it.
-
-    The contact is that of a parabola: it lasts for ``2v/g`` with the acceleration ``g`` at its top.
-    """
-    i, plane, top, touching = _highest(orbit)
-    system, arrays = orbit.rotor.system, orbit.rotor.system.arrays
-    if not arrays["stiffness"][plane]:
-        return []
-    position, velocity = (complex(each[0]) for each in system.at_plane(touching, plane))
-    local, wall = np.conj(position / abs(position)) * velocity, system.contacts[plane].wall
-    pull = -float(local_motion(arrays, np.array([plane]), touching)[0, 3])
-    kinds = [Kind.SLIDE_FORWARD if slip_of(local, wall) > 0.0 else Kind.SLIDE_BACKWARD]
-    if press_coefficient(0, np.zeros(1), np.array([-1e-9]), wall) < 0.0:
-        kinds.append(Kind.FREE)
-    segments = [Segment(kind, plane) for kind in (*kinds, Kind.LIFT)]
-    found = []
-    for speed in TOUCHES:
-        half = speed / pull
-        if not 0.0 < half < min(top, orbit.durations[i] - top):
-            continue
-        parts = np.full(len(kinds), 2.0 * half / len(kinds))
-        times = top - half + np.concatenate([[0.0], np.cumsum(parts)])
-        begun = departure(orbit.rotor, orbit.word[i], system.nodes.amplitudes(orbit.nodes[i : i + 1])[0])
-        states = system.nodes.of(system.fly(np.tile(begun, (len(times), 1)), times))
-        word = Word((*orbit.word[: i + 1], *segments, *orbit.word[i + 1 :]))
-        before, after = orbit.durations[:i], orbit.durations[i + 1 :]
-        durations = np.concatenate([before, times[:1], parts, [orbit.durations[i] - times[-1]], after])
-        found.append((word, Start(np.insert(orbit.nodes, i + 1, states, axis=0), durations)))
-    return found
 
 
 def _without_impact(orbit: Orbit) -> tuple[Word, Start]:

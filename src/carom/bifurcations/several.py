@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from functools import reduce
 
@@ -16,7 +15,8 @@ from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.search import Search, Searched, usual_share
+from carom.orbits.search import Search
+from carom.orbits.searched import Searched
 from carom.orbits.shooting import pack_free
 from carom.outcome import CaromError
 from carom.progress import Reporter
@@ -33,13 +33,13 @@ def searched_branches(
     model: Rotor,
     along: Axis,
     limits: tuple[float, float],
-    impacts: tuple[int, int],
+    impacts: int,
     singles: Sequence[OrbitBranch],
     *,
     virtual: bool,
     tell: Reporter,
 ) -> tuple[tuple[OrbitBranch, ...], Searched]:
-    """Branches of orbits with a least up to a largest number of impacts a period, and what was searched.
+    """Branches of orbits with two up to a number of impacts a period, and what was searched.
 
     They are born in period doublings of known branches, or meet them where an impact grazes or vanishes, or friction begins to stop
     the slip; or they pass through orbits that a search finds at evenly spaced values, and orbits found at one value are
@@ -47,10 +47,8 @@ def searched_branches(
 
     Parameters
     ----------
-    impacts : tuple of int
-        The least and the largest number.
     singles : sequence of OrbitBranch
-        Branches of the orbits with one impact a period, if a closed form gives them.
+        Branches of the orbits with one impact a period.
     virtual : bool
         Follow them among virtual orbits to any distance from a motion.
     """
@@ -76,19 +74,18 @@ def searched_branches(
     done: list[Searched] = []
     for place, value in enumerate(np.linspace(*limits, VALUES).tolist()):
         rotor = along.move(model, value)
-        search = Search(rotor, impacts[1], _known(rotor, value, [*singles, *found]))
+        search = Search(rotor, impacts, _known(rotor, value, [*singles, *found]))
         part = tell.part(place / VALUES, (place + 1) / VALUES)
-        done.append(search.run(SETTLED, math.ceil(usual_share(rotor) * GUESSES), FRESH, [0, place], part))
+        done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
         for orbit in search.found:
-            wanted = orbit.admissible and orbit.impacts >= impacts[0]
+            wanted = orbit.admissible and orbit.impacts >= 2
             if wanted and not any(lies_on(orbit, value, branch) for branch in found):
                 add(continue_orbit(orbit, along.name, limits, virtual=virtual))
     return tuple(found), reduce(Searched.and_then, done)
 
 
-def _begins_another(point: Bifurcation, impacts: tuple[int, int], known: Sequence[OrbitBranch]) -> bool:
+def _begins_another(point: Bifurcation, most: int, known: Sequence[OrbitBranch]) -> bool:
     """Whether a branch of orbits with so many impacts begins at a special point, which is not known."""
-    fewest, most = impacts
     if point.kind == "period-doubling":
         return 2 * point.orbit.impacts <= most and not any(_begins_at(branch, point) for branch in known)
     if point.kind not in NEIGHBOURS or not point.orbit.word.flies:
@@ -97,7 +94,7 @@ def _begins_another(point: Bifurcation, impacts: tuple[int, int], known: Sequenc
         word, start = NEIGHBOURS[point.kind](point.orbit)
     except CaromError:
         return False
-    other = orbit_near(point.orbit.rotor, word, start) if fewest <= word.impacts <= most else None
+    other = orbit_near(point.orbit.rotor, word, start) if 2 <= word.impacts <= most else None
     return other is not None and not any(lies_on(other, point.value, branch) for branch in known)
 
 

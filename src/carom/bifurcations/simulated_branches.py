@@ -13,7 +13,7 @@ from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.flow import Budget, Flow
 from carom.orbits.names import CountedName
-from carom.orbits.search import Searched
+from carom.orbits.searched import Searched
 from carom.orbits.simulated import SimulatedOrbit, numbered
 from carom.orbits.simulated_search import search_simulated
 from carom.outcome import CaromError

@@ -51,12 +51,8 @@ FAR_FROM_MOTION = "far from a motion"
 FLIGHTS_VANISH, SHORTEST_FLIGHT = "flights vanish", 0.03
 """Where a branch ends because flights between lasting contacts vanish, and their duration there, in ``1/Ω``: their height falls
 with the fourth power of it, so that there is nothing to be computed beyond."""
-SHORTEST_OFF_WALL = 1e-4
-"""The same between contacts with walls that give way, which the rotor leaves at a speed that falls with the duration."""
 CONTACT_VANISHES, BEYOND_VANISHING = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
-BEYOND_VANISHING_SHARE = 0.5
-"""The same in a wall that gives way, where contacts are as brief as the wall is stiff: relative to the shortest on the branch's first orbit."""
 AT_REST = 1e-9
 """Radial speeds, in ``c_r Ω``, at or below which nodes are no orbit: the equilibrium on the wall solves the equations with any durations."""
 FAST = 3.0
@@ -193,8 +189,6 @@ class Family(Orbits):
         self.rotor, self.along, self.limits = rotor, along, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
         self.strikes = word.arrives
-        yields = rotor.system.arrays["stiffness"] > 0.0
-        self.yields = yields[word.planes]
         self.struck = word.planes[self.strikes]
 
     def whole(self, u: np.ndarray, p: float) -> np.ndarray:
@@ -291,10 +285,9 @@ class Family(Orbits):
     def _special_points(self) -> list[Watch]:
         # The continuation finds folds itself.
         tests = {kind: test for kind, test in TESTS.items() if kind != "fold" and self._may_happen(kind)}
-        if self.word.impacts == 1 and (self.word.flies or self.yields.all()):
+        if self.word.impacts == 1 and self.word.flies:
             # Without its only arrival the rotor never leaves levitation.
             tests[HOPF] = tests.pop("vanishing-impact")
-        if self.word.impacts == 1 and self.word.flies:
             # Beyond that point the orbit meets the wall from outside, and its maxima lie outside from the first.
             tests["grazing"] = lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else 1.0
             if self.rotor.system.is_planar:
@@ -328,16 +321,10 @@ class Family(Orbits):
         if not virtual:
             ends[FAR_FROM_MOTION] = self._nearness
         contacts = self.word.timed & np.array([segment.kind.lasts for segment in self.word])
-        touches, lifts = contacts & ~self.yields, (self.word.kinds == Kind.LIFT) & ~self.yields
-        if touches.any():
-            ends[CONTACT_VANISHES] = beyond(touches, BEYOND_VANISHING)
-        if lifts.any():
+        if contacts.any():
+            ends[CONTACT_VANISHES] = beyond(contacts, BEYOND_VANISHING)
+        if (lifts := self.word.kinds == Kind.LIFT).any():
             ends[FLIGHTS_VANISH] = beyond(lifts, SHORTEST_FLIGHT)
-        if (brief := (self.word.kinds == Kind.LIFT) & self.yields).any():
-            ends[FLIGHTS_VANISH] = beyond(brief, SHORTEST_OFF_WALL)
-        if (inside := contacts & self.yields).any():
-            shortest = float(unpack_free(self.word, start).durations[inside].min())
-            ends[CONTACT_VANISHES] = beyond(inside, -BEYOND_VANISHING_SHARE * shortest)
         if (halves := halving(self.word, start)) is not None:
             ends[HALVING] = lambda u, _: halves(u)
         watches = [Watch(kind, function, at_zero="end") for kind, function in ends.items()]

@@ -8,22 +8,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
-from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, gives_way, is_other, read_beside, with_touch
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, read_beside
 from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, ONSET, PERMANENT, Bifurcation
+from carom.bifurcations.simulated import SimulatedBranch, continue_simulated
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import (
     CONTACT_VANISHES,
     FAR_FROM_MOTION,
     FLIGHTS_VANISH,
     SHORTEST_FLIGHT,
-    SHORTEST_OFF_WALL,
     Family,
 )
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
@@ -31,7 +31,8 @@ from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Links, Start, by_angle, converged, pack, pack_free, unpack
+from carom.orbits.shooting import Links, Start, converged, pack, pack_free, unpack
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.stability import multipliers_of
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
@@ -74,13 +75,26 @@ def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
     return replace(branch, name=name, special=special)
 
 
-@checked
+@overload
 def continue_orbit(
     orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
-) -> OrbitBranch:
+) -> OrbitBranch: ...
+
+
+@overload
+def continue_orbit(
+    orbit: SimulatedOrbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
+) -> SimulatedBranch: ...
+
+
+@checked
+def continue_orbit(
+    orbit: Orbit | SimulatedOrbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
+) -> OrbitBranch | SimulatedBranch:
     """Continue an orbit along a parameter, through folds, grazing and stretches where it is virtual.
 
-    The unknowns are the states at the beginning of its segments and their durations (multiple shooting).
+    The unknowns are the states at the beginning of its segments and their durations (multiple shooting); of an orbit that was closed on the
+    flow of the simulator the state where its period begins, and it is a motion all along.
 
     Parameters
     ----------
@@ -94,7 +108,7 @@ def continue_orbit(
 
     Returns
     -------
-    OrbitBranch
+    OrbitBranch or SimulatedBranch
 
     Raises
     ------
@@ -114,6 +128,8 @@ def continue_orbit(
     >>> [(point.kind, round(point.value, 6)) for point in branch.special]
     [('grazing', 0.063611), ('radius-extremum', 0.07852), ('period-doubling', 0.083381), ('fold', 0.178028)]
     """
+    if isinstance(orbit, SimulatedOrbit):
+        return continue_simulated(orbit, parameter, interval, steps)
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
     start = pack_free(orbit.word, orbit.start)
@@ -162,8 +178,8 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
         family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
         doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
-    elif kind == ONSET or kind in CONTACT_CHANGES or (kind != PERMANENT and gives_way(orbit)):
-        word, start, present = _beyond(kind, orbit, along, limits)
+    elif kind == ONSET or kind in CONTACT_CHANGES:
+        word, start, present = _beyond(orbit, along, limits)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
         alone = orbit.word, orbit.start
@@ -172,12 +188,12 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
 
-def _beyond(kind: str, orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
+def _beyond(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
     """Orbit of the word that a simulated period has beside a border, and the parameter there."""
     value = along.value(orbit.rotor)
     places = [value + side * BESIDE * abs(value) for side in (-1, 1)]
     rotors = {there: along.move(orbit.rotor, there) for there in places if limits[0] <= there <= limits[1]}
-    guesses = with_touch(orbit) if kind == "grazing" else []
+    guesses: list[tuple[Word, Start]] = []
     for there, rotor in rotors.items():
         for word, start in read_beside(orbit, rotor):
             found = orbit_near(rotor, word, start) if is_other(word, orbit.word) else None
@@ -199,12 +215,10 @@ def _alternating(word: Word, links: Links) -> np.ndarray:
     values, vectors = np.linalg.eig(links.monodromy)
     change = vectors[:, np.argmin(np.abs(values + 1.0))].real
     rows = []
-    for passage, slope in zip(links.passages, links.turned, strict=True):
+    for passage, slope in zip(links.passages, links.slopes, strict=True):
         delay = -(slope[-1, :-1] @ change) / slope[-1, -1]
         rows.append([*change, delay])
         change = passage @ change
-    if links.turns:
-        rows = [lift @ row for lift, row in zip(by_angle(links.start.nodes), rows, strict=True)]
     once = pack_free(word, unpack(np.ravel(rows), len(word)))
     both = np.concatenate([once, -once])
     whole: np.ndarray = both / np.linalg.norm(both)
@@ -314,8 +328,7 @@ def _halved(family: Family, unknowns: np.ndarray, value: float) -> tuple[float, 
 
 def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place: float) -> Bifurcation | None:
     """Where the only flight of a period vanishes: lasting contact that never leaves the wall, whose least normal force vanishes."""
-    without = _off_no_wall if family.yields.all() else _without_flight
-    start = without(family.word, unpack(unknowns, len(family.word)))
+    start = _without_flight(family.word, unpack(unknowns, len(family.word)))
     if start is None:
         return None
     alone = orbit_near(family.along.move(family.rotor, value), *start)
@@ -325,7 +338,6 @@ def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place
     limits = max(family.limits[0], value - reach), min(family.limits[1], value + reach)
     found = [point for point in continue_orbit(alone, family.along.name, limits).special if point.kind in LEAVES]
     nearest = min((abs(point.value - value) for point in found), default=math.inf)
-    # In a wall that gives way the force may be least where a segment begins: then both margins vanish there.
     near = [point for point in found if abs(point.value - value) <= nearest + ONE_PLACE * family.size]
     near.sort(key=lambda point: point.kind != PERMANENT)
     return replace(near[0], place=place) if near else None
@@ -344,16 +356,6 @@ def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
         return Word(turned[2:]), Start(nodes[:1], durations.sum()[None])
     durations[-1] += durations[:3].sum()
     return Word(turned[3:]), Start(nodes[3:], durations[3:])
-
-
-def _off_no_wall(word: Word, start: Start) -> tuple[Word, Start] | None:
-    """The sliding in a wall that gives way without the only flight of a period, as brief as can be followed."""
-    lifts = np.flatnonzero(word.kinds == Kind.LIFT)
-    if len(word) != 2 or len(lifts) != 1 or start.durations[lifts[0]] > 1.01 * SHORTEST_OFF_WALL:
-        return None
-    nodes, durations = start.turned(int(lifts[0]))
-    slides = word[1 - int(lifts[0])]
-    return (Word((slides,)), Start(nodes[:1], durations.sum()[None])) if slides.kind is not Kind.ROLL else None
 
 
 def _is_special(family: Family, branch: Branch, point: SpecialPoint) -> bool:

@@ -114,7 +114,11 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
 
 def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
     """Print the orbits with at most a number of impacts."""
-    _print_parameters(console, case)
+    if found.rotor.has_closed_forms:
+        _print_parameters(console, case)
+    else:
+        console.print(Text(f"{case.name}: {found.rotor.words or in_a_line(found.rotor)}"))
+        console.print()
     if len(found):
         title = f"Orbits with at most {counted(found.impacts, 'impact')} a period"
         motions = plain_table(title, "orbit", "period", "state", "word", no_wrap=("orbit", "period"))

@@ -41,12 +41,10 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``periods``            all periods of single-impact orbits
 ``planar``             single-impact orbits in closed form
 ``segments``           maps of the segments of an orbit, with derivatives
-``yielding_segments``  the same in walls that give way
 ``equations``          linear equations
 ``closure``            equations of multiple shooting, and Newton's method
 ``sensitivity``        how these equations change with a parameter
 ``margins``            how far an orbit is from a change of its word
-``yielding_margins``   the same in walls that give way
 ``variation``          how small changes of a state propagate
 ``growth``             growth of small changes along a motion
 ``processors``         number of available processor cores

@@ -6,7 +6,8 @@
 ``shooting``          its equations and Newton's method
 ``admissibility``     whether it is a motion of the machine
 ``single_impact``     all orbits with one impact a period
-``search``            orbits with any number of impacts, from simulated starts
+``search``            orbits of the planar rotor with any number of impacts, from simulated starts
+``searched``          what a search has tried
 ``flow``              the flow of any machine as a map, with derivatives by differences
 ``happenings``        what happens along a motion, in order
 ``simulated``         periodic motions of any machine
@@ -18,7 +19,6 @@
 ``rubbing``           periodic motions with lasting contact, from one lift-off to the next
 ``chatter``           a chatter as one segment
 ``landings``          how far a chatter is from the onset of lasting contact
-``contraction``       how fast walls that give way shrink volumes
 ``exponents``         Lyapunov exponents of motions and of orbits
 ``names``             names of orbits
 ``maps``              impact map and stroboscopic map, with their derivatives

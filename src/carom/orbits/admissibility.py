@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.compliance import stay_in_wall
 from carom.core.event_log import EventLog
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
@@ -30,8 +29,6 @@ AT_REST = 1e-14
 """Radial speed, in ``c_r Ω``, that counts as none: the size of rounding."""
 STOPPED = 1e-10
 """Slip at a landing or at the beginning of lasting contact, in ``c_r Ω``, that counts as none."""
-BY_ROUNDING = Kind.LIFT, Kind.FREE
-"""Segments at whose beginning rounding may leave the contact before for an instant."""
 INSTANT = 1e-9
 """Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
 
@@ -140,7 +137,7 @@ def _first_contact(rotor: Rotor, left: int, plane: int, start: np.ndarray, horiz
     return outcome, aloft + time
 
 
-PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3, Kind.FREE: 4}
+PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
 """Phase of a segment that stays at its wall; all others begin in flight."""
 
 
@@ -153,8 +150,7 @@ def _why_no_such_contact(rotor: Rotor, segment: Segment, target: Segment, node: 
     contact = np.full(planes, AWAY)
     contact[segment.plane] = PHASES.get(segment.kind, Phase.FLIGHT)
     if not segment.kind.is_impact:
-        put = _put_in_wall if rotor.system.arrays["stiffness"][segment.plane] else _put_on_wall
-        contact[segment.plane] = put(rotor, segment, amplitudes)
+        contact[segment.plane] = _put_on_wall(rotor, segment, amplitudes)
     recollection = memory(len(node), stop_at_landing=True)
     recollection.lifting = (
         segment.plane + 1 if contact[segment.plane] == Phase.FLIGHT and segment.kind is Kind.LIFT else 0
@@ -168,8 +164,8 @@ def _why_no_such_contact(rotor: Rotor, segment: Segment, target: Segment, node: 
         time += elapsed
         if outcome is Outcome.EVENT_LIMIT and log.planes[0] == NOWHERE:
             continue  # a step of the flight next to a wall
-        if segment.kind in BY_ROUNDING and time <= INSTANT:
-            continue  # by rounding the rotor may stay at the wall for an instant before it lifts off, or parts from it
+        if segment.kind is Kind.LIFT and time <= INSTANT:
+            continue  # by rounding the rotor may stay at the wall for an instant before it lifts off
         changes = (np.maximum(contact, 0) != np.maximum(before, 0)).any() or segment.kind.flies
         if outcome is not Outcome.EVENT_LIMIT or (changes and not first):
             break
@@ -179,18 +175,6 @@ def _why_no_such_contact(rotor: Rotor, segment: Segment, target: Segment, node: 
     if late or wrong:
         return f"{segment} would end at t = {time:.6g} in another way than with {target}"
     return ""
-
-
-def _put_in_wall(rotor: Rotor, segment: Segment, amplitudes: np.ndarray) -> int:
-    """:func:`_put_on_wall` for a wall that gives way: a segment that begins at its edge begins exactly there.
-
-    A plane parts from its wall inside, however little: a slow one a very small depth below the edge.
-    """
-    arrays, plane = rotor.system.arrays, segment.plane
-    depth = abs(rotor.system.at_plane(amplitudes, plane)[0]) - 1.0
-    at_edge = segment.kind is not Kind.FREE and abs(depth) <= STOPPED
-    stay_in_wall(arrays, plane, segment.kind is Kind.ROLL, at_edge, amplitudes)
-    return PHASES.get(segment.kind, int(Phase.FLIGHT))
 
 
 def _put_on_wall(rotor: Rotor, segment: Segment, amplitudes: np.ndarray) -> int:

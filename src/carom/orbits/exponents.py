@@ -16,13 +16,14 @@ from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.contraction import contraction
-from carom.orbits.flow_exponents import STRETCH, Grown
+from carom.orbits.flow_exponents import NOTHING, STRETCH, Grown
+from carom.orbits.happenings import arrives
 from carom.orbits.orbit import Orbit
-from carom.orbits.recognising import arrives, segments_of
+from carom.orbits.recognising import segments_of
 from carom.orbits.shooting import Links, links_of
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError, InputError, Outcome
+from carom.outcome import CaromError, Outcome
 from carom.results import Result
 
 REPEATED = 1e-8
@@ -37,7 +38,7 @@ LOST = {Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 
 """Directions of the section at an impact that a segment takes away.
 
 A chatter leads to states in lasting contact, which have two dimensions fewer; the section at the end of sliding has two
-fewer than that at an impact, and at the end of rolling three.  On rigid walls: in a wall that gives way only rolling takes one away.
+fewer than that at an impact, and at the end of rolling three.
 """
 
 
@@ -50,17 +51,16 @@ class LyapunovExponents(Result):
 
     Attributes
     ----------
-    values : ndarray, shape (2N,) or, with weight, (2N + 1,)
+    values : ndarray, shape (2N,), or (2N + 1,) where something stands in the fixed frame
         All exponents in ``Ω``, the largest first, for ``N`` modes.  One belongs to the disturbance along the motion itself
-        (``along``); with weight it is beside those of all ``N`` modes, as a delay then changes the phase of the weight too.  Those of directions that a landing, a stopped slip or rolling takes away are minus infinity.
+        (``along``).  Those of directions that a landing, a stopped slip or rolling takes away are minus infinity.
     errors : ndarray
         Standard errors from batches; 0 where the value is minus infinity.  That of ``along`` is its distance from 0.
     along : float
         The exponent along the motion.  It tends to 0 as one over the time.
     volume : float
         Sum of the exponents by the other route: the trace of the flow and the logarithm of the determinant of each impact,
-        per time, and for walls that give way their damping.  Minus infinity where directions are lost; ``nan`` where a slip in such a
-        wall reverses without rolling, and of a virtual orbit.
+        per time.  Minus infinity where directions are lost; ``nan`` of other machines than the planar rotor in a rigid bearing.
     impacts : int
         Impacts in the time measured, those of chatter included.
     landings : int
@@ -129,8 +129,8 @@ def lyapunov_exponents(
 
     The method is that of Benettin, Galgani, Giorgilli and Strelcyn (1980), with the change of the time of each event in the
     derivatives (Müller 1995).  During the transient the directions turn towards those that grow fastest.  For a periodic
-    orbit :func:`orbit_exponents` is exact.  Where motions have no words, with races that turn, limits, forces of the fixed frame and
-    anisotropic bearings, the derivatives are central differences of the simulated flow; then fewer impacts are measured if they take too long.
+    orbit :func:`orbit_exponents` is exact.  Of other machines than the planar rotor in a rigid bearing the derivatives are central
+    differences of the simulated flow; then fewer impacts are measured if they take too long.
 
     Parameters
     ----------
@@ -149,16 +149,14 @@ def lyapunov_exponents(
     InputError
         A number is out of range, or the speed of the shaft changes.
     CaromError
-        The motion stops hitting the wall, has too few segments, its segments cannot be repeated to eight digits, or two
-        planes touch at a time while one of the contacts lasts.
+        The motion stops hitting the wall, has too few segments, or its segments cannot be repeated to eight digits.
     """
     rotor = rotor_of(machine)
     rotor.system.refuse_non_stationary()
     state = start.state(rotor) if isinstance(start, Kick) else start
-    if rotor.system.why_not_periodic is not None:
+    if not rotor.has_closed_forms:
         return _by_flow(rotor, state, impacts, transient, batches)
-    # With weight its phase at the node is one direction more.
-    directions = np.eye(2 * len(rotor.system.exponents) + int(rotor.system.forced is not None))[:, 1:]
+    directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
     for stretch in _stretches(rotor, state, transient):
         directions, _ = _carried(stretch.passages, directions)
         state = stretch.end
@@ -178,8 +176,7 @@ def lyapunov_exponents(
     values[-1], errors[-1] = rate, abs(rate)
     order = np.argsort(-values, kind="stable")
     struck = np.sum([each.struck for each in stretches], axis=0)
-    shrinks = float(np.sum([each.contraction for each in stretches]))
-    volume = _growth_of_volume(rotor, struck, shrinks, time) if kept == section else -math.inf
+    volume = _growth_of_volume(rotor, struck, time) if kept == section else -math.inf
     landings = sum(each.landings for each in stretches)
     return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
 
@@ -204,8 +201,17 @@ def _by_flow(rotor: Rotor, state: State, impacts: int, transient: int, batches: 
 
 
 @checked
-def orbit_exponents(orbit: Orbit) -> LyapunovExponents:
-    """Lyapunov exponents of a periodic orbit from its multipliers: ``log|m|/T``, and 0 along the motion."""
+def orbit_exponents(orbit: Orbit | SimulatedOrbit) -> LyapunovExponents:
+    """Lyapunov exponents of a periodic orbit from its multipliers: ``log|m|/T``, and 0 along the motion.
+
+    Of orbits that are closed on the flow of the simulator multipliers below 1e-7 count as zero, and ``volume`` is ``nan``.
+    """
+    if isinstance(orbit, SimulatedOrbit):
+        sizes = np.abs(orbit.multipliers.values)
+        rates = np.log(np.maximum(sizes, NOTHING)) / orbit.period
+        values = -np.sort(-np.append(np.where(sizes < NOTHING, -np.inf, rates), 0.0))
+        landings = sum(each.label == "land" for each in orbit.happenings)
+        return LyapunovExponents(values, np.zeros(len(values)), 0.0, math.nan, orbit.impacts, landings, orbit.period)
     rotor, kept = orbit.rotor, _directions_kept(orbit.rotor, [orbit.word])
     values = np.full(len(orbit.multipliers.values) + 1, -np.inf)
     values[:kept] = np.log(np.abs(orbit.multipliers.values[:kept])) / orbit.period
@@ -213,11 +219,8 @@ def orbit_exponents(orbit: Orbit) -> LyapunovExponents:
     landings = int((orbit.word.kinds == Kind.LAND).sum())
     volume = -math.inf
     if kept == len(values) - 1:
-        struck, shrinks = np.bincount(orbit.word.planes, minlength=len(rotor.system.arrays.rows)), 0.0
-        if rotor.system.arrays["stiffness"].any():
-            once = orbit.trajectory() if orbit.admissible else None
-            shrinks = np.nan if once is None else contraction(once, 0, len(once.arrivals) + 1)
-        volume = _growth_of_volume(rotor, struck, shrinks, orbit.period)
+        struck = np.bincount(orbit.word.planes, minlength=len(rotor.system.arrays.rows))
+        volume = _growth_of_volume(rotor, struck, orbit.period)
     errors = np.zeros(len(values))
     return LyapunovExponents(-np.sort(-values), errors, 0.0, volume, orbit.impacts, landings, orbit.period)
 
@@ -231,7 +234,6 @@ class _Stretch(NamedTuple):
     rate: np.ndarray
     struck: np.ndarray
     landings: int
-    contraction: float
     end: State
 
 
@@ -241,9 +243,6 @@ def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch]:
     while impacts > 0:
         motion = simulate(rotor, state, LONGEST, max_events=further * min(CHUNK, 2 * impacts))
         hits = np.flatnonzero(arrives(motion))
-        if len(hits) and rotor.system.arrays["stiffness"].any():
-            # A stretch ends as it begins: contact at one plane cannot be followed by that at another.
-            hits = hits[motion.event_planes[hits] == motion.event_planes[hits[0]]]
         if len(hits) < 2:
             further *= 4
             if motion.outcome is not Outcome.EVENT_LIMIT or further > FURTHER:
@@ -256,21 +255,15 @@ def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch]:
         word, links = _followed(rotor, motion, first, last)
         struck = np.bincount(motion.event_planes[hits[:count]], minlength=len(rotor.system.arrays.rows))
         landings = int(motion.is_landing[first:last].sum())
-        time = motion.begins + float(motion.segment_starts[1:][last])
-        state = State.of(*motion.rotor.system.state(motion.arrivals[last]), time=time)
-        at = links.start.durations[:-1], links.passages[:-1], links.turned[-2, :-1, -1]
-        yield _Stretch(word, *at, struck, landings, contraction(motion, first, last), state)
+        state = State.of(*motion.rotor.system.state(motion.arrivals[last]))
+        at = links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1]
+        yield _Stretch(word, *at, struck, landings, state)
         impacts -= count
 
 
 def _followed(rotor: Rotor, motion: Trajectory, first: int, last: int) -> tuple[Word, Links]:
     """Segments from one impact up to another, and that impact: it says at which plane the segment before it ends."""
-    try:
-        word, begin = segments_of(motion, first, last + 1, brief=True)
-    except InputError:
-        raise CaromError(
-            "two planes touch at a time: exponents need lasting contact at one plane while no other touches"
-        ) from None
+    word, begin = segments_of(motion, first, last + 1, brief=True)
     links = links_of(rotor, word, begin)
     apart = np.abs(links.arrivals[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())
     if not (apart <= REPEATED and np.isfinite(links.values).all()):
@@ -279,7 +272,7 @@ def _followed(rotor: Rotor, motion: Trajectory, first: int, last: int) -> tuple[
 
 
 def _carried(passages: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Directions at the end of a stretch, and the factor by which each grew in each segment, shape (m, 2N − 1 or, with weight, 2N).
+    """Directions at the end of a stretch, and the factor by which each grew in each segment, shape (m, 2N − 1).
 
     The directions lie in the section at the node: disturbances that reach the event at the same time.
     """
@@ -304,17 +297,13 @@ def _directions_kept(rotor: Rotor, words: list[Word]) -> int:
     A stopped slip takes away one, and so does the normal velocity that is lost without restitution.
     """
     restitution, lost = rotor.system.arrays.restitution, 0
-    yields = rotor.system.arrays.stiffness > 0.0
     for word in words:
         for kind, plane in np.unique([word.kinds, word.planes], axis=1).T.tolist():
             taken = LOST.get(Kind(kind), 0)
-            if yields[plane]:
-                # In the wall all directions are kept but that of a slip that has stopped.
-                taken = int(kind == Kind.ROLL)
-            elif Kind(kind).is_impact:
+            if Kind(kind).is_impact:
                 taken = int(kind == Kind.IMPACT_STOPPED) + int(restitution[plane] == 0.0)
             lost = max(lost, taken)
-    return 2 * len(rotor.system.exponents) - int(rotor.system.forced is None) - lost
+    return 2 * len(rotor.system.exponents) - 1 - lost
 
 
 def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple[np.ndarray, np.ndarray]:
@@ -325,13 +314,11 @@ def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple
     return values, np.sqrt(batches / (batches - 1) * (apart**2).sum(axis=0)) / durations.sum()
 
 
-def _growth_of_volume(rotor: Rotor, struck: np.ndarray, shrinks: float, time: float) -> float:
+def _growth_of_volume(rotor: Rotor, struck: np.ndarray, time: float) -> float:
     """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact of a plane.
 
     An impact with slip multiplies the normal velocity by ``−d``; the other velocities change by what depends on it and on
-    the position alone.  The change of the time of impact gives the same factor once more.  Walls that give way take their
-    :func:`~carom.orbits.contraction.contraction`.
+    the position alone.  The change of the time of impact gives the same factor once more.
     """
-    arrays = rotor.system.arrays
-    losses = np.log(np.where(arrays.stiffness > 0.0, 1.0, arrays.restitution))
-    return float(2.0 * rotor.system.exponents.real.sum() + (2.0 * (struck @ losses) - shrinks) / time)
+    losses = np.log(rotor.system.arrays.restitution)
+    return float(2.0 * rotor.system.exponents.real.sum() + 2.0 * (struck @ losses) / time)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.core.arrivals import SHORTEST_LAP
+from carom.core.event_log import flying
 from carom.core.limits import LOWER, UPPER
 from carom.core.margins import local_motion
 from carom.motions.trajectories import Trajectory
@@ -98,6 +101,27 @@ def impact_kinds(motion: Trajectory) -> np.ndarray:
     kinds: np.ndarray = np.where(spare >= 0.0, Kind.IMPACT_STOPPED, sliding)
     # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.
     return np.where(arrays.friction[planes] > 0.0, kinds, Kind.IMPACT_FORWARD)
+
+
+def arrives(motion: Trajectory) -> np.ndarray:
+    """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with walls that give way; bool, shape (n,)."""
+    before, after = flying(motion.segment_phases, motion.event_planes)
+    yields = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
+    arrivals: np.ndarray = motion.is_impact | (before & ~after & yields)
+    return arrivals
+
+
+def first_of_period(motion: Trajectory, count: int) -> int:
+    """Number of the impact with which the last period of a motion begins, of ``count`` impacts at different instants."""
+    times = motion.segment_starts[1:][arrives(motion)]
+    if len(motion.rotor.system.arrays.rows) == 1 or not count:
+        return len(times) - count
+    noted, last = [], -math.inf
+    for number, time in enumerate(times.tolist()):
+        if time - last > SHORTEST_LAP:
+            noted.append(number)
+            last = time
+    return noted[-min(count, len(noted))]
 
 
 def told(found: Sequence[Happening]) -> str:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import compress
 from typing import Any, ClassVar
@@ -14,7 +13,6 @@ from carom.arguments import Reals, Whole, checked
 from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
-from carom.core.yielding_margins import margins_in_walls
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -24,6 +22,7 @@ from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, Start, converged, links_of
+from carom.orbits.simulated import SimulatedOrbit, same_simulated
 from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
 from carom.outcome import CaromError, InputError
@@ -45,7 +44,7 @@ class Margins(Result):
     radius : float
         One minus the square of the largest radius of a maximum between contacts, at any plane; infinite without maxima.
     approach : float
-        Least radial speed before an impact, or at the beginning of contact with a wall that gives way, in ``c_r Ω``.
+        Least radial speed before an impact, in ``c_r Ω``.
     slip : float
         Least slip velocity left after an impact in its direction; where friction stops the slip, what friction could
         still take away.  In ``c_r Ω``; infinite without impacts or friction.
@@ -59,8 +58,7 @@ class Margins(Result):
         Least slip velocity at its minima while sliding, and with which a chatter lands, in ``c_r Ω``; where rolling follows, what friction
         could still take away.
     pressing : float
-        Least normal force at its minima inside lasting contact, in ``m c_r Ω²``.  While a plane has parted from a wall that gives way, the
-        force of the wall's spring at the least depth, and the least pull by which it stays off.
+        Least normal force at its minima inside lasting contact, in ``m c_r Ω²``.
     """
 
     radius: float
@@ -79,7 +77,7 @@ class Margins(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Result):
-    """A periodic motion in the co-rotating frame; with weight its period is a whole number of turns of the shaft.
+    """A periodic motion of the planar rotor in a rigid bearing, in the co-rotating frame, as a word of segments.
 
     Attributes
     ----------
@@ -89,14 +87,12 @@ class Orbit(Result):
         and ``d`` the longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with
         backward slip begin with ``R``.  ``"P2,1"`` for the first orbit with two impacts.
     word : Word
-    nodes : ndarray of complex, shape (m, 2n) or, with weight, (m, 2n + 1)
-        Coordinates, then their rates, at the beginning of each segment: just before the impact.  With weight also the direction
-        ``e^{−iτ}`` into which it has turned in the frame of the rotor.
+    nodes : ndarray of complex, shape (m, 2n)
+        Coordinates, then their rates, at the beginning of each segment: just before the impact.
     durations : ndarray, shape (m,)
         Of the segments, in ``1/Ω``.
     multipliers : Multipliers
-        The non-trivial Floquet multipliers: ``2N − 1`` for ``N`` modes.  With weight, whose phase is fixed, all ``2N`` count: none
-        belongs to a delay of the motion.
+        The non-trivial Floquet multipliers: ``2N − 1`` for ``N`` modes.
     reason : str
         Why it is not admissible; empty if it is.
     """
@@ -107,7 +103,6 @@ class Orbit(Result):
         "name",
         "segments",
         "period",
-        "turns",
         "radial_speed",
         "angle",
         "angular_speed",
@@ -137,6 +132,8 @@ class Orbit(Result):
         return cls(rotor, name, word, *start, multipliers_of(links), reason)
 
     complete: ClassVar[bool] = True
+    turns: ClassVar[int | None] = None
+    """Turns of the shaft in a period where these must be whole: any period is possible here."""
 
     @property
     def start(self) -> Start:
@@ -147,16 +144,6 @@ class Orbit(Result):
     def period(self) -> float:
         """In ``1/Ω``."""
         return float(self.durations.sum())
-
-    @property
-    def turns(self) -> int | None:
-        """Turns of the shaft in a period, with weight; ``None`` without: any period is possible then."""
-        return round(self.period / math.tau) if self.rotor.system.forced is not None else None
-
-    @property
-    def time(self) -> float:
-        """Time at the first node, in ``1/Ω``, within one turn: with weight it tells where this points; 0 without."""
-        return float(-np.angle(self.nodes[0, -1]) % math.tau) if self.turns is not None else 0.0
 
     @property
     def segments(self) -> str:
@@ -222,15 +209,8 @@ class Orbit(Result):
 
     @property
     def impulse(self) -> float:
-        """Normal impulse of the first impact, or of the first contact with a wall that gives way, in ``m c_r Ω``.
-
-        Of such a contact it is ``nan`` where the orbit is no motion.
-        """
+        """Normal impulse of the first impact, in ``m c_r Ω``."""
         plane = self.word[0].plane
-        if self.rotor.system.arrays["stiffness"][plane]:
-            if not (self.admissible and self.word.arrives[0]):
-                return np.nan
-            return float(self.trajectory().seen_at(plane).touches.normal_impulse[0])
         place, moving = self.rotor.system.at_plane(self._departures[0], plane)
         rebound = float((np.conj(place) * moving).real / abs(place))
         return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
@@ -249,7 +229,7 @@ class Orbit(Result):
 
     @property
     def impact_speeds(self) -> np.ndarray:
-        """``ṙ`` just before each impact, or where contact with a wall that gives way begins, in ``c_r Ω``, shape (n,)."""
+        """``ṙ`` just before each impact, in ``c_r Ω``, shape (n,)."""
         return np.array([section.radial_speed for section in compress(self.sections, self.word.arrives)])
 
     @property
@@ -261,7 +241,7 @@ class Orbit(Result):
     def departure(self) -> State:
         """State just after the first impact."""
         position, velocity = self.rotor.system.state(self._departures[0])
-        return State.of(position, velocity, time=self.time)
+        return State.of(position, velocity)
 
     @cached_property
     def _departures(self) -> np.ndarray:
@@ -330,18 +310,7 @@ def margins_of(links: Links, rotor: Rotor, word: Word) -> Margins:
     rub = rub_workspace(nodes.shape[1], len(rotor.system.contacts))
     push, slip, rolling = contact_margins(rotor.system.arrays, *at[:-1], rub)
     sliding = min(slip, float(links.slips.min()))
-    found = Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
-    if not rotor.system.arrays["stiffness"].any():
-        return found
-    entry, least, rolling, slip, push = margins_in_walls(rotor.system.arrays, *at[:-1], rub)
-    return replace(
-        found,
-        approach=min(approach, entry),
-        normal_force=min(force, least),
-        cone=min(found.cone, rolling),
-        sliding=min(sliding, slip),
-        pressing=min(found.pressing, push),
-    )
+    return Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
 
 
 @checked
@@ -362,19 +331,30 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     Raises
     ------
     InputError
-        The start does not fit the word and the rotor, or the word its walls.
+        The rotor is compliant, heavy or has else what words do not know, or the start does not fit the word and the rotor, or the word its wall.
     """
     rotor = rotor_of(machine)
-    if rotor.system.why_not_periodic is not None:
-        raise InputError("machine", *rotor.system.why_not_periodic)
+    _refuse_without_words(rotor)
     shape = len(word), len(rotor.system.nodes.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")
-    word.refuse_walls(rotor.system)
+    word.refuse_elsewhere(rotor.system)
     links = converged(rotor, word, start)
     if links is None or not lasts(word, links.start):
         return None
     return orbit_of_links(rotor, word, links, name)
+
+
+def _refuse_without_words(rotor: Rotor) -> None:
+    """Refuse a rotor of which segments are not known: those in compliant walls, and under forces of the fixed frame."""
+    system = rotor.system
+    if system.why_not_periodic is not None:
+        raise InputError("machine", *system.why_not_periodic)
+    if system.forced is not None or system.arrays["stiffness"].any():
+        given = "weight" if system.forced is not None else "a compliant touchdown bearing"
+        raise InputError(
+            "machine", given, "rigid touchdown bearings without weight: other orbits are found by carom.find_orbits"
+        )
 
 
 def lasts(word: Word, solution: Start) -> bool:
@@ -410,7 +390,11 @@ def beginning(rotor: Rotor, word: Word, nodes: np.ndarray) -> int:
     return flights[int(np.argmax((positions.conj() * velocities).real))]
 
 
-def same_orbit(first: Orbit, second: Orbit) -> bool:
-    """Whether two orbits are the same, whichever segment they begin with."""
+def same_orbit(first: Orbit | SimulatedOrbit, second: Orbit | SimulatedOrbit) -> bool:
+    """Whether two orbits are the same, wherever they begin."""
+    if isinstance(first, SimulatedOrbit) or isinstance(second, SimulatedOrbit):
+        return (
+            isinstance(first, SimulatedOrbit) and isinstance(second, SimulatedOrbit) and same_simulated(first, second)
+        )
     turns = (first.start.turned(places).nodes for places in first.word.turns_to(second.word))
     return any(np.abs(nodes - second.nodes).max() <= 1e2 * ALIKE for nodes in turns)

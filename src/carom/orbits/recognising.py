@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from carom.arguments import checked
-from carom.core.arrivals import SHORTEST_LAP
-from carom.core.event_log import flying
-from carom.core.margins import local_motion
 from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import amplitudes_of
 from carom.motions.trajectories import Trajectory
 from carom.orbits.chatter import slow_departures
+from carom.orbits.happenings import arrives, first_of_period, impact_kinds
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
+from carom.orbits.simulated import SimulatedOrbit
+from carom.orbits.simulated_search import periodic_of
 from carom.orbits.word import Kind, Segment, Word
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import Outcome, Phase
 
 PERIODIC = (Outcome.BOUNCING, Outcome.MIXED)
 MORE = 1.1
@@ -27,29 +25,25 @@ SAME_TIME = 1e-3
 """Relative difference of the time between two lift-offs and the period, if they are the same lift-off."""
 SAMPLES = 200
 """Times in a turn at which the normal force is compared to find where it is least."""
-MOST_TURNS, REPEATS = 8, 1e-6
-"""Most turns of the shaft after which whirl under weight is looked for again, and the distance, relative to one plus the size of the
-state, within which it repeats."""
-MOST_NUMBERS = 4000
-"""Numbers in the nodes of an orbit up to which Newton's method closes it: a step with as many takes seconds."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
 
 @checked
-def orbit_of_motion(motion: Trajectory) -> Orbit | None:
+def orbit_of_motion(motion: Trajectory) -> Orbit | SimulatedOrbit | None:
     """Close the periodic orbit on which a motion has settled.
 
     Parameters
     ----------
     motion : Trajectory
-        Settled to periodic bouncing, with or without lasting contact in the period (``settle=True``).
+        Settled to periodic bouncing, with or without lasting contact in the period (``settle=True``); of other machines than the planar
+        rotor in a rigid bearing also to a whirl in contact.
 
     Returns
     -------
-    Orbit or None
-        ``None`` if the motion has not settled to such an orbit, if Newton's method closes none next to it, or if it has so many segments and states that
-        this would take minutes.
+    Orbit, SimulatedOrbit or None
+        Of the planar rotor in a rigid bearing as a word of segments.  ``None`` if the motion has not settled to such an orbit, or if
+        Newton's method closes none next to it.
 
     See Also
     --------
@@ -64,6 +58,11 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     >>> print(f"{cm.orbits.orbit_of_motion(motion).period:.9f}")
     2.328416080
     """
+    return orbit_of_bouncing(motion) if motion.rotor.has_closed_forms else periodic_of(motion)
+
+
+def orbit_of_bouncing(motion: Trajectory) -> Orbit | None:
+    """:func:`orbit_of_motion` for the planar rotor in a rigid bearing."""
     count = motion.multiplicity
     struck = arrives(motion)
     times = motion.segment_starts[1:][struck]
@@ -79,27 +78,6 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     return _closed(motion, first, len(motion.arrivals))
 
 
-def arrives(motion: Trajectory) -> np.ndarray:
-    """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with walls that give way; bool, shape (n,)."""
-    before, after = flying(motion.segment_phases, motion.event_planes)
-    yields = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
-    arrivals: np.ndarray = motion.is_impact | (before & ~after & yields)
-    return arrivals
-
-
-def first_of_period(motion: Trajectory, count: int) -> int:
-    """Number of the impact with which the last period of a motion begins, of ``count`` impacts at different instants."""
-    times = motion.segment_starts[1:][arrives(motion)]
-    if len(motion.rotor.system.arrays.rows) == 1 or not count:
-        return len(times) - count
-    noted, last = [], -math.inf
-    for number, time in enumerate(times.tolist()):
-        if time - last > SHORTEST_LAP:
-            noted.append(number)
-            last = time
-    return noted[-min(count, len(noted))]
-
-
 def lift_offs(motion: Trajectory) -> np.ndarray:
     """Events of a motion at which it lifts off a plane."""
     flying = motion.segment_phases == Phase.FLIGHT
@@ -107,17 +85,8 @@ def lift_offs(motion: Trajectory) -> np.ndarray:
     return np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
 
 
-def whole_turns(motion: Trajectory) -> int:
-    """Turns of the shaft after which the end of a motion repeats, at most eight; 0 if it does not."""
-    later = simulate(motion.rotor, motion.final, MOST_TURNS * math.tau)
-    positions, velocities = later.at(math.tau * np.arange(MOST_TURNS + 1))
-    states = np.stack([positions, velocities], axis=-1).reshape(MOST_TURNS + 1, -1)
-    apart = np.abs(states - states[0]).max(axis=1) <= REPEATS * (1.0 + np.abs(states[0]).max())
-    return int(np.argmax(apart[1:])) + 1 if apart[1:].any() else 0
-
-
 def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
-    """Close the orbit of a whirl that stays in contact with the wall and slides, at least for a part of each turn.
+    """Close the orbit of a whirl of the planar rotor that stays in contact with the wall and slides, at least for a part of each turn.
 
     Parameters
     ----------
@@ -129,24 +98,21 @@ def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
     Returns
     -------
     Orbit or None
-        ``None`` if two planes touch, or if Newton's method closes none next to the motion.
+        ``None`` if Newton's method closes none next to the motion.
     """
-    planes = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
-    if len(planes) != 1:
-        return None
-    turns = simulate(motion.rotor, motion.final, (1.0 + MORE) * period).seen_at(int(planes[0]))
+    turns = simulate(motion.rotor, motion.final, (1.0 + MORE) * period)
     # At the start it is put to rest on the wall.
     changes = np.flatnonzero(
         (np.diff(turns.segment_phases, axis=0) != 0).any(axis=1) & (turns.segment_starts[1:] > 0.0)
     )
     if len(changes):
         return _between(turns, changes, period)
-    kind = Kind.of_phase(int(turns.segment_phases[-1, turns.plane]))
+    kind = Kind.of_phase(int(turns.segment_phases[-1, 0]))
     if kind is Kind.ROLL:
         return None
     least = simulate(motion.rotor, motion.final, _time_of_least_force(turns, period)).final
     node = motion.rotor.system.nodes.of(amplitudes_of(motion.rotor, least)[0][None])
-    return _near(motion.rotor, Word((Segment(kind, turns.plane),)), Start(node, np.array([period])))
+    return _near(motion.rotor, Word.of(kind), Start(node, np.array([period])))
 
 
 def _time_of_least_force(turns: Trajectory, period: float) -> float:
@@ -172,17 +138,11 @@ def _between(motion: Trajectory, events: np.ndarray, period: float) -> Orbit | N
 
 def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
     """Orbit next to a motion from one event up to another a period later."""
-    try:
-        word, start = segments_of(motion, first, last)
-    except InputError:  # an impact at one plane while another stays in contact has no word
-        return None
-    return _near(motion.rotor, word, start)
+    return _near(motion.rotor, *segments_of(motion, first, last))
 
 
 def _near(rotor: Rotor, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
-    if rotor.system.why_not_periodic is not None or start.nodes.size * 2 > MOST_NUMBERS:
-        return None
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
         return None
@@ -195,16 +155,10 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
     Impacts that lead to a landing without anything else in between become one chatter, but for those up to a slow one from
     which the rotor did not return at once; if it is to be ``brief``, only those from which on each bounce is shorter than the one before.
     """
-    between = motion.is_impact.copy()
-    between[:first], between[last:] = False, False
-    if motion.segment_phases.shape[1] > 1 and len(motion.blows(between).events) > between.sum():
-        raise InputError(
-            "motion", "impacts at several planes in one instant", "impacts at one plane at a time: others have no word"
-        )
     steps: list[tuple[Segment, np.ndarray, float]] = []
     struck_at: list[int] = []
     times = np.append(motion.segment_starts[1:], motion.time)
-    kinds, places = _impact_kinds(motion, first, last).tolist(), np.arange(first, last)
+    kinds, places = impact_kinds(motion)[first:last].tolist(), np.arange(first, last)
     planes = motion.event_planes[first:last]
     known = {
         (kind, plane): Segment(Kind(kind), plane)
@@ -212,7 +166,7 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
         if plane >= 0
     }
     phases = zip(*(motion.segment_phases[places + later, planes].tolist() for later in (0, 1)), strict=True)
-    strikes, yields = motion.is_impact[first:last].tolist(), motion.rotor.system.arrays["stiffness"] > 0.0
+    strikes = motion.is_impact[first:last].tolist()
     for event, strike, struck, plane, (before, after) in zip(
         places.tolist(), strikes, kinds, planes.tolist(), phases, strict=True
     ):
@@ -222,7 +176,7 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
             continue
         if before == after:
             continue  # long contacts are logged in steps, and so is flight next to a wall beside other planes
-        if before == Phase.FLIGHT and not yields[plane]:
+        if before == Phase.FLIGHT:
             bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
             bounces -= _not_of_chatter(motion, plane, struck_at[len(struck_at) - bounces :][:-1])
             if brief:
@@ -253,22 +207,11 @@ def _getting_shorter(times: list[float]) -> int:
     return len(times) - 1 - int(growing[-1]) if len(growing) else len(times)
 
 
-def _impact_kinds(motion: Trajectory, first: int, last: int) -> np.ndarray:
-    """Kinds of impacts from the states before them, shape (last − first,); of other events they mean nothing."""
-    arrays, planes = motion.rotor.system.arrays, motion.event_planes[first:last]
-    _, _, slip, _, _, spare = local_motion(arrays, planes, motion.arrivals[first:last]).T
-    sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
-    kinds: np.ndarray = np.where(spare >= 0.0, Kind.IMPACT_STOPPED, sliding)
-    # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.
-    return np.where(arrays.friction[planes] > 0.0, kinds, Kind.IMPACT_FORWARD)
-
-
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:
     """Word and start of some arrivals at walls in a row, from that of given number; ``None`` where the motion does else."""
     impacts = np.flatnonzero(arrives(motion))
     if first + count >= len(impacts):
         return None
-    # In a wall that gives way contact has events of its own.
-    if impacts[first + count] - impacts[first] != count and not motion.rotor.system.arrays["stiffness"].any():
+    if impacts[first + count] - impacts[first] != count:
         return None
     return segments_of(motion, int(impacts[first]), int(impacts[first + count]))

@@ -1,4 +1,4 @@
-"""The search for orbits with at most a number of impacts a period, with or without lasting contact.
+"""The search for orbits of the planar rotor with at most a number of impacts a period, with or without lasting contact.
 
 Most motions from random starts stop bouncing soon, and unstable orbits attract none: a search must not wait until motions settle.  Any
 stretch of a motion that is a few impacts long is a guess for Newton's method, which costs less than the simulation.
@@ -6,10 +6,8 @@ stretch of a motion that is a few impacts long is a guess for Newton's method, w
 
 from __future__ import annotations
 
-import math
-import time
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -20,12 +18,14 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
+from carom.orbits.happenings import arrives
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
-from carom.orbits.recognising import arrives, lift_offs, orbit_of_motion, segments_of
+from carom.orbits.recognising import lift_offs, orbit_of_bouncing, segments_of
+from carom.orbits.searched import KIND, Searched, random_starts
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
 from carom.orbits.word import Word
-from carom.outcome import InputError, Outcome
+from carom.outcome import Outcome
 from carom.progress import Reporter
 
 GUESSES, MOST_IMPACTS = 1500, 64
@@ -37,108 +37,26 @@ EARLY, NEAREST = 3, 1
 that come back closest."""
 FRUITLESS = 200
 """Motions in a row without any guess, after which the search ends."""
-WHOLE_WIDTH, LEAST_SHARE = 21, 0.002
-"""Equations of a segment up to which a search tries all that it is meant to, and the least share of it: each guess solves equations whose work
-grows with the third power of their number."""
 IMPACTS = 4
 """Impacts of these motions, in multiples of the largest number of impacts a period."""
 FOLLOWED = 1000.0
 """Time in ``1/Ω`` for which each is followed."""
-IN_WALL = 16
-"""Events logged of a contact with a wall that gives way, about."""
 LANDING, LANDS = 0.05, 2000
 """Share of the motions that are followed through landings and lift-offs, and their most events."""
-SETTLED, SLOWER = 10_000, 50
-"""Motions that are followed until they settle, for orbits that attract few starts; divided by the second number for rotors
-whose motions are not followed side by side."""
+SETTLED = 10_000
+"""Motions that are followed until they settle, for orbits that attract few starts."""
 FRESH = 1000
-"""Fresh motions that measure which share ends on the orbits found; divided by the same for such rotors."""
+"""Fresh motions that measure which share ends on the orbits found."""
 GIVEN_UP = 1000
 """Impacts after which a motion that does not settle is given up."""
 ENDS = 200
 """Most ends of such motions, different ones, that are closed to orbits."""
-FASTEST = 1.5
-"""Velocities of the starts in the fixed frame, in ``c_r Ω``, are up to this."""
 BESIDE = (1e-2, 0.5)
 """Relative changes of the velocity, least and largest, of a start beside a known orbit."""
-KIND = 3
-"""Decimals to which the states of ends must agree to count as one."""
 KNOWN = 1e-4
 """Relative distance from a known solution below which a stretch is not tried."""
-BARREN = 100
-"""Guesses in a row without any solution after which the search ends where walls give way: there each takes hundreds of steps."""
-SECONDS = 25.0
-"""Time of the processor after which no further guess is made for rotors whose motions are not followed side by side."""
 LEAST = 1e-9
 """Least duration of a flight, in ``1/Ω``."""
-
-
-@dataclass(frozen=True)
-class Searched:
-    """How much a search for orbits has tried, and what share of fresh motions ended on the orbits known afterwards.
-
-    Attributes
-    ----------
-    settled : int
-        Number of motions that were followed until they settled; the orbits on which these end are closed.
-    motions : int
-        Number of further motions, whose stretches are the guesses.
-    guesses : int
-        Number of stretches from which Newton's method was begun; those on a known orbit are left out.
-    repeats : int
-        Number of those that led to a known solution.
-    failures : int
-        Number of those from which it converged to no orbit.
-    last_new : int
-        Number of the guess, from 1, that led to the last new orbit; 0 if none did.
-    virtual : int
-        Number of solutions that are not motions of the machine.
-    fresh : int
-        Number of fresh motions from random starts, which the search has not used.
-    on_listed : int
-        Number of those that ended on one of the orbits.
-    on_others : int
-        Number of those that ended on another periodic motion with no more impacts than were searched.
-    """
-
-    settled: int
-    motions: int
-    guesses: int
-    repeats: int
-    failures: int
-    last_new: int
-    virtual: int
-    fresh: int
-    on_listed: int
-    on_others: int
-
-    @property
-    def share_on_listed(self) -> float:
-        """Share of the fresh motions that ended on one of the orbits."""
-        return self.on_listed / self.fresh
-
-    def and_then(self, later: Searched) -> Searched:
-        """Both searches together, of which the given one came later."""
-        sums = {each.name: getattr(self, each.name) + getattr(later, each.name) for each in fields(self)}
-        sums["last_new"] = self.guesses + later.last_new if later.last_new else self.last_new
-        return Searched(**sums)
-
-    @property
-    def words(self) -> str:
-        """The same in a few sentences."""
-        newest = f"guess {self.last_new} led to the last new orbit" if self.last_new else "none led to a further orbit"
-        return (
-            f"Orbits were searched, which does not prove that these are all: {self.settled} motions "
-            f"were followed until they settled; stretches of {self.motions} others gave {self.guesses} guesses for Newton's method, of "
-            f"which {self.repeats} led to known orbits and {self.failures} to none; {newest}. Solutions that are not motions: {self.virtual}. "
-            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here and {self.on_others} on other orbits with no more impacts than were searched."
-        )
-
-
-def usual_share(rotor: Rotor) -> float:
-    """Share of the usual guesses and motions that a search tries: fewer for a rotor of many states, whose guesses take seconds each."""
-    width = 2 * len(rotor.system.nodes.rest) + 1
-    return max(LEAST_SHARE, min(1.0, (WHOLE_WIDTH / width) ** 3))
 
 
 def search_orbits(
@@ -156,36 +74,9 @@ def search_orbits(
     known : sequence of Orbit
         Orbits that are known to exist.
     """
-    search, share = Search(rotor, impacts, known), usual_share(rotor)
-    done = search.run(SETTLED, guesses or math.ceil(share * GUESSES), FRESH, [seed], tell)
+    search = Search(rotor, impacts, known)
+    done = search.run(SETTLED, guesses or GUESSES, FRESH, [seed], tell)
     return search.named(), done
-
-
-def random_starts(
-    rotor: Rotor, random: np.random.Generator, count: int, *, on_wall: bool = False
-) -> tuple[np.ndarray, np.ndarray]:
-    """Random positions inside all walls, or on one, and velocities, complex, shape (count,) or, for n > 1 coordinates, (count, n).
-
-    The velocities are random in the fixed frame: those of bounces that whirl backward are far from zero in the frame that turns.
-    """
-    system = rotor.system
-    arrays, n = system.arrays, len(system.rest)
-    directions = random.normal(size=(count, 2, n, 2)) @ [1.0, 1j]
-    shares, speeds = np.sqrt(random.uniform(size=count)), FASTEST * np.sqrt(random.uniform(size=count))
-    if on_wall:
-        shares[:] = 1.0
-
-    def reach(sizes: np.ndarray) -> np.ndarray:
-        states = np.concatenate([sizes[:, None] * directions[:, 0], np.zeros((count, n))], axis=1)
-        radii: np.ndarray = np.abs(system.amplitudes_of(states) @ arrays.rows.T + arrays.offsets).max(axis=1)
-        return radii
-
-    sizes = shares / reach(np.ones(count))
-    while (far := reach(sizes) > 1.0).any():
-        sizes = np.where(far, 0.5 * sizes, sizes)
-    positions = sizes[:, None] * directions[:, 0]
-    velocities = (speeds / np.abs(directions[:, 1]).max(axis=1))[:, None] * directions[:, 1] - 1j * positions
-    return (positions, velocities) if n > 1 else (positions[:, 0], velocities[:, 0])
 
 
 def _orbits_of_ends(rotor: Rotor, count: int, random: np.random.Generator) -> Iterator[tuple[Orbit, int]]:
@@ -197,7 +88,7 @@ def _orbits_of_ends(rotor: Rotor, count: int, random: np.random.Generator) -> It
     states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
     _, different, numbers = np.unique(states.round(KIND), axis=0, return_index=True, return_counts=True)
     for place, number in zip(different[:ENDS].tolist(), numbers[:ENDS].tolist(), strict=True):
-        orbit = orbit_of_motion(simulate(rotor, ends.state(place), settle=True))
+        orbit = orbit_of_bouncing(simulate(rotor, ends.state(place), settle=True))
         if orbit is not None:
             yield orbit, number
 
@@ -215,7 +106,7 @@ class Search:
         self.rotor, self.impacts = rotor, impacts
         self.found: list[Orbit] = []
         self.solutions: dict[Word, np.ndarray] = {}
-        self.motions = self.guesses = self.repeats = self.failures = self.last_new = self.fertile = 0
+        self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
         for orbit in known:
             self._add(orbit)
 
@@ -232,14 +123,7 @@ class Search:
         return tuple(named)
 
     def run(self, settled: int, guesses: int, fresh: int, seed: Sequence[int], tell: Reporter) -> Searched:
-        """Search, with so many guesses for each number of impacts.
-
-        Fewer motions are followed until they settle, of both kinds, if they are not followed side by side.
-        """
-        slower = 1.0 if self.rotor.system.is_planar else 1.0 / SLOWER
-        # Following motions takes time in proportion to the states.
-        slower *= usual_share(self.rotor) ** (1.0 / 3.0)
-        settled, fresh = math.ceil(slower * settled), math.ceil(slower * fresh)
+        """Search, with so many guesses for each number of impacts."""
         for orbit, _ in _orbits_of_ends(self.rotor, settled, np.random.default_rng([*seed, 1])):
             self._add(orbit)
         tell(0.3)
@@ -265,12 +149,7 @@ class Search:
         """Correct stretches of motions from random starts and from beside known orbits, so many for each number of impacts."""
         tried = np.zeros(self.impacts + 1, int)
         fruitless = 0
-        most = max(1, round(FRUITLESS * usual_share(self.rotor) ** (1.0 / 3.0)))
-        barren = BARREN if self.rotor.system.arrays["stiffness"].any() else math.inf
-        limit = math.inf if self.rotor.system.is_planar else time.process_time() + SECONDS
-        while tried[1:].min() < guesses and fruitless < most and self.guesses - self.fertile < barren:
-            if time.process_time() > limit:
-                return
+        while tried[1:].min() < guesses and fruitless < FRUITLESS:
             before = tried.sum()
             for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
                 if tried[count] < guesses and not self._is_known(word, guess, KNOWN):
@@ -289,12 +168,11 @@ class Search:
         known = beside[int(random.integers(len(beside)))].departure
         velocity = np.array(known.velocity, complex)
         change = np.exp(random.uniform(*np.log(BESIDE))) * (random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j])
-        return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change, time=known.time)
+        return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
 
     def _stretches(self, start: State, landing: bool) -> Iterable[tuple[int, Word, Start]]:
         """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
-        yields = bool(self.rotor.system.arrays["stiffness"].any())
-        most = LANDS if landing else IMPACTS * (self.impacts + 1) * (IN_WALL if yields else 1)
+        most = LANDS if landing else IMPACTS * (self.impacts + 1)
         motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=not landing, max_events=most)
         if landing:
             lifts = lift_offs(motion)
@@ -307,7 +185,6 @@ class Search:
         """Stretches from one of the marked events to a later one."""
         if len(marks) < 2:
             return
-        yields = bool(self.rotor.system.arrays["stiffness"].any())
         nodes = motion.segment_amplitudes[marks + 1] if contact else motion.arrivals[marks]
         states, times = self.rotor.system.nodes.of(nodes), motion.segment_starts[1:][marks]
         for count in counts:
@@ -318,12 +195,9 @@ class Search:
             nearest = np.argsort(apart, kind="stable")[:NEAREST].tolist()
             for first in dict.fromkeys([*range(min(EARLY, len(apart))), *nearest]):
                 begin, end = int(marks[first]), int(marks[first + count])
-                if not contact and end - begin != count and not yields:
+                if not contact and end - begin != count:
                     continue
-                try:
-                    word, guess = segments_of(motion, begin, end)
-                except InputError:  # an impact at one plane while another stays in contact has no word
-                    continue
+                word, guess = segments_of(motion, begin, end)
                 if word.impacts <= self.impacts:
                     yield max(word.impacts, 1), word, guess
 
@@ -339,7 +213,6 @@ class Search:
         if links is None or not lasts(word, links.start):
             self.failures += 1
             return
-        self.fertile = self.guesses
         if self._is_known(word, links.start, KNOWN):
             self.repeats += 1
         elif self._add(orbit_of_links(self.rotor, word, links)):

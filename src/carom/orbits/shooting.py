@@ -24,7 +24,6 @@ from carom.core.closure import carry_through_segments, close_flights, shooting_e
 from carom.core.layout import rub_workspace
 from carom.core.segments import follow_contact, follow_flights
 from carom.core.sensitivity import sensitivity_of_flights
-from carom.core.yielding_segments import follow_in_walls
 from carom.models import Rotor
 from carom.orbits.chatter import follow_chatter
 from carom.orbits.word import Kind, Word
@@ -42,7 +41,7 @@ LONGEST_STEP = 0.5
 class Start(NamedTuple):
     """Coordinates and rates at the beginning of each segment, complex (m, N), and the durations (m,).
 
-    With weight a node has one more entry, the direction ``e^{−iτ}`` into which it has turned since it pointed as at time zero.  Unlike the amplitudes of modes they mean the same for rotors with other parameters.
+    Unlike the amplitudes of modes they mean the same for rotors with other parameters.
     """
 
     nodes: np.ndarray
@@ -74,8 +73,6 @@ class Links:
     slips : ndarray, shape (m,)
         Of each chatter the slip with which it lands, in the direction of the sliding that follows; or where rolling follows, by how much
         friction could stop more.  Below zero if the contact is of another kind; infinite for other segments.
-    turns : bool
-        Whether the last entry of a node is the direction of weight.
     """
 
     start: Start
@@ -84,11 +81,10 @@ class Links:
     slopes: np.ndarray
     landings: np.ndarray
     slips: np.ndarray
-    turns: bool
 
     @cached_property
     def _equations(self) -> np.ndarray:
-        found: np.ndarray = shooting_equations(self.start.nodes, self.arrivals, self.values, self.slopes, self.turns)
+        found: np.ndarray = shooting_equations(self.start.nodes, self.arrivals, self.values, self.slopes, False)
         return found
 
     @property
@@ -126,49 +122,18 @@ class Links:
         return self.residual[rows], whole[np.ix_(rows, free)] - whole[np.ix_(rows, ~free)] @ follows
 
     @cached_property
-    def turned(self) -> np.ndarray:
-        """The slopes at the same weight: of its direction the angle alone changes, the last entry of a node; without weight ``slopes``."""
-        if not self.turns:
-            return self.slopes
-        found: np.ndarray = by_angle(self.arrivals).transpose(0, 2, 1) @ self.slopes @ by_angle(self.start.nodes)
-        return found
-
-    @cached_property
     def _carried(self) -> tuple[np.ndarray, np.ndarray]:
-        return carry_through_segments(self.turned)
+        return carry_through_segments(self.slopes)
 
     @property
     def passages(self) -> np.ndarray:
-        """Derivative of each end by its node if the segment ends where its condition is fulfilled, shape (m, 2N, 2N).
-
-        With weight that of the angle of its direction too, as in ``turned``: (m, 2N + 1, 2N + 1) with ``N`` coordinates and rates.
-        """
+        """Derivative of each end by its node if the segment ends where its condition is fulfilled, shape (m, 2N, 2N)."""
         return self._carried[0]
 
     @property
     def monodromy(self) -> np.ndarray:
         """Derivative of the first node after a period by the first node, of the shape of a passage; one eigenvalue is zero."""
         return self._carried[1]
-
-
-def by_angle(nodes: np.ndarray) -> np.ndarray:
-    """Changes of nodes with weight, and of durations, by those of all entries but the last, of its angle, and of durations.
-
-    Parameters
-    ----------
-    nodes : ndarray of complex, shape (m, N + 1)
-
-    Returns
-    -------
-    ndarray, shape (m, 2N + 3, 2N + 2)
-        Real parts before imaginary parts.
-    """
-    others = nodes.shape[1] - 1
-    changes = np.zeros((len(nodes), 2 * others + 3, 2 * others + 2))
-    entries = np.arange(others)
-    changes[:, entries, entries] = changes[:, others + 1 + entries, others + entries] = changes[:, -1, -1] = 1.0
-    changes[:, others, -2], changes[:, -2, -2] = -nodes[:, -1].imag, nodes[:, -1].real
-    return changes
 
 
 def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
@@ -204,9 +169,7 @@ def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
                 nodes[after], durations[after], durations[i] = arrivals[i], durations[after] + durations[i] - time, time
         at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(system.modes, len(arrays.rows))
         follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
-        if arrays["stiffness"].any():
-            follow_in_walls(arrays, *coordinates, *at, arrivals, values, slopes)
-    return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips, system.forced is not None)
+    return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips)
 
 
 def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray | None:
@@ -237,7 +200,7 @@ def closed_flights(rotor: Rotor, word: Word, start: Start) -> Start | None:
     nodes, durations = start.nodes.copy(), start.durations.copy()
     at = word.kinds, word.planes, word.targets, nodes, durations
     room = _room(*nodes.shape)
-    closes = close_flights(system.arrays, *system.nodes, *at, *room, system.forced is not None, TOLERANCE, ITERATIONS)
+    closes = close_flights(system.arrays, *system.nodes, *at, *room, False, TOLERANCE, ITERATIONS)
     return Start(nodes, durations) if closes else None
 
 

@@ -14,8 +14,8 @@ from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import OFF_PERIOD, close, quietest
 from carom.orbits.flow import Budget, repeats_after
-from carom.orbits.recognising import arrives, first_of_period
-from carom.orbits.search import FASTEST, KIND, Searched, random_starts
+from carom.orbits.happenings import arrives, first_of_period
+from carom.orbits.searched import FASTEST, KIND, Searched, random_starts
 from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
 from carom.outcome import Outcome
 from carom.progress import Reporter
@@ -46,6 +46,7 @@ def search_simulated(
     rotor: Rotor, impacts: int, guesses: int | None, seed: int, tell: Reporter, share: float = 1.0
 ) -> tuple[tuple[SimulatedOrbit, ...], Searched]:
     """Search periodic motions with at most a number of impacts a period, of any machine, and say what was tried: a share of the usual."""
+    share = min(share, 1.0 if guesses is None else guesses / GUESSES)
     search = _Search(rotor, impacts, share)
     settled = search.ends(math.ceil(share * SETTLED), np.random.default_rng([seed, 1]), tell.part(0.0, 0.4))
     for orbit, _ in settled[1]:

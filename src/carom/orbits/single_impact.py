@@ -19,7 +19,8 @@ from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
-from carom.orbits.search import Impacts, Searched, search_orbits
+from carom.orbits.search import Impacts, search_orbits
+from carom.orbits.searched import Searched
 from carom.orbits.shooting import Start
 from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
@@ -186,10 +187,9 @@ def find_orbits(
     if impacts is not None:
         model, tell = rotor_of(machine), Reporter.of(progress, "searching orbits")
         model.system.refuse_non_stationary()
-        known = [*orbits_within_reach(model), *rubbing_orbits(model)] if model.has_closed_forms else []
-        there = [orbit for orbit in known if orbit.admissible]
         members: tuple[Any, ...]
-        if model.system.why_not_periodic is None:
+        if model.has_closed_forms:
+            there = [orbit for orbit in (*orbits_within_reach(model), *rubbing_orbits(model)) if orbit.admissible]
             members, search = search_orbits(model, impacts, guesses, seed, there, tell)
         else:
             members, search = search_simulated(model, impacts, guesses, seed, tell)

@@ -115,9 +115,6 @@ class Word(Sequence[Segment]):
     flight after it.  Sliding that is followed by the same sliding ends where the normal force is least: ``slide-`` alone never leaves
     the wall.
 
-    A wall that gives way knows no impact: contact begins where a ``lift`` ends, and lasts until the plane is out of the wall.  Where the
-    force vanishes before, ``free`` is the way out, or back into contact.
-
     Attributes
     ----------
     segments : tuple of Segment
@@ -160,7 +157,7 @@ class Word(Sequence[Segment]):
 
     @cached_property
     def arrives(self) -> np.ndarray:
-        """Which segments begin with an arrival at a wall, an impact or contact with a wall that gives way; bool, shape (m,)."""
+        """Which segments begin with an arrival at a wall; bool, shape (m,)."""
         return np.array(
             [
                 segment.kind.is_impact or (segment.kind.lasts and before.kind.flies)
@@ -221,27 +218,19 @@ class Word(Sequence[Segment]):
         flights: np.ndarray = self.timed & [segment.kind.flies for segment in self]
         return flights
 
-    def refuse_walls(self, system: System) -> None:
-        """Refuse the word for a rotor in whose walls its segments cannot be.
+    def refuse_elsewhere(self, system: System) -> None:
+        """Refuse the word for a rotor in whose rigid walls its segments cannot be.
 
         Raises
         ------
         InputError
-            An impact, or a chatter, in a wall that gives way; contact that begins without one on a rigid wall, or loses its force there.
+            There is no such plane, or contact begins without an impact or a chatter.
         """
-        stiffness = system.arrays["stiffness"]
         for segment, arrives in zip(self, self.arrives.tolist(), strict=True):
-            if segment.plane >= len(stiffness):
-                raise InputError("word", segment, f"planes from 0 to {len(stiffness) - 1}")
-            yields, strikes = bool(stiffness[segment.plane]), segment.kind.is_impact or segment.kind is Kind.LAND
-            if yields and strikes:
-                raise InputError(
-                    "word", segment, "no impacts in a wall that gives way: contact there begins where a lift ends"
-                )
-            if not yields and (segment.kind is Kind.FREE or (arrives and not strikes)):
-                raise InputError(
-                    "word", segment, "contact that begins with an impact or a chatter, as the wall is rigid"
-                )
+            if segment.plane >= len(system.arrays.rows):
+                raise InputError("word", segment, f"planes from 0 to {len(system.arrays.rows) - 1}")
+            if arrives and not (segment.kind.is_impact or segment.kind is Kind.LAND):
+                raise InputError("word", segment, "contact that begins with an impact or a chatter")
 
     @cached_property
     def planes(self) -> np.ndarray:
@@ -274,11 +263,9 @@ def _condition(segment: Segment, following: Segment) -> int:
         return segments.NO_CONDITION
     if segment == following and kind.lasts and kind is not Kind.ROLL:
         return segments.LEAST_PUSH
-    if segment.plane == following.plane and (kind.lasts or kind is Kind.FREE) and kind is not after and not touches:
+    if segment.plane == following.plane and kind.lasts and kind is not after and not touches:
         if after is Kind.LIFT:
             return segments.LEAVES
-        if Kind.FREE in (kind, after):
-            return segments.PARTS
         if kind is not Kind.ROLL:
             return segments.NO_SLIP
         return segments.CONE_FORWARD if after is Kind.SLIDE_FORWARD else segments.CONE_BACKWARD

@@ -72,8 +72,8 @@ PROOF_TIME = "30 s"
 """Time for the proof of kicks, if it is asked for."""
 ELSEWHERE_TRIED = 1000
 """Starts elsewhere in the clearance."""
-GUESSES = 100
-"""Stretches of motions from which orbits are searched where no closed form has them: 10 to 50 milliseconds each."""
+GUESSES = 30
+"""Stretches of motions from which orbits are searched where no closed form has them: a tenth of a second each."""
 TIME_LIMIT = Field("time_limit", "", "time to follow motions", "a time", "s", 1e-3, 1e9, '"2 min"')
 BEYOND = 2.0
 """Largest kick of this proof relative to the harmless one, where those that must be survived never touch."""
