@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.fitting import fitted, plain_table
+from carom.results import in_a_line
 from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
