@@ -143,7 +143,7 @@ def test_a_map_for_people_and_as_json(carom, tmp_path):
         (("--grid", "3x2"), "--grid = 3x2: allowed only with --map NAME,NAME"),
         (("--map", "phase"), "--map = phase: must be two names with a comma between them, such as phase,speed"),
         (("--map", "phase,spede"), "did you mean speed?"),
-        (("--map", "phase,speed", "--grid", "1x5"), "--grid = 1x5: must be two whole numbers of at least 2"),
+        (("--map", "phase,speed", "--grid", "1x5"), "--grid = 1x5: must be 2 whole numbers of at least 2"),
         (("--map", "phase,speed", "--y", "8000,9000 rpm"), "--y = 8000: speed must be"),
     ],
 )

@@ -98,9 +98,6 @@ Wanted = Annotated[
     float | None,
     typer.Option(metavar="SHARE", help="Share that must come back after the least change; by default 0.99."),
 ]
-Threads = Annotated[
-    int | None, typer.Option(metavar="N", min=1, help="Cores to use; the result does not depend on it.")
-]
 
 
 @dataclass(frozen=True)
@@ -129,7 +126,7 @@ def read_gains(
         return None
     from carom.basins.changes import WANTED
 
-    shape = _cells("--gains", cells, 2)
+    shape = read_cells("--gains", cells, 2, least=2)
     share = WANTED if wanted is None else wanted
     if not 0.0 < share <= 1.0:
         raise InputError("--wanted", share, "must be a share above 0 and at most 1, such as 0.99")
@@ -172,7 +169,7 @@ def read_plan(
     dimensions = len(model.coordinates)
     if grid is None:
         return Grid(model, (RELEASES,) if dimensions == 1 else (CELLS, CELLS))
-    return Grid(model, _cells("--grid", grid, dimensions))
+    return Grid(model, read_cells("--grid", grid, dimensions))
 
 
 def at_instant(plan: Plan, instant: str | None, case: Case) -> Plan:
@@ -218,17 +215,17 @@ def _node(text: str) -> int:
     return int(text)
 
 
-def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:
+def read_cells(option: str, text: str, dimensions: int, least: int = 1, most: int = MOST_STARTS) -> tuple[int, ...]:
     """Read a number of cells such as ``60x60``."""
-    example, least = ("60x60" if dimensions == 2 else "360"), (2 if option == "--gains" else 1)
+    example = "60x60" if dimensions == 2 else "360"
     match = re.fullmatch("[x×X]".join([r"\s*([0-9]{1,30})\s*"] * dimensions), text)
     cells = tuple(int(number) for number in match.groups()) if match else ()
     if not match or min(cells) < least:
         words = f"{dimensions} whole number{'s'[: dimensions - 1]} of at least {least}"
         raise InputError(option, text, f"must be {words}, such as {example}")
     total = math.prod(cells)
-    if total > MOST_STARTS:
-        raise InputError(option, text, f"makes {total} cells; at most {MOST_STARTS} are allowed")
+    if total > most:
+        raise InputError(option, text, f"makes {total} cells; at most {most} are allowed")
     return cells
 
 

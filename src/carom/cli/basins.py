@@ -36,7 +36,6 @@ def basins(
     x: options.FirstRange = None,
     y: options.SecondRange = None,
     wanted: options.Wanted = None,
-    threads: options.Threads = None,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -69,11 +68,11 @@ def basins(
 
         rotor, share = rotor_of(case), 0.45 if asked is None else 0.2
         step = tell.part(0.0, share, f"following {plan.count} starts")
-        basin = map_basins(rotor, plan, threads=threads, source=source, progress=step)
+        basin = map_basins(rotor, plan, source=source, progress=step)
         harmless, smallest = harmless_kick(rotor), None
         if harmless > 0.0 and has_sizes(plan.model):
-            smallest = smallest_loss(rotor, plan.model, threads=threads, progress=tell.part(share, 2.0 * share))
-        found, least = (None, None) if asked is None else _map(rotor, plan, asked, threads, source, tell)
+            smallest = smallest_loss(rotor, plan.model, progress=tell.part(share, 2.0 * share))
+        found, least = (None, None) if asked is None else _map(rotor, plan, asked, source, tell)
         if found is None or asked is None:
             document = basin_document(basin, smallest, harmless)
         else:
@@ -99,7 +98,7 @@ def basins(
 
 
 def _map(
-    rotor: Rotor, plan: Plan, asked: options.Gains, threads: int | None, source: dict[str, str], tell: Reporter
+    rotor: Rotor, plan: Plan, asked: options.Gains, source: dict[str, str], tell: Reporter
 ) -> tuple[GainMap, GainChange | None]:
     from carom.basins import least_gain_change, map_gains
 
@@ -109,13 +108,12 @@ def _map(
         asked.names,
         ranges=asked.ranges,
         shape=asked.shape,
-        threads=threads,
         source=source,
         progress=tell.part(0.33, 0.9),
     )
     if not all(found.present):
         return found, None
-    return found, least_gain_change(found, asked.wanted, threads=threads, progress=tell.part(0.9, 0.97))
+    return found, least_gain_change(found, asked.wanted, progress=tell.part(0.9, 0.97))
 
 
 def _source(machine: str, settings: list[str] | None) -> dict[str, str]:

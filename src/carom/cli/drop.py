@@ -37,7 +37,6 @@ def drop(
     grid: options.Grid = None,
     x: options.FirstRange = None,
     y: options.SecondRange = None,
-    threads: options.Threads = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Write figures, drop.json and drop.html to this directory.")
     ] = None,
@@ -57,7 +56,7 @@ def drop(
     check_output(out)
     ways = {"--start": start, "--kick": kick, "--whirl": whirl}
     released = read_release(case, ways, regained_after, phase=phase, race_speed=race_speed, called="the release")
-    asked = read_plane(case, plane, grid, x, y, threads)
+    asked = read_plane(case, plane, grid, x, y)
     end = None if until is None else read_time(until, case.parameters.scales)
     if asked is not None:
         map_plane(case, released, asked, end, out, as_json=as_json)

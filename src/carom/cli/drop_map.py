@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -29,19 +28,17 @@ class Plane:
     names: tuple[str, str]
     ranges: tuple[Any, Any]
     shape: tuple[int, int]
-    threads: int | None
 
 
-def read_plane(
-    case: Case, plane: str | None, grid: str | None, x: str | None, y: str | None, threads: int | None
-) -> Plane | None:
+def read_plane(case: Case, plane: str | None, grid: str | None, x: str | None, y: str | None) -> Plane | None:
     """Read the options of ``--map``; ``None`` without it, where the others are refused."""
     if plane is None:
-        for option, given in {"--grid": grid, "--x": x, "--y": y, "--threads": threads}.items():
+        for option, given in {"--grid": grid, "--x": x, "--y": y}.items():
             if given is not None:
                 raise InputError(option, given, "allowed only with --map NAME,NAME")
         return None
     from carom.basins.drops import RELEASED, varied_of
+    from carom.cli.basin_options import read_cells
     from carom.cli.starts import read_range
     from carom.models import rotor_of
     from carom.parameters.fields import unknown_name
@@ -58,19 +55,8 @@ def read_plane(
         None if text is None else read_range(option, text, varied)
         for option, text, varied in zip(("--x", "--y"), (x, y), axes, strict=True)
     ]
-    return Plane((axes[0].name, axes[1].name), (ranges[0], ranges[1]), _cells(grid), threads)
-
-
-def _cells(grid: str | None) -> tuple[int, int]:
-    if grid is None:
-        return CELLS
-    match = re.fullmatch(r"\s*([0-9]{1,9})\s*[x×X]\s*([0-9]{1,9})\s*", grid)
-    first, second = (int(number) for number in match.groups()) if match else (0, 0)
-    if min(first, second) < 2 or first * second > MOST_CELLS:
-        raise InputError(
-            "--grid", grid, f"must be two whole numbers of at least 2, at most {MOST_CELLS:,} drops, such as 24x16"
-        )
-    return first, second
+    first, second = CELLS if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
+    return Plane((axes[0].name, axes[1].name), (ranges[0], ranges[1]), (first, second))
 
 
 def map_plane(case: Case, released: Drop, asked: Plane, end: float | None, out: str | None, *, as_json: bool) -> None:
@@ -86,7 +72,6 @@ def map_plane(case: Case, released: Drop, asked: Plane, end: float | None, out: 
             ranges=asked.ranges,
             shape=asked.shape,
             until=end,
-            threads=asked.threads,
             progress=tell if out is None else tell.part(0.0, 0.95),
         )
         document = {"name": case.name, **drop_map_document(found)}

@@ -23,8 +23,7 @@ def paper(
     """Reproduce the paper carom builds on: its figures and numbers.
 
     Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number it prints is compared with
-    ours, and each of its propositions is tested. Misprinted formulas are evaluated beside the correct ones. Figure 6b
-    also shows the curves of grazing and period doubling, and the regions divided by a stable rub.
+    ours. Misprinted formulas are evaluated beside the correct ones. Figure 6b also shows the curves of grazing and period doubling, and the regions divided by a stable rub.
     """
     with progress("loading") as tell:
         check_output(out)

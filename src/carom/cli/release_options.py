@@ -115,7 +115,3 @@ FirstRange = Annotated[
     ),
 ]
 SecondRange = Annotated[str | None, typer.Option("--y", metavar="C,D", help="With --map: range of the second.")]
-Threads = Annotated[
-    int | None,
-    typer.Option(metavar="N", min=1, help="With --map: cores to use; the result does not depend on it."),
-]

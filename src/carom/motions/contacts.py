@@ -103,9 +103,13 @@ class Table(Result):
         import xarray
 
         columns = self.columns.items()
-        return xarray.Dataset(
+        dataset = xarray.Dataset(
             {name: in_units(self.dimension, getattr(self, name), **one, scales=self.scales) for name, one in columns}
         )
+        if "phase" in dataset:
+            del dataset["phase"].attrs["units"]
+            dataset["phase"].attrs |= phase_flags(Phase)
+        return dataset
 
 
 def _units(quantity: str) -> tuple[str, str]:
@@ -258,13 +262,6 @@ class ContactHistory(Table):
             drive_power=-(surface_speed - 1.0) * shaft_speed(rotor.system, amplitudes) * friction,
             scales=rotor.system.scales_at(plane, rotor.scales),
         )
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Table with units and long names as attributes; in SI if the machine is known."""
-        dataset = super().to_dataset()
-        del dataset["phase"].attrs["units"]
-        dataset["phase"].attrs |= phase_flags(Phase)
-        return dataset
 
 
 def presses(phases: np.ndarray) -> np.ndarray:

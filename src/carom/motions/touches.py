@@ -27,7 +27,6 @@ from carom.motions.contacts import (
     PRESSING,
     Table,
     column,
-    phase_flags,
     polar,
     presses,
     yields,
@@ -36,8 +35,6 @@ from carom.outcome import Phase
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    import xarray
-
     from carom.motions.trajectories import Trajectory
 
 
@@ -87,13 +84,6 @@ class TouchLog(Table):
 
     def __len__(self) -> int:
         return len(self.start)
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Table with units and long names as attributes; in SI if the machine is known."""
-        dataset = super().to_dataset()
-        del dataset["phase"].attrs["units"]
-        dataset["phase"].attrs |= phase_flags(Phase)
-        return dataset
 
 
 class ContactWorks(NamedTuple):

@@ -1,4 +1,4 @@
-"""Reproduction of the source paper: its figures 2 to 6, and its numbers, misprints and propositions compared with ours.
+"""Reproduction of the source paper: its figures 2 to 6, and its numbers and misprints compared with ours.
 
 >>> from carom.reproductions import mora2014
 >>> found = mora2014.reproduce()                      # all results, in less than a second once compiled
@@ -9,8 +9,6 @@
 ...     print(row.place, row.quantity, row.printed, row.value, row.agrees, row.note)
 >>> for row in found.misprints:                    # formulas that do not hold, evaluated beside the correct ones
 ...     print(row.place, row.printed, row.right, row.printed_value, row.value)
->>> for claim in found.claims:                     # propositions, and what holds of them
-...     print(claim.place, claim.statement, claim.holds, claim.found)
 >>> mora2014.write_paper(found, "out")                # figures/figure-2.svg, …, paper.json, table.md
 
 ``carom paper --out DIR`` does the same.  The parts are available separately: :func:`shown_motions` (figure 2),

@@ -43,7 +43,6 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
         "misprints": [
             {"where": row.place, **fields_of(row, "printed", "right", "quantity", *value)} for row in found.misprints
         ],
-        "claims": [{"where": claim.place, **fields_of(claim, "statement", "holds", "found")} for claim in found.claims],
         "curves": [fields_of(curve, "kind", "points", "admissible", ends="stops") for curve in found.plane.curves],
         "codim2": [
             fields_of(point, "kind", "value", "period") for curve in found.plane.curves for point in curve.codimension2
@@ -66,7 +65,7 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
 
 
 def tables(found: Reproduction) -> tuple[TextTable, ...]:
-    """Return the numbers, the misprints, the statements and the regions as tables of text."""
+    """Return the numbers, the misprints and the regions as tables of text."""
     compared = [row for row in found.numbers if row.kind != "given"]
     return (
         TextTable(
@@ -88,14 +87,6 @@ def tables(found: Reproduction) -> tuple[TextTable, ...]:
             ),
             (True,) * len(found.misprints),
             ("printed form", "right form"),
-        ),
-        TextTable(
-            "Statements of the source",
-            ("where", "statement", "holds", "found"),
-            tuple(
-                (claim.place, claim.statement, "yes" if claim.holds else "no", claim.found) for claim in found.claims
-            ),
-            tuple(claim.holds for claim in found.claims),
         ),
         TextTable(
             "Regions of figure 6b, with the rub that the source leaves out",

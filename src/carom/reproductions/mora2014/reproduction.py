@@ -19,7 +19,6 @@ from carom.reproductions.mora2014.periods import (
 )
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
-from carom.reproductions.mora2014.statements import Claim, claims
 from carom.results import Result
 
 
@@ -50,7 +49,6 @@ class Reproduction(Result):
         Figure 6b.
     numbers : tuple of PrintedNumber
     misprints : tuple of Misprint
-    claims : tuple of Claim
     """
 
     motions: tuple[ShownMotion, ...]
@@ -60,7 +58,6 @@ class Reproduction(Result):
     plane: DampingStiffnessPlane
     numbers: tuple[PrintedNumber, ...]
     misprints: tuple[Misprint, ...]
-    claims: tuple[Claim, ...]
 
 
 @shows_progress
@@ -77,5 +74,5 @@ def reproduce(*, progress: ShowProgress = None) -> Reproduction:
     tell(0.7, "following the curves of figure 6b")
     plane = damping_stiffness_plane(pair)
     tell(0.9, "comparing the numbers")
-    compared = numbers(pair, plane), misprints(pair, plane), claims(pair, plane)
+    compared = numbers(pair, plane), misprints(pair, plane)
     return Reproduction(motions, periods, pair, radii, plane, *compared)
