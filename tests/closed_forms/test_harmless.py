@@ -55,7 +55,28 @@ def test_matrices_of_the_planar_rotor_give_its_bounds():
     assert harmless_kick(planar) * 0.8 < harmless_kick(rotor) < harmless_kick(planar)
 
 
-def test_nothing_is_said_where_no_energy_is_known_that_does_not_grow():
+@pytest.mark.jit_only
+@pytest.mark.parametrize("kind", KINDS)
+def test_modes_that_decay_serve_where_there_is_no_energy(kind):
+    """A stiffness that feeds whirl, as the controllers of flexible rotors have: the moduli of the modes together bound the flight."""
+    made = tilting().model
+    mass, damping, gyroscopic, stiffness, forcing = made.matrices
+    circulatory = stiffness + 0.01j * np.eye(2)
+    rotor = cm.models.from_matrices(
+        mass=mass,
+        damping=damping,
+        gyroscopic=gyroscopic,
+        stiffness=circulatory,
+        forcing=forcing,
+        touchdowns=made.touchdowns,
+        translation=made.translation,
+    )
+    assert rotor.system.decay > 0.0
+    assert rotor.system.rest_radius < farthest(*of_size(rotor, kind, 1.0)) <= 1.0
+    assert farthest(*of_size(rotor, kind, 4.0)) > 1.0
+
+
+def test_nothing_is_said_where_neither_an_energy_is_known_nor_all_modes_decay():
     rotor = tilting().model
     mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
     given = {"mass": mass, "damping": damping, "gyroscopic": gyroscopic, "stiffness": stiffness, "forcing": forcing}
@@ -65,8 +86,11 @@ def test_nothing_is_said_where_no_energy_is_known_that_does_not_grow():
         return cm.models.from_matrices(**{**given, **others, **changes})
 
     assert harmless_kick(made()) == pytest.approx(harmless_kick(rotor), rel=1e-12)
-    circulatory = stiffness + 0.01j * np.eye(2)
-    for changes in ({"stiffness": circulatory}, {"damping": -damping}, {"forcing": 4.0 * forcing}):
+    for changes in (
+        {"stiffness": stiffness + 1j * np.eye(2)},
+        {"damping": -damping},
+        {"forcing": 4.0 * forcing},
+    ):
         other = made(**changes)
         assert harmless_kick(other) == harmless_shock(other, 1.0) == harmless_blade_loss(other) == 0.0
     staged = cm.models.in_stages(

@@ -111,7 +111,7 @@ def test_without_levitation_only_the_changed_machine_has_a_basin(monkeypatch):
 
 def test_what_is_lost_is_said_by_its_share(real):
     share = real.present.returned[0]
-    assert real.verdict.reason == "nearly all kicks of up to 166 mm/s are lost"
+    assert real.verdict.reason == "nearly all kicks of up to 166 mm/s do not come back"
     assert share.fraction < 0.05
     for fraction, said in ((0.3, "most kicks"), (0.7, "some kicks")):
         back = replace(share, fraction=fraction)

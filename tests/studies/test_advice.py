@@ -147,4 +147,4 @@ def test_a_value_that_is_not_the_least_names_the_sample_that_forced_it(monkeypat
         starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
         assert not settle(rotor, starts.positions, starts.velocities).recovered.any()
     told = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Not nearer"]
-    assert " lost, such as " in told[0]
+    assert " did not come back, such as " in told[0]

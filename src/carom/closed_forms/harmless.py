@@ -5,6 +5,9 @@ In the fixed frame the deviation ``u`` from the levitation whirl obeys ``M ü + 
 displacement ``w u`` of a contact plane is never above ``√(E w K⁻¹ wᴴ)``, and contact is impossible while it is below the distance
 of levitation from the wall there.  After a kick of speed ``v`` along the translation ``t`` the energy is ``v² tᴴMt``.
 
+Controllers and gyroscopic dampers may have no such energy.  Where none is known but every free mode decays, the moduli of the modes serve: mode ``k`` with the amplitude
+``a_k`` moves a plane by no more than ``|w v_k||a_k|`` at any time, so contact is impossible while their sum is below that distance.  ``carom prove`` shows the same in ball arithmetic.
+
 A limit of the magnetic bearings is like a wall: what is asked for, ``Q = d u + v u̇``, is never above ``√(E (d K⁻¹ dᴴ + v M⁻¹ vᴴ))``, and while that
 is below the bound less what levitation asks for, the rotor is linear.
 
@@ -37,30 +40,59 @@ class _Levitation(NamedTuple):
     """Distance of each contact plane from its wall, and of what is asked for from each limit, less the margin, shape (P + L,)."""
     yields: np.ndarray
     """``√(d K⁻¹ dᴴ + v M⁻¹ vᴴ)`` of each: its largest change per root of the energy, shape (P + L,)."""
+    has_energy: bool = True
+
+    def reach(self, model: Rotor, position: np.ndarray, velocity: np.ndarray, moving: np.ndarray) -> np.ndarray:
+        """Largest change of each, shape (P + L,), after a deviation of the coordinates and their rates: ``moving`` are those of the fixed frame."""
+        if self.has_energy:
+            energy = _energy(model.matrices.stiffness, position) + _energy(model.matrices.mass, moving)
+            return np.asarray(self.yields * math.sqrt(energy))
+        arrays = model.system.arrays
+        seen = np.abs(np.concatenate([arrays["rows"], arrays["limit_rows"]]))
+        return np.asarray(seen @ np.abs(model.system.amplitude_change(position, velocity)))
 
 
 def _levitation(model: Rotor) -> _Levitation | None:
     """Levitation of a model; ``None`` where it lies outside a wall or can grow.  Under weight it is a circle about the sag."""
     if len(stages_of(model)) > 1 or model.system.rest_radius >= 1.0 or _is_shaken(model):
         return None
-    mass, damping, _, stiffness, _ = model.matrices
-    for matrix, zero in ((mass, False), (damping, True), (stiffness, False)):
-        size, least = np.linalg.norm(matrix), np.linalg.eigvalsh(matrix)[0]
-        if (
-            np.linalg.norm(matrix - matrix.conj().T) > ROUNDING * size
-            or least < (-ROUNDING if zero else ROUNDING) * size
-        ):
-            return None
-    sags = np.abs(model.system.arrays["rows"] @ model.system.forced_at(0.0)).tolist()
-    places = model.system.arrays["offsets"].tolist()
-    rooms = np.array([1.0 - abs(place) - sag for place, sag in zip(places, sags, strict=True)])
+    mass, _, _, stiffness, _ = model.matrices
+    energy = _has_energy(model)
+    if not (energy or _fades_by_modes(model)):
+        return None
+    system = model.system
+    # The unbalance of a shaft whose speed can change has modes of its own; without contact it turns as it did.
+    parts = system.outer, system.forced_at(0.0) - system.outer
+    sags, whirls = (np.abs(system.arrays["rows"] @ part).tolist() for part in parts)
+    whirls = [abs(place) + whirl for place, whirl in zip(system.arrays["offsets"].tolist(), whirls, strict=True)]
+    rooms = np.array([1.0 - whirl - sag for whirl, sag in zip(whirls, sags, strict=True)])
     rooms = np.concatenate([rooms, _rooms_of_limits(model)]) * (1.0 - MARGIN)
     if (rooms <= 0.0).any():
         return None
+    if not energy:
+        return _Levitation(rooms, np.empty(0), has_energy=False)
     shown, rates = _watched(model)
     yields = np.einsum("pn,np->p", shown, np.linalg.solve(stiffness, shown.conj().T)).real
     yields += np.einsum("pn,np->p", rates, np.linalg.solve(mass, rates.conj().T)).real
     return _Levitation(rooms, np.sqrt(yields))
+
+
+def _has_energy(model: Rotor) -> bool:
+    """Whether the matrices have an energy that does not grow."""
+    mass, damping, _, stiffness, _ = model.matrices
+    for matrix, zero in ((mass, False), (damping, True), (stiffness, False)):
+        size, least = np.linalg.norm(matrix), np.linalg.eigvalsh(matrix)[0]
+        skew = np.linalg.norm(matrix - matrix.conj().T)
+        if skew > ROUNDING * size or least < (-ROUNDING if zero else ROUNDING) * size:
+            return False
+    return True
+
+
+def _fades_by_modes(model: Rotor) -> bool:
+    """Whether every free mode decays by itself, without another that drives it."""
+    system = model.system
+    driven = bool(system.arrays["driven"][system.free].any())
+    return system.decay > 0.0 and not driven
 
 
 def _rooms_of_limits(model: Rotor) -> np.ndarray:
@@ -81,17 +113,17 @@ def _watched(model: Rotor) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _is_shaken(model: Rotor) -> bool:
-    """Whether forces act that are not constant in the fixed frame: they may go on growing."""
+    """Whether forces act that are not constant in the fixed frame, and may go on growing, or bearings act differently in two directions."""
     constant = np.abs(model.system.arrays["exponents"] - STEADY) <= ROUNDING
-    return bool((model.system.forced_at(0.0)[~constant] != 0.0).any())
+    return model.system.is_anisotropic or bool((model.system.outer[~constant] != 0.0).any())
 
 
 @checked
 def harmless_kick(machine: Subject) -> float:
     """Speed up to which a kick out of levitation provably never reaches the wall, in ``c_r Ω``.
 
-    For the planar rotor this is the largest such speed; for other models it follows from a bound by energy, and is smaller.  Zero
-    where the rotor cannot levitate inside the wall, its levitation is unstable, or no energy is known that does not grow.
+    For the planar rotor this is the largest such speed; for other models it follows from a bound by energy, or by modes, and is smaller.  Zero
+    where the rotor cannot levitate inside the wall, its levitation is unstable, or neither an energy is known that does not grow nor every mode decays.
     Where magnetic bearings have limits, no such kick brings them there either.
 
     See Also
@@ -134,7 +166,7 @@ def _harmless_push(model: Rotor, along: np.ndarray) -> float:
         return 0.0
     if known is not None and np.array_equal(along, model.system.translated):
         return float((levitation.rooms / known).min())
-    return float((levitation.rooms / (levitation.yields * math.sqrt(_energy(model.matrices.mass, along)))).min())
+    return float((levitation.rooms / levitation.reach(model, 0.0 * along, along, along)).min())
 
 
 @checked
@@ -168,9 +200,8 @@ def _shift(model: Rotor, push: np.ndarray) -> np.ndarray:
 def _after_step(model: Rotor, levitation: _Levitation, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Shift of levitation at each plane and limit by a change of the unbalance force, and the largest deviation from it after that step."""
     shift = _shift(model, push)
-    energy = _energy(model.matrices.stiffness, shift) + _energy(model.matrices.mass, shift)
     shown, rates = _watched(model)
-    return np.abs((shown + 1j * rates) @ shift), levitation.yields * math.sqrt(energy)
+    return np.abs((shown + 1j * rates) @ shift), levitation.reach(model, shift, 0.0 * shift, shift)
 
 
 def _energy(matrix: np.ndarray, state: np.ndarray) -> float:

@@ -49,7 +49,7 @@ from carom.studies.critical_speeds import Critical, Separation
 from carom.studies.document import found_orbits_document, orbits_document
 from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
-from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
+from carom.studies.load_checks import LoadCheck, check_loads
 from carom.studies.motion_documents import trajectory_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
@@ -83,7 +83,6 @@ __all__ = [
     "UnbalanceResponse",
     "Verdict",
     "Wording",
-    "WorstLoads",
     "check_loads",
     "check_recovery",
     "find_recovery",
@@ -92,5 +91,4 @@ __all__ = [
     "study",
     "trajectory_document",
     "unbalance_response",
-    "worst_loads",
 ]

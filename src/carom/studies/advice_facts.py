@@ -153,7 +153,7 @@ def _tried(study: StudyData, change: Change) -> str:
         return f"{text}; no value beyond it was tried"
     each = min(check.tried for check in change.beyond)
     places = f"{'each of ' if len(change.beyond) > 1 else ''}{counted(len(change.beyond), 'value')} {_farthest(study, change)}"
-    return f"{text}; beyond it all {each:,} at {places} came back"
+    return f"{text}; beyond it so did all of {each:,} at {places}"
 
 
 def check_words(study: StudyData, check: Check) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, get_args
@@ -34,12 +34,11 @@ from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
 from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
 from carom.studies.document import study_document
-from carom.studies.drops import DropStudy, drop_of
+from carom.studies.drops import drop_of
 from carom.studies.facts import Fact
 from carom.studies.findings import facts_of
 from carom.studies.full_size import FullSize, at_full_size
 from carom.studies.levitating import levitating
-from carom.studies.load_checks import WorstLoads, worst_loads
 from carom.studies.questions import (
     ALONG,
     CHANGE,
@@ -47,7 +46,6 @@ from carom.studies.questions import (
     DROP,
     ELSEWHERE,
     FULL_SIZE,
-    LOADS,
     PRESENT,
     WALLS,
     events_for,
@@ -56,7 +54,7 @@ from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.rigid_limit import TRIED as ON_WALLS
 from carom.studies.rigid_limit import OtherWall, on_other_walls
 from carom.studies.study_data import StudyData
-from carom.studies.survives import comes_to_rest, decides, lost_kinds, required_disturbances, survives
+from carom.studies.survives import Survives, comes_to_rest, decides, lost_kinds, required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
@@ -186,7 +184,8 @@ def study(
     tell, done, whole = Reporter.of(progress, "study"), 0.0, sum(each.share for each in contributors)
     for each in contributors:
         tell(done / whole, each.words)
-        asked.found[each.name] = each.find(asked, tell.part(done / whole, (done + each.share) / whole))
+        with asked.question(each.question) if each.question else nullcontext():
+            asked.found[each.name] = each.find(asked, tell.part(done / whole, (done + each.share) / whole))
         done += each.share
     return Study(case, rotor, unfinished=asked.budget.unfinished, **asked.found)
 
@@ -233,6 +232,8 @@ class Contributor(NamedTuple):
     """About what share of the time it takes."""
     find: Callable[[Asked, Reporter], Any]
     applies: Callable[[Asked], bool] = lambda _: True
+    question: str = ""
+    """Within whose events it is found, if these are limited as a whole."""
 
 
 def _returns(asked: Asked) -> bool:
@@ -284,8 +285,7 @@ def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:
 
 def _attractors(asked: Asked, tell: Reporter) -> AttractorSet:
     described = asked.disturbances or DisturbanceSet(fastest=asked.required.kick)
-    with asked.question(DESCRIBED):
-        return find_attractors(asked.rotor, described, progress=tell)
+    return find_attractors(asked.rotor, described, progress=tell)
 
 
 _WORDS = {"kick": "kicks", "shock": "shocks", "blade-loss": "losses of a blade"}
@@ -305,8 +305,7 @@ def _present(asked: Asked, tell: Reporter) -> Check:
 def _elsewhere(asked: Asked, tell: Reporter) -> Share:
     """Starts anywhere in the clearance."""
     rotor = asked.rotor
-    with asked.question(ELSEWHERE):
-        ends = follow(rotor, Sample(AnyState(asked.required.kick), ELSEWHERE_TRIED, SEED).starts(rotor))
+    ends = follow(rotor, Sample(AnyState(asked.required.kick), ELSEWHERE_TRIED, SEED).starts(rotor))
     followed = int(np.count_nonzero(ends.outcomes != NOT_FOLLOWED))
     return Share.of(int(np.count_nonzero(ends.recovered)), followed, drawn=True)
 
@@ -348,60 +347,42 @@ def _boundaries(asked: Asked, tell: Reporter) -> tuple[BoundaryEquilibrium, ...]
 
 
 def _recommendation(asked: Asked, tell: Reporter) -> Recommendation:
-    with asked.question(CHANGE):
-        return recommend(asked.case, asked.tried, asked.found["recoveries"], needed=asked.needed)
+    return recommend(asked.case, asked.tried, asked.found["recoveries"], needed=asked.needed)
 
 
-def _at_full_size(asked: Asked, tell: Reporter) -> tuple[FullSize, ...]:
-    with asked.question(FULL_SIZE):
-        return at_full_size(asked.rotor, asked.required)
+def _survives(asked: Asked, tell: Reporter) -> Survives | None:
+    return survives(asked.rotor, asked.required, asked.budget, tell)
 
 
-def _drop(asked: Asked, tell: Reporter) -> DropStudy | None:
-    with asked.question(DROP):
-        return drop_of(asked.case)
-
-
-def _loads(asked: Asked, tell: Reporter) -> WorstLoads:
-    with asked.question(LOADS):
-        return worst_loads(asked.found["attractors"], asked.case.limits, asked.required)
+def _full_size(asked: Asked, tell: Reporter) -> tuple[FullSize, ...]:
+    return at_full_size(asked.rotor, asked.required, asked.case.limits)
 
 
 def _other_walls(asked: Asked, tell: Reporter) -> tuple[OtherWall, ...]:
-    with asked.question(WALLS):
-        return on_other_walls(asked.rotor, required_disturbances(asked.required, ON_WALLS))
+    return on_other_walls(asked.rotor, required_disturbances(asked.required, ON_WALLS))
+
+
+def _is_proven(asked: Asked) -> bool:
+    return _is_known(asked) and _returns(asked)
 
 
 OF_PROOFS = ("proof", "kicks", "states")
 CONTRIBUTORS = (
     Contributor("proof", "proofs", 0.1, _prove),
-    Contributor("states", "proof of states", 0.1, _prove_states, lambda asked: _is_known(asked) and _returns(asked)),
-    Contributor("kicks", "proof of kicks", 0.3, _prove_kicks, lambda asked: _is_known(asked) and _returns(asked)),
+    Contributor("states", "proof of states", 0.1, _prove_states, _is_proven),
+    Contributor("kicks", "proof of kicks", 0.3, _prove_kicks, _is_proven),
     Contributor("levitating", "whirls", 0.02, lambda asked, _: levitating(asked.case, asked.rotor)),
     Contributor("equilibria", "equilibria", 0.02, lambda asked, _: steady_motions(asked.rotor)),
     Contributor("orbits", "periodic orbits (the kernels are compiled on first use)", 0.06, _orbits),
-    Contributor("attractors", "disturbances", 0.1, _attractors),
+    Contributor("attractors", "disturbances", 0.1, _attractors, question=DESCRIBED),
     Contributor("present", "what must be survived", 0.05, _present, _returns),
-    Contributor("elsewhere", "starts elsewhere", 0.01, _elsewhere, _returns),
-    Contributor(
-        "survives",
-        "the smallest disturbances that are lost",
-        0.2,
-        lambda asked, tell: survives(asked.rotor, asked.required, asked.budget, tell),
-        _returns,
-    ),
-    Contributor("full_size", "loads of the touchdown bearings", 0.05, _at_full_size, _returns),
+    Contributor("elsewhere", "starts elsewhere", 0.01, _elsewhere, _returns, ELSEWHERE),
+    Contributor("survives", "the smallest disturbances that do not come back", 0.2, _survives, _returns),
+    Contributor("full_size", "loads of the touchdown bearings", 0.05, _full_size, _returns, FULL_SIZE),
     Contributor("recoveries", "recovery along parameters", 0.4, _recoveries),
     Contributor("boundaries", "loss of levitation", 0.05, _boundaries, _is_known),
-    Contributor("recommendation", "the least change", 0.05, _recommendation),
-    Contributor("drop", "the drop", 0.02, _drop, _returns),
-    Contributor(
-        "loads",
-        "loads against limits",
-        0.03,
-        _loads,
-        lambda asked: bool(asked.case.limits.given and asked.rotor.scales),
-    ),
-    Contributor("other_walls", "other touchdown bearings", 0.03, _other_walls, _returns),
+    Contributor("recommendation", "the least change", 0.05, _recommendation, question=CHANGE),
+    Contributor("drop", "the drop", 0.02, lambda asked, _: drop_of(asked.case), _returns, DROP),
+    Contributor("other_walls", "other touchdown bearings", 0.03, _other_walls, _returns, WALLS),
 )
 """The parts of a study, in the order in which they are asked; later ones use what earlier ones have found."""

@@ -193,7 +193,6 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "rolling": _rolling(study),
         "disturbances": _disturbances(study.attractors, rotor),
         "bearing_demand": of(study.bearing_demand),
-        "loads": of(study.loads),
         "full_size": [each.document() for each in study.full_size],
         "drop": of(study.drop),
         "proof": of(study.proof),

@@ -20,9 +20,10 @@ from carom.motions.budget import present_question
 from carom.motions.magnets import MagnetReach, magnet_reach
 from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.outcome import Outcome
-from carom.parameters import Required, Scales
-from carom.results import Result, fields_of, in_si
+from carom.parameters import LoadLimits, Required, Scales
+from carom.results import Result, record
 from carom.studies.kinds import Kind, required_kinds
+from carom.studies.load_checks import LoadCheck, check_loads, worst_of
 
 DIRECTIONS = 12
 """Directions of a kick or a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size; each
@@ -33,7 +34,8 @@ LOOKED, SAMPLES = 100, 20_000
 """Turns of the shaft for which a motion without contact is looked at, which is known at once to settle, and instants at which."""
 MOST_EVENTS = 5_000
 """Events up to which one motion with loads is followed: of what then still touches the end is not known."""
-_SCALED = {"radius": "length", "force": "force", "impulse": "impulse", "contact_time": "time"}
+NO_LIMITS = LoadLimits()
+BEARING = "touchdown_bearing radius:length force: impulse: contact_time:time contacts"
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class AtBearing:
     force, impulse, contact_time : float
         On a rigid wall the force is that of lasting contact alone.
     contacts : int
-    gives_way : bool
+    is_compliant : bool
     scales : Scales or None
     """
 
@@ -59,13 +61,12 @@ class AtBearing:
     impulse: float
     contact_time: float
     contacts: int
-    gives_way: bool
+    is_compliant: bool
     scales: Scales | None
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
-        entry = fields_of(self, "touchdown_bearing", *_SCALED, "contacts")
-        return entry | in_si(entry, self.scales, **_SCALED)
+        return record(self, BEARING, self.scales)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,6 +90,8 @@ class FullSize(Result):
         The one with the largest force, on a rigid wall the largest impulse, or without contact the widest orbit.
     reduction : ReductionError or None
         Error of the reduction of a flexible machine along that one.
+    checks : tuple of LoadCheck
+        The worst load of all of them at all bearings against each limit that is stated.
     """
 
     shown: ClassVar = ("kind", "size", "back", "bearings")
@@ -101,6 +104,7 @@ class FullSize(Result):
     whirls: tuple[str, ...]
     worst: Trajectory
     reduction: ReductionError | None = None
+    checks: tuple[LoadCheck, ...] = ()
 
     @cached_property
     def magnets(self) -> MagnetReach | None:
@@ -110,23 +114,24 @@ class FullSize(Result):
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
         return {
-            **fields_of(self, "kind", "size"),
+            **record(self, "kind size"),
             "at_largest": {"came_back": self.back.count, "lost": self.lost, "total": self.back.total},
             "whirls": list(self.whirls),
-            "reduction": None if self.reduction is None else self.reduction.document(),
-            "magnets": None if self.magnets is None else self.magnets.document(),
+            "reduction": self.reduction and self.reduction.document(),
+            "magnets": self.magnets and self.magnets.document(),
             "touchdown_bearings": [each.document() for each in self.bearings],
+            "limits": [each.document() for each in self.checks],
         }
 
 
-def at_full_size(rotor: Rotor, required: Required) -> tuple[FullSize, ...]:
+def at_full_size(rotor: Rotor, required: Required, limits: LoadLimits = NO_LIMITS) -> tuple[FullSize, ...]:
     """Follow each kind that must be survived at its full size in all directions."""
     kinds: dict[Kind, Disturbance] = {"kick": VelocityKick(required.kick)}
     if required.shock is not None:
         kinds["shock"] = BaseShock(required.shock.peak, required.shock.duration)
     if required.blade_loss is not None:
         kinds["blade_loss"] = BladeLoss(required.blade_loss, required.blade_loss_node)
-    return tuple(_of_kind(rotor, kind, size, kinds[kind]) for kind, size in required_kinds(required))
+    return tuple(_of_kind(rotor, kind, size, kinds[kind], limits) for kind, size in required_kinds(required))
 
 
 class _Followed(NamedTuple):
@@ -146,7 +151,7 @@ class _Followed(NamedTuple):
         return blow, 0.0 if blow else max(_reach(self.motion, each) for each in planes)
 
 
-def _of_kind(rotor: Rotor, kind: Kind, size: float, model: Disturbance) -> FullSize:
+def _of_kind(rotor: Rotor, kind: Kind, size: float, model: Disturbance, limits: LoadLimits) -> FullSize:
     def at(rotor: Rotor, angle: float, instant: float) -> tuple[Rotor, State]:
         return model.apply(rotor, angle, instant=instant)
 
@@ -171,6 +176,7 @@ def _of_kind(rotor: Rotor, kind: Kind, size: float, model: Disturbance) -> FullS
         tuple(sorted(whirls)),
         worst.motion,
         error,
+        worst_of(check_loads(plane.loads, limits) for each in tried for plane in each.loads.planes),
     )
 
 
@@ -209,7 +215,7 @@ def _worst_at(tried: list[_Followed], place: int) -> AtBearing:
         impulse=max(plane.loads.impulse for plane in seen),
         contact_time=max(plane.loads.contact_time for plane in seen),
         contacts=max(plane.contacts for plane in seen),
-        gives_way=seen[0].gives_way,
+        is_compliant=seen[0].gives_way,
         scales=seen[0].scales,
     )
 

@@ -15,10 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from carom.closed_forms import SynchronousResponse, synchronous_response
+from carom.closed_forms import SynchronousResponse, speed_response, synchronous_response
 from carom.models import Rotor
 from carom.parameters import Case, Machine
-from carom.results import Result, fields_of
+from carom.parameters.fields import RPM
+from carom.results import Result, record
 from carom.rotors import (
     Campbell,
     FlexibleMachine,
@@ -31,7 +32,7 @@ from carom.rotors import (
 from carom.rotors.collocation import Collocation, collocations
 from carom.rotors.loop_sensitivity import zone_of
 from carom.rotors.whirls import turns
-from carom.studies.critical_speeds import Critical, criticals_of
+from carom.studies.critical_speeds import Critical, criticals_of, exact_criticals
 
 SLOWEST, FASTEST = 0.05, 1.5
 """Multiples of the speed of the machine between which the response is computed and whirls are followed."""
@@ -40,6 +41,11 @@ SPEEDS, FOLLOWED = 300, 40
 NARROW = 0.2
 """Damping ratio below which the response is computed densely about a whirl."""
 WHIRLS = 10
+CRITICAL = (
+    "bearing amplitude_si=amplitude amplification_factor=factor side=separation.side separation=separation.actual "
+    "required=separation.required met=separation.met"
+)
+COLLOCATION = "bearing frequency_hz=whirl.frequency sense=whirl.sense node_between=opposed node_at=hardly"
 
 
 @dataclass(frozen=True)
@@ -103,55 +109,28 @@ class Levitating(Result):
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON, in SI units; planes and bearings count from 1."""
+        known, now = self.campbell, self.at_speed
         found: dict[str, Any] = {
-            "whirls": [
-                {"frequency_hz": each.frequency, "sense": each.sense, "damping_ratio": each.damping_ratio}
-                for each in self.whirls
-            ],
+            "whirls": [record(each, "frequency_hz=frequency sense damping_ratio") for each in self.whirls],
             "levitates_over_speed": [
-                {"speed_rpm": speed * 30.0 / math.pi, "levitates": bool(holds)}
-                for speed, holds in zip(self.campbell.speeds.tolist(), self.campbell.levitates, strict=True)
-            ]
-            if self.campbell
-            else [],
-            "critical_speeds": [
-                {
-                    "bearing": each.bearing,
-                    "speed_rpm": each.speed * 30.0 / math.pi,
-                    "amplitude_si": each.amplitude,
-                    "amplification_factor": each.factor,
-                    "side": each.separation.side,
-                    "separation": each.separation.actual,
-                    "required": each.separation.required,
-                    "met": each.separation.met,
-                }
-                for each in self.criticals
+                {"speed_rpm": speed / RPM, "levitates": bool(holds)}
+                for speed, holds in (zip(known.speeds.tolist(), known.levitates, strict=True) if known else ())
             ],
+            "critical_speeds": [record(each, CRITICAL) | {"speed_rpm": each.speed / RPM} for each in self.criticals],
             "collocation": [
-                {
-                    "bearing": each.bearing,
-                    "frequency_hz": each.whirl.frequency,
-                    "sense": each.whirl.sense,
-                    "sensor": abs(each.sensor),
-                    "magnet": abs(each.magnet),
-                    "node_between": each.opposed,
-                    "node_at": each.hardly,
-                }
+                record(each, COLLOCATION) | {"sensor": abs(each.sensor), "magnet": abs(each.magnet)}
                 for each in self.collocations
             ],
+            "sensitivity": [
+                record(each, "bearing peak zone") | {"frequency_hz": each.frequency / (2.0 * math.pi)}
+                for each in self.loops
+            ],
         }
-        if self.at_speed is not None:
-            found["unbalance_response"] = {
-                "touchdowns_si": self.at_speed.touchdowns.major[0].tolist(),
-                "sensors_si": self.at_speed.sensors.major[0].tolist(),
-                "touchdowns_minor_si": self.at_speed.touchdowns.minor[0].tolist(),
-                "currents_a": self.at_speed.currents.major[0].tolist(),
-                "zone": self.at_speed.zones[0],
-            }
-        found["sensitivity"] = [
-            fields_of(each, "bearing", "peak", "zone") | {"frequency_hz": each.frequency / (2.0 * math.pi)}
-            for each in self.loops
-        ]
+        if now is not None:
+            sizes = {"touchdowns_si": now.touchdowns.major, "sensors_si": now.sensors.major}
+            sizes |= {"touchdowns_minor_si": now.touchdowns.minor, "currents_a": now.currents.major}
+            response = {name: size[0].tolist() for name, size in sizes.items()}
+            found["unbalance_response"] = response | {"zone": now.zones[0]}
         return found
 
 
@@ -162,7 +141,10 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
         return levitating_of_machine(reduced.machine)
     loop = None if case.machine is None else _loop_of_mass(case.machine)
     speed = rotor.scales.speed if rotor.scales else 1.0
-    return Levitating(speed, rotor.scales is None, whirls_of(rotor), (loop,) if loop else ())
+    criticals: tuple[Critical, ...] = ()
+    if rotor.planar and rotor.scales:
+        criticals = exact_criticals(speed_response(case), rotor.scales.clearance, (speed, speed))
+    return Levitating(speed, rotor.scales is None, whirls_of(rotor), (loop,) if loop else (), criticals=criticals)
 
 
 def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[Whirl, ...]:

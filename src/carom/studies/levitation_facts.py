@@ -16,6 +16,10 @@ from carom.studies.response_words import critical_words, micrometres, rpm
 from carom.studies.wording import listed
 
 SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
+RULE = (
+    "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width; its annex on magnetic "
+    "bearings may state others."
+)
 _HERTZ = 2.0 * math.pi
 
 
@@ -88,20 +92,21 @@ def zone_words(share: float, zone: str) -> str:
 
 
 def critical_speed_facts(found: Levitating) -> Iterator[Fact]:
-    """Peaks of the response of a flexible machine, with their separation from the speed of the machine."""
-    if found.machine is None:
-        return
-    if found.response is None:
+    """Peaks of the response to unbalance, with their separation from the speed of the machine."""
+    if found.machine is not None and found.response is None:
         yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
         return
-    speeds = found.response.speeds
-    if not found.criticals:
-        yield Fact("Critical speeds", f"The response has no peak between {rpm(speeds[0])} and {rpm(speeds[-1])}.")
+    searched = ""
+    if found.response is not None:
+        low, high = (rpm(found.response.speeds[end]) for end in (0, -1))
+        searched = f" Searched from {low} to {high}."
+        if not found.criticals:
+            yield Fact("Critical speeds", f"The response has no peak between {low} and {high}.")
     for each in found.criticals:
         text = critical_words(each, (found.speed, found.speed))
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
-    rule = "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width at the sensors; its annex on magnetic bearings may state others."
-    yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
+    if searched or found.criticals:
+        yield Fact("Critical speeds", f"{RULE}{searched}")
 
 
 def bearing_facts(found: Levitating) -> Iterator[Fact]:

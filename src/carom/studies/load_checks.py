@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.arguments import checked
-from carom.attractors import AttractorSet, MotionName
-from carom.disturbances import BaseShock, BladeLoss
-from carom.models import Rotor
-from carom.motions import DropLoads, TouchdownLoads, Trajectory, drop_loads, simulate, touchdown_loads
-from carom.motions.budget import present_question
+from carom.motions import DropLoads, TouchdownLoads
 from carom.outcome import InputError
-from carom.parameters import LIMIT_FIELDS, LoadLimits, Required
+from carom.parameters import LIMIT_FIELDS, LoadLimits
 from carom.parameters.told import number
 from carom.results import record
-
-DIRECTIONS = 24
-"""Directions of a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size."""
 
 
 @dataclass(frozen=True)
@@ -110,96 +103,9 @@ def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     )
 
 
-@dataclass(frozen=True)
-class WorstLoads:
-    """The largest of each load over many motions.
-
-    Attributes
-    ----------
-    checks : tuple of LoadCheck
-        The worst of each limit.
-    motions : tuple of str
-        Name of the motion in which each of these disturbances ended.
-    exceeding : tuple of int
-        Number of disturbances that exceed each limit.
-    disturbances : int
-        Number of disturbances followed that touched the wall.
-    """
-
-    checks: tuple[LoadCheck, ...]
-    motions: tuple[str, ...]
-    exceeding: tuple[int, ...]
-    disturbances: int
-
-    @property
-    def exceeded(self) -> bool:
-        """Whether a limit is exceeded by some disturbance."""
-        return any(check.exceeded for check in self.checks)
-
-    @property
-    def words(self) -> str:
-        """The worst of each load in words."""
-        if not self.disturbances:
-            return "None of the disturbances tried touched the bearing: no load to compare with the limits stated."
-        lines = [f"Largest loads of the {self.disturbances} disturbances that touched, against the limits stated."]
-        for check, motion, count in zip(self.checks, self.motions, self.exceeding, strict=True):
-            words = LIMIT_FIELDS[check.name].words
-            value, limit = (LoadLimits.told(check.name, each) for each in (check.value, check.limit))
-            grows = " and growing" if check.endless else ""
-            kept = f"exceeded by {count} of {self.disturbances}" if count else "kept by all"
-            lines.append(f"{words[0].upper()}{words[1:]}: {value}{grows} (ends in {motion}), limit {limit}: {kept}.")
-        return "\n".join(lines)
-
-    def document(self) -> dict[str, Any]:
-        """The same as JSON."""
-        parts = zip(self.checks, self.motions, self.exceeding, strict=True)
-        return {
-            "disturbances": self.disturbances,
-            "limits": [check.document() | {"motion": motion, "exceeding": count} for check, motion, count in parts],
-        }
-
-
-@checked
-def worst_loads(found: AttractorSet, limits: LoadLimits, required: Required | None = None) -> WorstLoads:
-    """Follow all disturbances that touch to their ends and find the worst load for each limit.
-
-    Parameters
-    ----------
-    required : Required, optional
-        The shock of the base and the loss of a blade that must be survived are followed too, at their full size, each in 24
-        directions; a shock from its beginning, with the contacts while it lasts.
-    """
-    question = present_question()
-    checked: list[tuple[str, Sequence[LoadCheck]]] = []
-    for ending in found.disturbances:
-        if ending.touched and question.affords():
-            motion = simulate(ending.rotor, ending.start.state, settle=True)
-            checked.append((ending.attractor, check_loads(touchdown_loads(motion), limits)))
-    for motion in _of_required(found.rotor, required) if required else ():
-        name = MotionName(motion.outcome, motion.multiplicity)
-        touching = [plane for plane in drop_loads(motion).planes if plane.contacts or plane.loads.contact_time]
-        checked += [(name, check_loads(plane.loads, limits)) for plane in touching]
-    if not checked:
-        return WorstLoads((), (), (), 0)
-    worst, names, counts = [], [], []
-    for each in zip(*(checks for _, checks in checked), strict=True):
-        place = max(
-            range(len(each)), key=lambda of: (each[of].exceeded, each[of].value > each[of].limit, each[of].value)
-        )
-        worst.append(each[place])
-        names.append(str(checked[place][0]))
-        counts.append(sum(check.exceeded for check in each))
-    return WorstLoads(tuple(worst), tuple(names), tuple(counts), len(checked))
-
-
-def _of_required(rotor: Rotor, required: Required) -> Iterator[Trajectory]:
-    """Motions after the shock and the loss of a blade that must be survived, in all directions; none without levitation."""
-    if rotor.system.rest_radius >= 1.0:
-        return
-    question = present_question()
-    for angle in (2.0 * math.pi * place / DIRECTIONS for place in range(DIRECTIONS)):
-        if required.shock and question.affords():
-            shock = BaseShock(required.shock.peak, required.shock.duration)
-            yield simulate(*shock.apply(rotor, angle), settle=True)
-        if required.blade_loss and question.affords():
-            yield simulate(*BladeLoss(required.blade_loss, required.blade_loss_node).apply(rotor, angle), settle=True)
+def worst_of(checks: Iterable[Sequence[LoadCheck]]) -> tuple[LoadCheck, ...]:
+    """The worst check of each limit over several motions."""
+    return tuple(
+        max(each, key=lambda check: (check.exceeded, check.value > check.limit, check.value))
+        for each in zip(*checks, strict=True)
+    )

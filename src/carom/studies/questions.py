@@ -15,9 +15,9 @@ from carom.studies.facts import Fact
 from carom.studies.wording import listed
 
 DESCRIBED, PRESENT, ELSEWHERE = "where disturbances end", "the share of {} that comes back", "starts elsewhere"
-SMALLEST = "the smallest {} that is lost"
+SMALLEST = "the smallest {} that does not come back"
 ALONG = "recovery along {}"
-CHANGE, LOADS, WALLS = "the least change", "loads of the touchdown bearing", "other touchdown bearings"
+CHANGE, WALLS = "the least change", "other touchdown bearings"
 FULL_SIZE, DROP = "what must be survived, at its full size all around", "the drop"
 EVENTS = {
     DESCRIBED: 100_000,
@@ -28,7 +28,6 @@ EVENTS = {
     SMALLEST.format("loss of a blade"): 200_000,
     ALONG: 200_000,
     CHANGE: 100_000,
-    LOADS: 100_000,
     WALLS: 100_000,
     FULL_SIZE: 100_000,
     DROP: 20_000,

@@ -24,7 +24,6 @@ from carom.studies.drops import DropStudy
 from carom.studies.full_size import FullSize
 from carom.studies.kinds import Kind
 from carom.studies.levitating import Levitating
-from carom.studies.load_checks import WorstLoads
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.rigid_limit import OtherWall
@@ -70,8 +69,6 @@ class StudyData(Result):
         How disturbances end on stiffer or softer walls; none where nothing can be compared, or without stable levitation.
     unfinished : tuple of Question
         The questions for which the budget of events, or a time limit, did not suffice.
-    loads : WorstLoads or None
-        The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
     proof : Proof or None
         Theorems about equilibria and orbits, if they were asked for.
     kicks : ProvenKicks or None
@@ -99,7 +96,6 @@ class StudyData(Result):
     drop: DropStudy | None = None
     other_walls: tuple[OtherWall, ...] = ()
     unfinished: tuple[Question, ...] = ()
-    loads: WorstLoads | None = None
     proof: Proof | None = None
     kicks: ProvenKicks | None = None
     states: Proof | None = None
@@ -192,7 +188,7 @@ class StudyData(Result):
     @property
     def exceeds_limits(self) -> list[str]:
         """Where a limit of a touchdown bearing is exceeded, in words."""
-        found = ["on the way"] if self.loads is not None and self.loads.exceeded else []
+        found = ["on the way"] if any(check.exceeded for each in self.full_size for check in each.checks) else []
         fallen = self.drop is not None and any(each.exceeded for each in self.drop.checks)
         return [*found, "in a drop"] if fallen else found
 

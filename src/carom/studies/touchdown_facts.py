@@ -34,9 +34,7 @@ def load_facts(study: StudyData) -> Iterator[Fact]:
         if each.whirls:
             lines.append(f"those that do not come back go round {listed(list(each.whirls))}")
         yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", label, values=each.document())
-    if study.loads is not None:
-        for text in study.loads.words.split("\n"):
-            yield Fact("Touchdown loads", text)
+        yield from (Fact("Touchdown loads", f"{label}, {check.words}.", label) for check in each.checks)
 
 
 def drop_headline(study: StudyData) -> Iterator[Fact]:
@@ -103,7 +101,7 @@ def _borne(each: AtBearing) -> str:
     reach = f"orbit up to {say.length(each.radius)} from the centre"
     if not each.contacts:
         return f"{reach}, no contact"
-    if each.gives_way:
+    if each.is_compliant:
         return f"{reach}, {counted(each.contacts, 'contact')}, {say.force(each.force)}, {say.time(each.contact_time)} in contact"
     text = f"{counted(each.contacts, 'impact')}, impulse {say.impulse(each.impulse)}"
     return (
