@@ -80,7 +80,10 @@ def test_the_worst_at_full_size_is_compared_with_the_limits():
     rotor, required = rotor_of(MACHINE), Required(0.1, Shock(shock.peak, shock.duration), None)
     kicks, shocks = at_full_size(rotor, required, ALL)
     for found, model in ((kicks, cm.disturbances.VelocityKick(0.1)), (shocks, shock)):
-        motions = [cm.simulate(*model.apply(rotor, angle, instant=instant), settle=True, max_events=5000) for angle, instant in all_round()]
+        motions = [
+            cm.simulate(*model.apply(rotor, angle, instant=instant), settle=True, max_events=5000)
+            for angle, instant in all_round()
+        ]
         checks = [check_loads(plane.loads, ALL) for each in motions for plane in drop_loads(each).planes]
         for place, check in enumerate(found.checks):
             assert check.value == max(each[place].value for each in checks if each[place].exceeded == check.exceeded)
