@@ -43,8 +43,8 @@ _LOWEST = 0.05
 def unbalance_response(response: UnbalanceResponse) -> Figure:
     """Draw amplitude and phase over the speed of the shaft in two panels.
 
-    Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; on the
-    right as radius in mm.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.
+    Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; counted
+    with the sag, on the right as radius in mm.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.
     Rubs lie on the wall, an unstable one dashed upon the stable one.  Lower: the angle by which the rotor lags its
     unbalance.  The present and the critical speed are marked in both.
     """
@@ -64,27 +64,24 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
 
 
 def _title(response: UnbalanceResponse, *, named: bool) -> str:
-    """Write the amplitude at the present speed and the critical speed, with the name of the machine if it is not above."""
-    present = response.present
-    width = 2e6 * float(response.now.touchdowns.major.max())
-    now = f"{width:,.4g} µm peak to peak, zone {response.zone_at(present)}"
-    where = f"at {present / RPM:,.0f} rpm" if named else f"{response.case.name} at {present / RPM:,.0f} rpm"
-    parts = [f"{where}: {now if response.now.reach.max() <= 1.0 else NO_LEVITATION}"]
-    highest = max(response.criticals, key=lambda each: each.amplitude, default=None)
-    if highest is not None:
-        parts.append(f"critical speed {highest.speed / RPM:,.0f} rpm")
-        if highest.factor is not None and math.isfinite(highest.factor):
-            parts[-1] += f", amplification factor {number(highest.factor, 3)}"
-    return "\n".join(parts)
+    """Write the vibration at the present speed with its zone, and the name of the machine if it is not above."""
+    width = 2e6 * float(response.now.touchdowns.major[0, response.worst])
+    sag = 1e6 * float(response.now.sags[response.worst])
+    zone = f"zone {response.zone_at(response.present)}{f' with the sag of {number(sag, 3)} µm' if sag else ''}"
+    found = f"{number(width, 4)} µm peak to peak, {zone}" if response.now.reach.max() <= 1.0 else NO_LEVITATION
+    where = f"{response.present / RPM:,.0f} rpm"
+    return f"at {where}: {found}" if named else f"{response.case.name} at {where}\n{found}"
 
 
 def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: float) -> None:
     inside = response.reach <= 1.0
     top = _top(response)
-    limits = (0.0, *response.case.zones.limits, 1.0)
+    # Zones count sag and whirl, and the sag leaves so much less of each.
+    sag = float((response.whirl.sags / response.whirl.clearances).max())
+    limits = np.maximum(np.array([0.0, *response.case.zones.limits, 1.0]) - sag, 0.0)
     for low, high, shade, letter in zip(limits[:-1], limits[1:], ZONE_SHADES, response.case.zones.labels, strict=True):
         axes.axhspan(width * low, width * high, color=shade, lw=0.0, zorder=0)
-        if low < 0.95 * top:
+        if low < 0.95 * top and high > low:
             place = width * min(high, top)
             axes.annotate(
                 f"zone {letter}",
@@ -107,7 +104,7 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
             axes.plot(speeds, there, **_VIRTUAL.stroke, label=None if place else _VIRTUAL.words, zorder=2)
     wall = LOOKS["wall"]
     if top > 1.0:
-        axes.axhline(width, **wall.stroke, label="wall (touchdown bearing)", zorder=2)
+        axes.axhline(width * limits[-1], **wall.stroke, label="wall (touchdown bearing)", zorder=2)
         for look, radii in zip((_RUB, _SADDLE), response.rubs.radii if response.rubs else (), strict=False):
             if not np.isnan(radii).all():
                 along = response.rubs.speeds / RPM if response.rubs else speeds
@@ -157,18 +154,20 @@ def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: floa
 
 def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
     inside, rubs = response.reach <= 1.0, response.rubs
-    lags, lowest, highest = np.degrees(response.whirl.lags), 0.0, 180.0
+    lags = np.degrees(response.lags)
+    lowest, highest = (
+        90.0 * math.floor(lags.min() / 90.0 + 0.01),
+        max(180.0, 90.0 * math.ceil(lags.max() / 90.0 - 0.01)),
+    )
     for place, lag in enumerate(lags.T):
         line = replace(_FREE, line=_LINES[place % len(_LINES)]).stroke
         axes.plot(speeds, np.where(inside, lag, np.nan), **line, zorder=3)
         axes.plot(speeds, np.where(with_neighbours(~inside), lag, np.nan), **_VIRTUAL.stroke, zorder=2)
-    if lags.min() < 0.0:
-        lowest = -180.0
     for look, rub in zip((_RUB, _SADDLE), np.degrees(rubs.lags) if rubs else (), strict=False):
         axes.plot(rubs.speeds / RPM if rubs else speeds, rub, **look.stroke, zorder=2)
         highest = max(highest, 270.0 if np.nanmax(np.append(rub, 0.0)) > 180.0 else 180.0)
     axes.set_ylim(lowest, highest)
-    axes.set_yticks(np.arange(lowest, highest + 1.0, 90.0 if lowest < 0.0 else 45.0))
+    axes.set_yticks(np.arange(lowest, highest + 1.0, 90.0 if highest - lowest > 180.0 else 45.0))
     axes.set_ylabel("lag behind the\nunbalance (degrees)")
 
 
@@ -179,7 +178,10 @@ def _marks(axes: Axes, response: UnbalanceResponse) -> None:
         if not stretch.what.contact_free:
             hatched: dict[str, Any] = {"fc": "none", "ec": "#d6d6d6", "hatch": "////", "lw": 0.0}
             axes.axvspan(stretch.low / RPM, stretch.high / RPM, **hatched, label=words, zorder=0.5)
-    marked = [(_PRESENT, response.present), *((_CRITICAL, each.speed) for each in response.criticals)]
-    for place, (look, speed) in enumerate(marked):
+    rates = list(dict.fromkeys(f"{each.speed / RPM:,.0f}" for each in response.criticals))
+    critical = f"critical speed{'s' if len(rates) > 1 else ''}, {', '.join(rates)} rpm"
+    marked = [(_PRESENT, f"{_PRESENT.words}, {response.present / RPM:,.0f} rpm", response.present)]
+    marked += [(_CRITICAL, None if place else critical, each.speed) for place, each in enumerate(response.criticals)]
+    for look, label, speed in marked:
         if response.interval[0] <= speed <= response.interval[1]:
-            axes.axvline(speed / RPM, **look.stroke, label=look.words if place < 2 else None, zorder=1)
+            axes.axvline(speed / RPM, **look.stroke, label=label, zorder=1)

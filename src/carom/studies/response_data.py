@@ -154,10 +154,22 @@ class ResponseData(Result):
         return np.asarray(2.0 * self.whirl.touchdowns.major.max(axis=1))
 
     @property
+    def worst(self) -> int:
+        """Index of the touchdown bearing at which sag and whirl come closest to it at the present speed."""
+        return int(self.now.reach[0].argmax())
+
+    @property
     def lag(self) -> np.ndarray:
         """Angle by which the contact-free displacement lags the unbalance, rad, shape (n,); at the bearing where it is largest at the present speed."""
-        worst = int((self.now.touchdowns.major / self.now.clearances)[0].argmax())
-        return np.asarray(self.whirl.lags[:, worst])
+        largest = int((self.now.touchdowns.major / self.now.clearances)[0].argmax())
+        return np.asarray(self.whirl.lags[:, largest])
+
+    @cached_property
+    def lags(self) -> np.ndarray:
+        """The same at each touchdown bearing without jumps over the speed, from −π/2 to 3π/2 at the lowest one, shape (n, P)."""
+        whole = np.unwrap(self.whirl.lags, axis=0)
+        turns = np.floor((whole[0] + 0.5 * np.pi) / (2.0 * np.pi))
+        return np.asarray(whole - 2.0 * np.pi * turns)
 
     @cached_property
     def steady_at_present(self) -> Steady:

@@ -38,7 +38,7 @@ def sentences(response: ResponseData) -> tuple[str, ...]:
 def _present(response: ResponseData) -> str:
     speed, now = response.present, response.now
     sizes, allowed = now.touchdowns.major[0], float(vibration_limit(np.array(speed)))
-    worst = int(now.reach[0].argmax())
+    worst = response.worst
     width, several = 2.0 * float(sizes[worst]), len(sizes) > 1
     where = f" at touchdown bearing {worst + 1}" if several else ""
     sagging = f" beside a sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
@@ -47,12 +47,14 @@ def _present(response: ResponseData) -> str:
             f"At {rpm(speed)}, the present speed, the unbalance would need a contact-free whirl of {micrometres(width)} peak to "
             f"peak{where}{sagging}, and the clearance allows {micrometres(2.0 * float(now.clearances[worst]))}: the rotor touches."
         )
-    over = width / allowed
+    over, speeds = width / allowed, response.speeds
+    inside = speeds[0] <= speed <= speeds[-1]
+    lag = response.lags[int(np.abs(speeds - speed).argmin()), worst] if inside else now.lags[0, worst]
     ratio = f", which is exceeded {number(over, 3)} times" if over > 1.0 else ""
     return (
         f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak{where}{sagging} "
         f"({number(float(now.reach[0, worst]), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), "
-        f"{number(float(np.degrees(now.lags[0, worst])), 3)}° behind the unbalance. API 617 allows {micrometres(allowed)} there{ratio}."
+        f"{number(float(np.degrees(lag)), 3)}° behind the unbalance. API 617 allows {micrometres(allowed)} there{ratio}."
     )
 
 
