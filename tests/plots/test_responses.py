@@ -81,7 +81,7 @@ def test_special_machines_are_drawn(changes):
 
 
 def test_the_zone_that_is_told_is_the_band_in_which_the_present_speed_lies_and_the_phase_has_no_jumps():
-    response = unbalance_response(carom.load("examples/keogh-cole.toml", ["eccentricity=0.05 mm", "gravity=9.81"]))
+    response = unbalance_response(cm.load("examples/keogh-cole.toml", ["eccentricity=0.05 mm", "gravity=9.81"]))
     figure = response.plot()
     letter = response.zone_at(response.present)
     assert f"zone {letter} with the sag" in figure.get_suptitle()
