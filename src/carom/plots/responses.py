@@ -180,7 +180,9 @@ def _marks(axes: Axes, response: UnbalanceResponse) -> None:
             axes.axvspan(stretch.low / RPM, stretch.high / RPM, **hatched, label=words, zorder=0.5)
     rates = list(dict.fromkeys(f"{each.speed / RPM:,.0f}" for each in response.criticals))
     critical = f"critical speed{'s' if len(rates) > 1 else ''}, {', '.join(rates)} rpm"
-    marked = [(_PRESENT, f"{_PRESENT.words}, {response.present / RPM:,.0f} rpm", response.present)]
+    marked: list[tuple[Look, str | None, float]] = [
+        (_PRESENT, f"{_PRESENT.words}, {response.present / RPM:,.0f} rpm", response.present)
+    ]
     marked += [(_CRITICAL, None if place else critical, each.speed) for place, each in enumerate(response.criticals)]
     for look, label, speed in marked:
         if response.interval[0] <= speed <= response.interval[1]:
