@@ -139,7 +139,7 @@ def _kinds(case: Case) -> Mapping[str, _Kind]:
 
 
 def _shared(case: Case) -> Iterator[Control]:
-    fields, parts, bearing = _named(case).varied, _entries(case), rotor_of(case).bearing_at(0)
+    fields, parts, bearing = _named(case).varied, _entries(case), rotor_of(case).definition.bearing_at(0)
     stated = bearing.given if bearing else {}
     for name, kind in _kinds(case).items():
         # Of a touchdown bearing what it states; an entry that is not stated follows from others.
@@ -182,7 +182,7 @@ def _unit(case: Case, name: str, kind: _Kind) -> str:
     if not name.startswith("touchdown_stiffness"):
         return kind.unit
     place = int(name.rpartition("_")[2]) - 1 if name[-1].isdigit() else 0
-    bearing: Any = _named(case).touchdowns[place].bearing if _entries(case) else rotor_of(case).bearing_at(0)
+    bearing: Any = _named(case).touchdowns[place].bearing if _entries(case) else rotor_of(case).definition.bearing_at(0)
     return str(bearing.unit("stiffness"))
 
 
