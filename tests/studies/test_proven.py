@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from studies import study_once
 
 from carom.closed_forms import harmless_kick
 from carom.files import as_json
+from carom.loading import load
 from carom.orbits import find_orbits
 from carom.parameters import Case, Requirement, Scales, Shock, Zones
 from carom.proofs import ProvenKicks, check, hypotheses_of, prove, prove_states
@@ -38,6 +40,16 @@ def test_words_name_what_is_proven(proof):
     assert "synchronous with the shaft: B1,a, B1,b, B1,c, B1,d;" in words
     assert "stable are B1,d; unstable are" in words
     assert "could not be decided" not in words
+
+
+def test_words_name_what_is_proven_of_any_machine():
+    case = load("examples/dropped-rotor.toml")
+    speed = float(prove(case)["kicks never touch"].enclosures["speed"].low) * case.parameters.scales.velocity
+    words = proven_words(prove(case), case.parameters.scales)
+    told = float(
+        re.search(r"levitation is stable; no kick out of levitation below ([\d.]+) mm/s touches", words).group(1)
+    )
+    assert 0.999 * speed < 1e-3 * told <= speed
 
 
 def test_words_tell_what_is_undecided():

@@ -21,14 +21,42 @@ KICKS = (
     "share_open=open_share"
 )
 
+_UNTOUCHED = (
+    ("kicks never touch", "speed", "velocity", "no kick out of levitation below"),
+    ("steps of the unbalance never touch", "change", "length", "no step of the eccentricity below"),
+)
 
-def proven_words(proof: Proof) -> str:
+
+def proven_words(proof: Proof, scales: Scales | None = None) -> str:
     """What a proof has decided, and what it has not."""
+    facts = _facts_of_orbits(proof) if "machine orbits" in proof else _facts_of_levitation(proof, scales)
+    told = "; ".join(filter(None, facts)) or "nothing"
+    text = f"In ball arithmetic, for the numbers of the machine as doubles: {told}."
+    undecided = proof.with_status("undecided")
+    if undecided:
+        text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
+    return text
+
+
+def _facts_of_levitation(proof: Proof, scales: Scales | None) -> list[str]:
+    """Of a machine without closed forms."""
+    proven = {claim.name: claim for claim in proof if claim.status == "proven"}
+    facts = ["levitation is stable"] if "levitation stable" in proven else []
+    for name, size, kind, words in _UNTOUCHED:
+        if name in proven:
+            factor, unit = shown_in(kind, scales)
+            facts.append(
+                f"{words} {number(rounded_down(factor * float(proven[name].enclosures[size].low)))} {unit} touches"
+            )
+    return facts
+
+
+def _facts_of_orbits(proof: Proof) -> list[str]:
     admissible = _names(proof, "admissible", "proven")
     stable = [name for name in admissible if name in _names(proof, "stable", "proven")]
     unstable = [name for name in admissible if name in _names(proof, "stable", "refuted")]
     orbits = proof["machine orbits"]
-    facts = [
+    return [
         f"levitation lies {'inside' if proof['levitation inside'].status == 'proven' else 'not inside'} the wall"
         if proof["levitation inside"].status != "undecided"
         else "",
@@ -36,12 +64,6 @@ def proven_words(proof: Proof) -> str:
         f"stable are {listed(stable)}" if stable else "",
         f"unstable are {listed(unstable)}" if unstable else "",
     ]
-    told = "; ".join(filter(None, facts))
-    text = f"In ball arithmetic, for the numbers of the machine as doubles: {told}."
-    undecided = proof.with_status("undecided")
-    if undecided:
-        text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
-    return text
 
 
 def proven_kicks_words(kicks: ProvenKicks) -> str:
@@ -81,7 +103,7 @@ def proofs_of(study: StudyData) -> Iterator[Fact]:
     """What was proven, if it was asked for."""
     told = []
     if study.proof is not None:
-        told.append(proven_words(study.proof))
+        told.append(proven_words(study.proof, study.rotor.scales))
     if study.kicks is not None:
         told.append(proven_kicks_words(study.kicks))
     if study.states is not None:
