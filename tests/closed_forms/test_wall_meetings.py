@@ -13,7 +13,8 @@ from carom.continuation.roots import bracketed_root
 from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.motions.starts import State
 from carom.orbits import Kind, Segment, Word, orbit_near
-from carom.orbits.recognising import arrives, segments_of
+from carom.orbits.closing import close
+from carom.orbits.happenings import arrives
 from carom.orbits.shooting import Start
 from carom.outcome import InputError, Outcome
 
@@ -44,8 +45,8 @@ def closed(rotor, meeting, cycle):
         return orbit_near(rotor, Word((Segment(Kind.IMPACT_FORWARD, meeting.plane),)), start)
     state = State(position, velocity) if len(position) > 1 else State(position[0], velocity[0])
     motion = cm.simulate(rotor, state, 2.6 * cycle.period)
-    begins = np.flatnonzero(arrives(motion))
-    return orbit_near(rotor, *segments_of(motion, int(begins[0]), int(begins[1])))
+    begins = motion.segment_starts[1:][arrives(motion)]
+    return close(motion, float(begins[0]) + 0.7 * cycle.period, cycle.period)
 
 
 def test_the_planar_rotor_has_the_cycles_of_the_paper():
@@ -73,7 +74,8 @@ def test_orbits_of_two_coordinates_shrink_as_foretold(law, seed):
     assert cycles
     for cycle in cycles:
         errors = []
-        for gap in (1e-3, 1e-4):
+        # In compliant walls multipliers are differences of the flow, whose steps have to be small against the orbit.
+        for gap in (1e-2, 1e-3) if cycle.contact else (1e-3, 1e-4):
             rotor = touching(law, seed, inside(cycle, gap))
             meeting = small_cycles(rotor)
             local = same(meeting, cycle)
@@ -93,7 +95,7 @@ def test_orbits_of_two_coordinates_shrink_as_foretold(law, seed):
         first, second = np.array(errors).T[:, 0], np.array(errors).T[:, 1]
         # Proportional to the gap: ten times closer to it ten times smaller, above what rounding leaves of 1e-4.
         assert (second <= 0.2 * first + 1e-8).all()
-        assert second.max() < 1e-2
+        assert second.max() < (0.05 if cycle.contact else 1e-2)
 
 
 @pytest.mark.parametrize("law", [SPRING, BALLS, RIGID])

@@ -82,7 +82,7 @@ def test_the_overhung_rotor_bounces_beside_levitation_near_its_internal_resonanc
     assert levitation.stable
     motion = cm.simulate(rotor, cm.State(0.2, 1.0))
     orbit = cm.orbits.orbit_of_motion(motion)
-    assert str(orbit.word) == "slide+ lift slide+ lift"
+    assert orbit.segments == "slide+ lift slide+ lift"
     assert orbit.stable
     assert orbit.admissible
     again = cm.simulate(rotor, motion.final, 10.0 * orbit.period).final
