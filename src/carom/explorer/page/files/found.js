@@ -11,7 +11,8 @@
 
   carom.on("levitating", (message) => {
     at("headline").textContent = message.refused || message.lead;
-    at("advice").textContent = message.more || "";
+    at("advice").textContent = "";
+    at("more").textContent = message.more || "";
     if (known.verdict && known.verdict !== message.number) carom.panels.pale("verdict", true);
     if (message.refused) return;
     document.querySelector(".verdict").classList.toggle("bad", !message.holds);
@@ -60,7 +61,7 @@
     known.verdict = message.number;
     carom.panels.pale("verdict", false);
     if (!message.refused) at("headline").textContent = message.lead;
-    if (message.advice) at("advice").textContent = message.advice;
+    at("advice").textContent = message.advice || "";
     at("tried").hidden = Boolean(message.refused);
     at("survived").replaceChildren(...listed(message.survived || []));
   });
