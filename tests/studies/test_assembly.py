@@ -15,7 +15,7 @@ from carom.outcome import InputError, Outcome
 from carom.parameters import Case, Machine, Parameters, Requirement, Scales, Zones
 from carom.studies import NOT_COVERED, study
 from carom.studies.facts import about
-from carom.studies.summaries import machine_rows, motion_rows, range_rows, threshold_rows
+from carom.studies.summaries import machine_rows, motion_rows, range_rows
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 QUIET = SOURCE.replace(gamma=0.5, mu=0.0)
@@ -248,12 +248,7 @@ def test_tables_hold_every_motion(real):
     assert sum(shares) == len(real.attractors.disturbances)
 
 
-def test_thresholds_have_both_units(real):
-    rows = threshold_rows(real)
-
-    assert len(rows) == len(real.thresholds)
-    assert any((value, dimensionless) == ("3,408 N s/m", "γ = 0.37002") for _, _, _, value, dimensionless, _ in rows)
-    assert {quantity for _, _, quantity, *_ in rows} == {"damping", "stiffness"}
+def test_ranges_end_with_recovery_and_advice(real):
     back, advised = range_rows(real)[-2:]
     ends = ("from 3,408 N s/m to 5,600 N s/m (", "from 2,376,000 N/m to 3,920,000 N/m (")
     assert all(told.startswith(words) for told, words in zip(back[1:], ends, strict=True))
@@ -265,7 +260,6 @@ def test_dimensionless_case_has_no_machine_table():
 
     assert machine_rows(result.case) == []
     assert "γ (this machine: 0.1)" in finding(result, "What would change it")
-    assert all(value == "" for _, _, _, value, *_ in threshold_rows(result))
 
 
 # ------------------------------------------------------------------------------------------------ JSON

@@ -24,7 +24,6 @@ from carom.studies.summaries import (
     dimensionless_rows,
     motion_rows,
     simple_motion_rows,
-    threshold_rows,
 )
 from carom.studies.wording import counted
 
@@ -57,7 +56,7 @@ _LEVELS = {
 
 
 def print_study(console: Console, study: Study, report: Path | None) -> None:
-    """Print the verdict, motions, thresholds and kicks of a study."""
+    """Print the verdict, all facts and the motions of a study."""
     verdict = study.verdict
     headline = Text(f"{study.case.name}: {verdict.lead}", style=_LEVELS[verdict.level])
     console.print(headline, width=min(console.width, TEXT_WIDTH))
@@ -69,9 +68,6 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
     console.print()
     console.print(fitted(console, _motions(motion_rows(study), "Motions", console.width)))
     _print_left_out(console, study.orbits)
-    console.print()
-    if study.thresholds:
-        console.print(fitted(console, _thresholds(study)))
     console.print()
     if report is None:
         console.print("Figures, study.json and report.html: add --out DIR")
@@ -178,17 +174,6 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
     virtual = sum(not orbit.admissible for orbit in orbits)
     if virtual > most_virtual:
         console.print(f"{virtual} orbits that are not possible are left out; --json lists them.")
-
-
-def _thresholds(study: Study) -> Table:
-    headings = ("motion", "exists", "quantity", "value", "dimensionless", "where")
-    shown = [heading for heading in headings if heading != "value" or study.wording.scales is not None]
-    table = plain_table(
-        "Thresholds, each with all else as it is", *shown, right=["value"], no_wrap=("value", "dimensionless")
-    )
-    for row in threshold_rows(study):
-        table.add_row(*(cell for heading, cell in zip(headings, row, strict=True) if heading in shown))
-    return table
 
 
 def complex_words(value: complex) -> str:

@@ -16,7 +16,7 @@ from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.outcome import STEADY_WORDS, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
+from carom.parameters import ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.named import own_numbers
 from carom.parameters.terms import set_by
@@ -25,7 +25,7 @@ from carom.studies.advice_facts import check_words
 from carom.studies.endings import motion_words
 from carom.studies.kinds import LABELS
 from carom.studies.proven import is_proven
-from carom.studies.ranges import Motion, event_words
+from carom.studies.ranges import Motion
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.verdict import lost_to
@@ -277,19 +277,6 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, at: Parameters |
         trials=_share(found, member.name),
         remark=_joined(lasts, known, soft),
     )
-
-
-def threshold_rows(study: StudyData) -> list[tuple[str, ...]]:
-    """Return a row for every threshold: motion, side on which it exists, quantity, its values as told and dimensionless, and event."""
-    say = study.wording
-    rows: list[tuple[str, ...]] = []
-    for entry in study.thresholds:
-        name, edge = entry.parameter, entry.edge
-        own = f"{DIMENSIONLESS_FIELDS[name].symbol} = {edge.value:.5g}"
-        sure = "" if edge.certified else " (located, but not confirmed by the orbits close by)"
-        told = say.value(name, edge.value) if say.scales else ""
-        rows.append((MOTIONS[entry.motion], entry.exists, say.name(name), told, own, f"{event_words(edge)}{sure}"))
-    return rows
 
 
 def ranges_along(say: Wording, found: Recovery) -> list[tuple[str, str]]:
