@@ -96,8 +96,7 @@ CALLS = {
     "disturbances.outward_from": cm.disturbances.outward_from,
     "explorer.explore": lambda m: told(lambda: case_explored(m)),
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
-    "models.case_of": lambda m: cm.models.case_of(m).parameters,
-    "models.any_case_of": lambda m: cm.models.rotor_of(cm.models.any_case_of(m)),
+    "models.case_of": lambda m: cm.models.rotor_of(cm.models.case_of(m)),
     "models.exact_rotor_of": cm.models.exact_rotor_of,
     "models.rotor_of": cm.models.rotor_of,
     "motions.follow_loads": lambda m: cm.motions.follow_loads(m, cm.kick(0.3), 5.0),
@@ -126,7 +125,7 @@ CALLS = {
 """A small call of each function that takes a rotor."""
 GENERAL = {
     "explorer.explore",
-    "models.any_case_of",
+    "models.case_of",
     "attractors.character_of",
     "attractors.measure_lifetimes",
     "orbits.lyapunov_exponents",

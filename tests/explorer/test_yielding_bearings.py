@@ -21,7 +21,7 @@ from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import any_case_of, rotor_of
+from carom.models import case_of, rotor_of
 from carom.outcome import InputError
 
 MACHINE = """
@@ -242,7 +242,7 @@ def test_steady_motions_on_a_race_that_turns_are_listed(origin):
 
 
 def test_a_model_has_the_case_of_its_bearing(origin):
-    found = any_case_of(rotor_of(origin("drive").case))
+    found = case_of(rotor_of(origin("drive").case))
     # A figure in a notebook begins with it.
     assert values_of(with_settings(found, {"touchdown_stiffness": "2e8"}))["touchdown_stiffness"] == 2e8
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from machines import PAPER
 
-from carom.models import any_case_of, case_of, jeffcott, rotor_of
+from carom.models import case_of, jeffcott, rotor_of
 from carom.outcome import InputError
-from carom.parameters import Case, Machine, Scales, Zones
+from carom.parameters import Case, Gravity, Machine, Scales, Zones
 
 MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
 
@@ -36,7 +36,7 @@ def test_a_case_keeps_the_machine_it_was_made_from():
 
 
 def test_any_rotor_has_a_case():
-    assert any_case_of(MACHINE) == case_of(MACHINE)
-    case = any_case_of(jeffcott(PAPER))
-    assert any_case_of(case) is case
-    assert rotor_of(case) == jeffcott(PAPER)
+    heavy = rotor_of(MACHINE).under_gravity(Gravity())
+    case = case_of(heavy)
+    assert case_of(case) is case
+    assert rotor_of(case) is heavy

@@ -121,7 +121,5 @@ def test_a_case_of_a_model_is_studied_and_nothing_else():
     case = Case("rig", tilting().model, None, Zones())
     assert cm.models.rotor_of(case) is case.parameters
     assert dict(case.rows())["scaled damping"] == "0.1"
-    with pytest.raises(InputError, match="the planar rotor"):
-        cm.models.case_of(case)
     with pytest.raises(InputError, match="parameters"):
         Case("rig", None, None, Zones())

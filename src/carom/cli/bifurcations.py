@@ -146,11 +146,11 @@ def regions(
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
         from carom.loading import load
-        from carom.models import axis, case_of, rotor_of
+        from carom.models import axis, rotor_of
 
         case = load(machine, settings or ())
         model = rotor_of(case)
-        subject = case_of(case).parameters if model.has_closed_forms else model
+        subject = model.parameters if model.has_closed_forms else model
         names = [name.strip() for name in plane.split(",")]
         if len(names) != 2:
             raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")

@@ -44,18 +44,17 @@ def orbits(
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.loading import load
-    from carom.models import case_of, rotor_of
+    from carom.models import rotor_of
 
-    given = load(machine, settings or ())
+    case = load(machine, settings or ())
     if impacts is not None:
-        _search(given, impacts, guesses, as_json)
+        _search(case, impacts, guesses, as_json)
         return
-    model = rotor_of(given)
+    model = rotor_of(case)
     model.system.refuse_non_stationary()
     if not model.has_closed_forms:
-        _print_steady(given, longest_period, as_json)
+        _print_steady(case, longest_period, as_json)
         return
-    case = case_of(given)
     longest = None
     if longest_period is not None:
         from carom.cli.starts import read_time

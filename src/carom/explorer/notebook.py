@@ -17,7 +17,7 @@ from carom.explorer.page.questions import Questions
 from carom.explorer.page.scripts import PICTURES, joined
 from carom.explorer.page.session import Session
 from carom.explorer.page.view import SLOTS
-from carom.models import Subject, any_case_of
+from carom.models import Subject, case_of
 from carom.outcome import CaromError
 from carom.plots.style import LOOKS
 
@@ -49,7 +49,7 @@ def explore(machine: Subject) -> Any:
     --------
     carom.map_basins : the ends of kicks and other disturbances as data, and as a figure on paper
     """
-    origin = Origin("", (), any_case_of(machine))
+    origin = Origin("", (), case_of(machine))
     questions = Questions(origin)
     return _figure_class(questions.bearings, questions.frame)(origin)
 

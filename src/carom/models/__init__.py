@@ -48,7 +48,7 @@ from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
 from carom.models.stages import Stage, Trigger, depends_on_instant, in_stages
-from carom.models.subjects import Subject, any_case_of, case_of, exact_rotor_of, rotor_from, rotor_of
+from carom.models.subjects import Subject, case_of, exact_rotor_of, rotor_from, rotor_of
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 
@@ -75,7 +75,6 @@ __all__ = [
     "System",
     "Touchdown",
     "Trigger",
-    "any_case_of",
     "axis",
     "case_of",
     "depends_on_instant",

@@ -113,21 +113,9 @@ def _stage_from(given: Mapping[str, Any]) -> Stage:
 
 
 def case_of(subject: Subject) -> Case:
-    """Case of a machine, parameters or a model, with the default zones; a case is returned as it is.
-
-    Raises
-    ------
-    InputError
-        It is none of these, another model than the planar rotor, or has weight: no case would keep that.
-    """
-    rotor = exact_rotor_of(subject)
-    if isinstance(subject, Case):
-        return subject
-    return Case("machine", rotor.parameters, subject if isinstance(subject, Machine) else None, Zones())
-
-
-def any_case_of(subject: Subject) -> Case:
     """Case of any description of a rotor, with the default zones; a case is returned as it is.
+
+    A rotor of which exact results are known is described by its parameters, any other one stands for itself.
 
     Raises
     ------
@@ -138,4 +126,7 @@ def any_case_of(subject: Subject) -> Case:
         return subject
     if isinstance(subject, Machine):
         return Case("machine", subject.parameters, subject, Zones())
-    return Case("machine", subject if isinstance(subject, Parameters) else rotor_of(subject), None, Zones())
+    rotor = rotor_of(subject)
+    if rotor.has_closed_forms:
+        return Case("machine", rotor.parameters, None, Zones())
+    return Case("rotor", rotor, None, Zones())

@@ -29,7 +29,7 @@ from carom.models import Rotor, Subject, axis, case_of, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, Budget, Question
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.outcome import InputError
-from carom.parameters import Case, Field, Required, Requirement, Zones, read_quantity
+from carom.parameters import Case, Field, Required, Requirement, read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
 from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
@@ -173,7 +173,7 @@ def study(
     >>> result.levitates, [orbit.name for orbit in result.stable_orbits]
     (True, ['B1,d'])
     """
-    case = _case_of(machine)
+    case = case_of(machine)
     if requirement is not None:
         case = replace(case, requirement=requirement)
     refuse_another_machine(disturbances)
@@ -263,16 +263,6 @@ def _prove_states(asked: Asked, tell: Reporter) -> Proof:
     from carom.proofs import prove_states
 
     return prove_states(asked.rotor, asked.required.kick, progress=tell)
-
-
-def _case_of(machine: Subject) -> Case:
-    """What is studied; a model that no file describes stands for itself, with the usual zones."""
-    model = rotor_of(machine)
-    if isinstance(machine, Case):
-        return machine
-    if exact_results(model).orbits:
-        return case_of(machine)
-    return Case("rotor", model, None, Zones())
 
 
 def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:

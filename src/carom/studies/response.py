@@ -13,7 +13,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response, synchronous_response
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Axis, Rotor, Subject, any_case_of, axis, rotor_of
+from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import read_quantity
@@ -96,7 +96,7 @@ def unbalance_response(
     >>> round(response.contact_free.amplification_factor, 3)
     4.797
     """
-    case = any_case_of(machine)
+    case = case_of(machine)
     model = rotor_of(case)
     if model.scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
