@@ -35,12 +35,13 @@ class Grown:
     """
 
     def __init__(self, rotor: Rotor, state: State, impacts: int, transient: int) -> None:
-        self.rotor, self.budget = rotor, Budget(EVENTS)
+        self.rotor, self.budget = rotor, Budget(EVENTS / 4)
         motion = simulate(rotor, state, 0.5 * STRETCH, settle=False)
         flow, self.vector = Flow.at(motion, motion.time, self.budget)
         self.flow = flow
         self.directions = np.linalg.qr(np.random.default_rng(0).normal(size=(len(self.vector),) * 2))[0]
         self._measure(transient)
+        self.budget.left = EVENTS  # a long transient must leave something to be measured
         before = self._speed()
         self.durations, self.logarithms, (self.impacts, self.landings) = self._measure(impacts)
         self.along = 0.0 if rotor.system.is_time_dependent else math.log(self._speed() / before)
