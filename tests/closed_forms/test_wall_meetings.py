@@ -65,17 +65,14 @@ def test_the_planar_rotor_has_the_cycles_of_the_paper():
     assert [cycle.admissible for cycle in found.cycles] == [orbit.admissible for orbit in boundary.orbits]
 
 
-@pytest.mark.parametrize(
-    ("law", "seed"), [*((RIGID, seed) for seed in (1, 2, 3, 4, 5)), *((SPRING, seed) for seed in (2, 3, 4))]
-)
+@pytest.mark.parametrize(("law", "seed"), [(RIGID, seed) for seed in (1, 2, 3, 4, 5)])
 def test_orbits_of_two_coordinates_shrink_as_foretold(law, seed):
     """Size and multipliers tend to the local theory in proportion to the gap, at fresh rotors of two planes."""
     cycles = [cycle for cycle in small_cycles(touching(law, seed)).cycles if cycle.admissible]
     assert cycles
     for cycle in cycles:
         errors = []
-        # In compliant walls multipliers are differences of the flow, whose steps have to be small against the orbit.
-        for gap in (1e-2, 1e-3) if cycle.contact else (1e-3, 1e-4):
+        for gap in (1e-3, 1e-4):
             rotor = touching(law, seed, inside(cycle, gap))
             meeting = small_cycles(rotor)
             local = same(meeting, cycle)
@@ -95,7 +92,7 @@ def test_orbits_of_two_coordinates_shrink_as_foretold(law, seed):
         first, second = np.array(errors).T[:, 0], np.array(errors).T[:, 1]
         # Proportional to the gap: ten times closer to it ten times smaller, above what rounding leaves of 1e-4.
         assert (second <= 0.2 * first + 1e-8).all()
-        assert second.max() < (0.05 if cycle.contact else 1e-2)
+        assert second.max() < 1e-2
 
 
 @pytest.mark.parametrize("law", [SPRING, BALLS, RIGID])
