@@ -223,7 +223,6 @@ def test_wrong_usage(carom, machine, arguments, words):
             "only with --disturbance kick or kick-plane or state",
         ),
         (("basins", "MACHINE", "--disturbance", "slice", "--fastest", "1"), "--fastest = 1: allowed only with"),
-        (("basins", "MACHINE", "--disturbance", "state", "--before", "1"), "--before = 1: allowed only with"),
         (("basins", "MACHINE", "--release", "fixed"), "--release = fixed: allowed only with --disturbance release"),
         (("basins", "MACHINE", "--duration", "5 ms"), "--duration = 5 ms: allowed only with"),
         (("basins", "MACHINE", "--seed", "1"), "--seed = 1: allowed only for a sample"),

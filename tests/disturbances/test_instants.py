@@ -12,7 +12,7 @@ from carom.attractors import DisturbanceSet
 from carom.basins.shares import Population
 from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, VelocityKick
 from carom.disturbances.echo import ANY_INSTANT
-from carom.models import depends_on_instant, rotor_of
+from carom.models import rotor_of
 from carom.outcome import InputError
 
 MACHINE, PLAIN = "examples/dropped-rotor.toml", "examples/keogh-cole.toml"
@@ -46,7 +46,7 @@ def test_an_instant_later_is_an_unbalance_ahead(model, values, angles):
 
 
 def test_levitation_at_many_instants_is_that_at_each():
-    assert not depends_on_instant(rotor_of(cm.load(PLAIN)))
+    assert not rotor_of(cm.load(PLAIN)).depends_on_instant
     weighs = turned(0.0)
     times = np.array([0.0, 0.4, 2.5])
     together = weighs.system.kicked(np.zeros(3), times)

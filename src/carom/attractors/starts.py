@@ -18,7 +18,7 @@ from carom.disturbances.coordinates import INSTANT, ON_WALL
 from carom.disturbances.echo import ITS_INSTANT
 from carom.disturbances.following import require_start
 from carom.disturbances.plans import INSTANTS
-from carom.models import Rotor, Subject, depends_on_instant, rotor_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS
@@ -135,7 +135,7 @@ class DisturbanceSet:
         shares = radii, places, speeds, directions
         values = (coordinate.at(share) for coordinate, share in zip(anywhere.coordinates, shares, strict=True))
         parts = [VelocityKick(self.fastest).starts(rotor, sizes, angles), anywhere.starts(rotor, *values)]
-        if depends_on_instant(rotor):
+        if rotor.depends_on_instant:
             instants = INSTANT.at(np.random.default_rng([self.seed, INSTANTS]).random(self.count))
             first, others = instants[:kicks], instants[kicks:]
             parts[0] = VelocityKick(self.fastest).starts(rotor, sizes, angles, instant=first)
@@ -151,7 +151,7 @@ class DisturbanceSet:
         if self.count > kicks:
             parts.append(f"{self.count - kicks} starts anywhere in the clearance")
         found = f"{' and '.join(parts)}, at up to {told(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
-        if depends_on_instant(rotor):
+        if rotor.depends_on_instant:
             found += f", each {ITS_INSTANT}"
         return f"{self.count} disturbances (seed {self.seed}): {found}"
 

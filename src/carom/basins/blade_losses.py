@@ -18,7 +18,7 @@ from carom.disturbances import BladeLoss
 from carom.disturbances.blade_loss import levitating_before, starts_after
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
-from carom.models import Rotor, depends_on_instant
+from carom.models import Rotor
 from carom.motions.budget import BudgetSpentError
 from carom.outcome import Outcome
 from carom.progress import Reporter
@@ -80,7 +80,7 @@ class _Search(Bracket):
         super().__init__(kind=model.kind, **sizes, tolerance=TOLERANCE, scales=rotor.scales)
         self.rotor, self.node, self.threads = rotor, model.node, threads
         self.random = np.random.default_rng(0)
-        self.timed = depends_on_instant(rotor)
+        self.timed = rotor.depends_on_instant
         before = rotor.definition.unbalance_along(model.node)
         self.before, self.shared = before or 0.0, before is not None
 

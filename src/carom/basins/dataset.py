@@ -18,7 +18,7 @@ from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
-from carom.models import Rotor, depends_on_instant, exact_rotor_of, rotor_from
+from carom.models import Rotor, exact_rotor_of, rotor_from
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -143,7 +143,7 @@ def dataset_of(
     }
     if rotor.scales:
         variables["time"][1].update(si_units="s", si_factor=rotor.scales.time)
-    if depends_on_instant(rotor):
+    if rotor.depends_on_instant:
         words = {"units": INSTANT.units[0], "long_name": INSTANT.words}
         variables[INSTANT.name] = plan.instants().reshape(starts.exists.shape), words
     # The starts of a rotor of several coordinates have one axis more.

@@ -20,7 +20,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.disturbances.coordinates import TURN, complex_of, displaced
-from carom.models import Rotor, depends_on_instant
+from carom.models import Rotor
 from carom.outcome import InputError
 
 UNBALANCE = "unbalance"
@@ -66,7 +66,7 @@ def by_size(model: Disturbance) -> bool:
 
 def family_of(rotor: Rotor, model: Disturbance) -> Family:
     """Family of starts through which a disturbance is searched."""
-    return replace(_by_size_and_direction(rotor, model), timed=depends_on_instant(rotor))
+    return replace(_by_size_and_direction(rotor, model), timed=rotor.depends_on_instant)
 
 
 def _by_size_and_direction(rotor: Rotor, model: Disturbance) -> Family:

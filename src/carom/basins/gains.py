@@ -22,7 +22,7 @@ from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts,
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
-from carom.models import Axis, Rotor, Subject, axis, depends_on_instant, rotor_of
+from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
@@ -221,7 +221,7 @@ def _smallest(present: Scales | None, rotor: Rotor, starts: Starts, outcomes: np
     if rotor.scales is not None and present is not None:
         speed *= rotor.scales.velocity / present.velocity
     found = {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
-    return found | ({"smallest_unrecovered_kick_instant": instant} if depends_on_instant(rotor) else {})
+    return found | ({"smallest_unrecovered_kick_instant": instant} if rotor.depends_on_instant else {})
 
 
 _SHARES = {

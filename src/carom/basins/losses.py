@@ -57,7 +57,7 @@ def smallest_loss(
 ) -> SmallestLoss:
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
-    Where the end depends on the instant of the turn at which a disturbance comes (:func:`carom.models.depends_on_instant`), all that is
+    Where the end depends on the instant of the turn at which a disturbance comes (:attr:`carom.models.Rotor.depends_on_instant`), all that is
     said here of directions holds of pairs of direction and instant.  All directions are scanned at increasing sizes between the proven harmless one (zero where nothing is proven, see
     :func:`~carom.closed_forms.harmless_kick`) and the largest, up to the first at which some
     are lost.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and

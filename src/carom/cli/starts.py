@@ -76,9 +76,8 @@ def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> f
     """Read the angle by which the shaft has turned at a disturbance, by default 0; refuse it where it says nothing."""
     if text is None:
         return 0.0
-    from carom.models import depends_on_instant
 
-    if not depends_on_instant(rotor):
+    if not rotor.depends_on_instant:
         allowed = "allowed only under weight, with limits of the magnetic bearings, or where bearings act differently in two directions"
         raise InputError(option, text, allowed)
     return _angle(option, text, rotor.scales)

@@ -183,7 +183,7 @@ class BaseShock(Disturbance):
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """State at the end of the pulse, which begins at the instant."""
         from carom.disturbances.shocks import states_after_shocks
-        from carom.models.stages import depends_on_instant, stages_of
+        from carom.models.stages import stages_of
 
         peaks, directions, begun = np.broadcast_arrays(*values, instant)
         if rotor.system.rest_radius >= 1.0:
@@ -193,7 +193,7 @@ class BaseShock(Disturbance):
         positions, velocities, ended, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
         )
-        begins = begun + self.duration if depends_on_instant(rotor) else np.zeros(peaks.shape)
+        begins = begun + self.duration if rotor.depends_on_instant else np.zeros(peaks.shape)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), ended, touched, begins)
 
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:

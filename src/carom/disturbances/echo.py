@@ -94,9 +94,7 @@ def _echo_of_kick(single: Single, rotor: Rotor) -> Echo:
 
 def echo_at(echo: Echo, rotor: Rotor, instant: float) -> Echo:
     """The same, with the instant of the turn where that matters."""
-    from carom.models import depends_on_instant  # only here: it loads kernels
-
-    if not depends_on_instant(rotor):
+    if not rotor.depends_on_instant:
         return echo
     words = f"{echo.words}; the shaft has turned by {told_angle(instant)} since the x axis that turns with it passed that of the room"
     return replace(echo, words=words, sizes={**echo.sizes, "instant": (instant, "")})
@@ -214,9 +212,7 @@ def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
 
 def instants_words(rotor: Rotor, plan: Plan | None = None) -> str:
     """At which instants of the turn disturbances come, where these matter, of a plan or of any sample; else nothing."""
-    from carom.models import depends_on_instant  # only here: it loads kernels
-
-    if not depends_on_instant(rotor):
+    if not rotor.depends_on_instant:
         return ""
     if isinstance(plan, Grid) and plan.instant is not None:
         return f"at the instant at which the shaft has turned by {told_angle(plan.instant)}"

@@ -99,7 +99,7 @@ class Disturbance:
             One array for each coordinate, broadcast against each other.
         instant : ndarray
             Angle by which the shaft has turned when the disturbance comes; asked for only of machines on which that matters
-            (:func:`carom.models.depends_on_instant`).
+            (:attr:`carom.models.Rotor.depends_on_instant`).
         """
         raise NotImplementedError
 
@@ -143,13 +143,13 @@ class Disturbance:
         InputError
             The rotor cannot levitate inside the wall before it, or its motion ends during it.
         """
-        from carom.models import depends_on_instant, rotor_of
+        from carom.models import rotor_of
         from carom.motions.starts import State
 
         rotor = rotor_of(machine)
         *own, begun = self.whole(values, instant)
         given = [np.array([each]) for each in own]
-        starts = self.starts_on(rotor, *given, *([np.array([begun])] if depends_on_instant(rotor) else []))
+        starts = self.starts_on(rotor, *given, *([np.array([begun])] if rotor.depends_on_instant else []))
         if not starts.exists[0]:
             radius = f"|U*| = {rotor.system.rest_radius:.6g}"
             raise InputError(
@@ -176,15 +176,11 @@ class Disturbance:
 
     def coordinates_on(self, rotor: Rotor) -> tuple[Coordinate, ...]:
         """Coordinates by which the disturbance varies on a machine: those of the model, and the instant where that matters."""
-        from carom.models import depends_on_instant
-
-        return (*self.coordinates, INSTANT) if depends_on_instant(rotor) else self.coordinates
+        return (*self.coordinates, INSTANT) if rotor.depends_on_instant else self.coordinates
 
     def starts_on(self, rotor: Rotor, *values: np.ndarray) -> Starts:
         """Starts of free motion by the coordinates on a machine."""
-        from carom.models import depends_on_instant
-
-        if not depends_on_instant(rotor):
+        if not rotor.depends_on_instant:
             return self.starts(rotor, *values)
         if "instant" not in signature(self.starts).parameters:
             allowed = "one whose starts take the instant, on a machine on which that matters (weight, limits, axes of bearings)"

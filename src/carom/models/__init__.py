@@ -47,7 +47,7 @@ from carom.models.race import Race
 from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
-from carom.models.stages import Stage, Trigger, depends_on_instant, in_stages
+from carom.models.stages import Stage, Trigger, in_stages
 from carom.models.subjects import Subject, case_of, exact_rotor_of, rotor_from, rotor_of
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
@@ -77,7 +77,6 @@ __all__ = [
     "Trigger",
     "axis",
     "case_of",
-    "depends_on_instant",
     "exact_rotor_of",
     "from_corotating_matrices",
     "from_matrices",

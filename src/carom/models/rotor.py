@@ -309,6 +309,11 @@ class Rotor(Result):
         """Whether it matters when a motion begins: something stands in the fixed frame, past which the unbalance turns."""
         return self.system.is_time_dependent
 
+    @property
+    def depends_on_instant(self) -> bool:
+        """Whether the end of a disturbance depends on the instant of the turn at which it comes: something stands in the fixed frame in any stage."""
+        return any(each.rotor.is_time_dependent for each in self.stages) if self.stages else self.is_time_dependent
+
     def under(self, *forces: Force) -> Rotor:
         """The rotor with further forces on it.
 

@@ -120,16 +120,6 @@ def in_stages(stages: Sequence[Stage]) -> Rotor:
     return replace(listed[0].rotor, stages=listed)
 
 
-@checked
-def depends_on_instant(rotor: Rotor) -> bool:
-    """Whether the end of a disturbance depends on the instant of the turn at which it comes: on where the unbalance then points.
-
-    So it does where something stands in the fixed frame in any stage: weight or another force, bearings that act differently in two
-    directions, limits of magnetic bearings along their axes.
-    """
-    return any(stage.rotor.system.is_time_dependent for stage in stages_of(rotor))
-
-
 def stages_of(rotor: Rotor) -> tuple[Stage, ...]:
     """Stages in which a rotor moves; of most there is one without an end."""
     return rotor.stages or (Stage(rotor),)

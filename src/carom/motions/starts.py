@@ -13,7 +13,7 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Rotor, Subject, System, depends_on_instant, rotor_of
+from carom.models import Rotor, Subject, System, rotor_of
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import own_size
@@ -132,7 +132,7 @@ class Kick:
             levitation_of(rotor)
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
-        instant = own_size("instant", self.instant, "angle", rotor.scales) if depends_on_instant(rotor) else 0.0
+        instant = own_size("instant", self.instant, "angle", rotor.scales) if rotor.depends_on_instant else 0.0
         kicked = rotor.system.kicked(push, instant)
         position, velocity = (values if len(values) > 1 else values[0] for values in kicked)
         return State.of(position, velocity, time=instant)

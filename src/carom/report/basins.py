@@ -8,7 +8,7 @@ from carom import plots
 from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.disturbances.echo import ITS_INSTANT
-from carom.models import Rotor, axis, depends_on_instant
+from carom.models import Rotor, axis
 from carom.parameters import in_terms_of
 from carom.studies import Study
 from carom.studies.kinds import Kind, required_kinds
@@ -45,7 +45,7 @@ def decisive(study: Study) -> Kind:
 def caption(study: Study) -> str:
     """What is to be seen."""
     words = _SEEN[decisive(study)]
-    return f"{words} Each comes {ITS_INSTANT}." if depends_on_instant(study.rotor) else words
+    return f"{words} Each comes {ITS_INSTANT}." if study.rotor.depends_on_instant else words
 
 
 def draw(study: Study) -> Figure:

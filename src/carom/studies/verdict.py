@@ -13,7 +13,6 @@ from typing import Literal
 
 from carom.basins import Share, SmallestLoss
 from carom.disturbances.echo import ANY_INSTANT
-from carom.models import depends_on_instant
 from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
@@ -107,7 +106,7 @@ def _required_words(study: StudyData) -> str:
 
 
 def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> str:
-    size, timed = study.wording.size_of(name), depends_on_instant(study.rotor)
+    size, timed = study.wording.size_of(name), study.rotor.depends_on_instant
     of = ""
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "

@@ -115,7 +115,7 @@ class BasinsTask:
         from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
         from carom.disturbances.following import NO_START, follow
-        from carom.models import depends_on_instant, rotor_of
+        from carom.models import rotor_of
 
         rotor = rotor_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
@@ -140,7 +140,7 @@ class BasinsTask:
         if kicks:
             smallest, direction, instant = min(kicks)
             found |= {"smallest_unrecovered_kick": smallest, "smallest_unrecovered_kick_angle": direction}
-            if depends_on_instant(rotor):
+            if rotor.depends_on_instant:
                 found["smallest_unrecovered_kick_instant"] = instant
             found |= in_si(found, rotor.scales, smallest_unrecovered_kick="velocity")
         return found

@@ -2,6 +2,7 @@
 
 =================  ==============================================================
 ``controls``       the parameters that can be moved, and what people type
+``levitation``     how it levitates: slowest whirls, whirl by unbalance, response over speed
 ``rest``           the motion that is disturbed
 ``planes``         the kinds of disturbances: kicks, shocks, losses of a blade
 ``kicks``          where they end, over which range, and two telling ones
@@ -13,7 +14,4 @@
 ``proofs``         which kicks are proven to come back
 ``exports``        the machine shown as a file, as options, as a program
 =================  ==============================================================
-
-Those of the planar rotor; of a flexible machine the same is in ``flexible_controls``, ``flexible_kicks``, ``flexible_motion`` and
-``flexible_exports``, and in ``flexible_levitation`` how it levitates.
 """

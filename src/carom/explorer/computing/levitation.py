@@ -179,7 +179,7 @@ def response_of(case: Case, progress: ShowProgress = None) -> ResponseCurves:
     tell = Reporter.of(progress, "response to unbalance")
     rotor = rotor_of(case)
     if why := _why_unheld(case):
-        raise InputError("levitation", why, "one of which every free motion fades: there is no response else")
+        raise InputError("machine", why, "one of which every free motion fades: there is no response else")
     found = unbalance_response(case)
     tell(0.5)
     loops = tuple(fact.text for fact in bearing_facts(levitating(case, rotor)))
