@@ -61,7 +61,7 @@ def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
     picture = page.evaluate(
         """() => new Promise((done) => {
           const slider = document.querySelector('[data-name="damping"] .slider');
-          const pale = () => [...document.querySelectorAll("[data-of]:not([data-of=hardest])")].map((card) => card.classList.contains("old"));
+          const pale = () => [...document.querySelectorAll("[data-of=motion], [data-of=beside], [data-of=figures], [data-of=table]")].map((card) => card.classList.contains("old"));
           slider.value = 560;
           slider.dispatchEvent(new Event("input"));
           const arrived = carom.controls.arrived;
@@ -73,8 +73,10 @@ def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
         })"""
     )
     assert picture == [said(page, "carom.number")] * 2 + [True] * 5
-    # The hardest impact is looked for when the slider is let go.
-    page.wait_for_function("() => document.querySelectorAll('[data-of]:not([data-of=hardest]).old').length === 0")
+    # The hardest impact and the response are looked for when the slider is let go.
+    page.wait_for_function(
+        "() => document.querySelectorAll('[data-of]:not([data-of=hardest], [data-of=response]).old').length === 0"
+    )
     value = said(page, "carom.controls.value('damping')")
     rotor = carom.models.jeffcott(carom.load(MACHINE, [f"damping={value} N s/m"]).parameters)
     names = said(

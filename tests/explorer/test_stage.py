@@ -79,7 +79,7 @@ def pull(page, share: float, *, done: bool = True) -> None:
 def test_the_smallest_lost_kick_is_a_ring_that_can_be_pulled(page):
     answered(page, "loss", said(page, "carom.number"))
     page.wait_for_function("() => carom.basin.ring === carom.begun.answers.loss.size")
-    expect(page.locator("#legend")).to_contain_text("smallest lost kick: 67.9 mm/s")
+    expect(page.locator("#legend")).to_contain_text("smallest kick that does not come back: 67.9 mm/s")
     expect(page.locator("#legend")).to_contain_text("must survive 100 mm/s")
     expect(page.locator("#ring-note")).to_contain_text("100 % of the kicks inside the ring come back")
     kicks = said(page, "carom.basin.kicks")
@@ -97,7 +97,7 @@ def test_the_smallest_lost_kick_is_a_ring_that_can_be_pulled(page):
     page.keyboard.press("-")
     page.wait_for_function("size => carom.basin.ring < size", arg=size)
     page.locator("#reset").click()
-    expect(page.locator("#legend")).to_contain_text("smallest lost kick: 67.9 mm/s")
+    expect(page.locator("#legend")).to_contain_text("smallest kick that does not come back: 67.9 mm/s")
 
 
 @pytest.mark.parametrize(("kind", "unit", "noun"), [("shock", "g", "shock"), ("blade-loss", "g mm", "loss")])
@@ -108,7 +108,7 @@ def test_shocks_and_losses_of_a_blade_have_a_range_of_their_own(page, kind, unit
         answered(page, answer, number)
     assert said(page, "[carom.basin.message.kind, carom.basin.message.unit]") == [kind, unit]
     expect(page.locator("#range-words")).to_contain_text(f" {unit}")
-    expect(page.locator("#lost-title")).to_have_text(f"smallest lost {noun}")
+    expect(page.locator("#lost-title")).to_have_text(f"smallest {noun} that does not come back")
     expect(page.locator("#lost")).to_contain_text(unit)
     expect(page.locator("#motion-words")).to_contain_text(f" {unit}")
     before = said(page, "carom.basin.message.largest")
