@@ -101,12 +101,13 @@ def test_bouncing_is_the_exact_orbit():
     assert ended.orbit.radial_speed == pytest.approx(orbit.radial_speed, abs=1e-9)
 
 
-def test_an_impact_at_one_plane_while_another_rubs_is_periodic_without_a_word():
+def test_an_impact_at_one_plane_while_another_rubs_is_an_orbit_of_the_flow():
     rotor, random = random_rotor(571, n=2, planes=2), np.random.default_rng(571)
     position, velocity = (random.normal(size=2) + 1j * random.normal(size=2) for _ in range(2))
     found = carom.find_attractors(rotor, [State(0.2 * position, velocity)], known=False)
     (member,) = found
-    assert (member.name, member.orbit) == ("1-impact bouncing with rub", None)
+    assert (member.name, member.orbit.stable) == ("1-impact bouncing with rub", True)
+    assert member.orbit.period == pytest.approx(member.period, rel=1e-7)
     motion = carom.simulate(rotor, member.state, 1.5 * member.period)
     positions, _ = motion.at(np.array([0.25, 0.25 + member.period]))
     assert positions[1] == pytest.approx(positions[0], abs=1e-6)  # far above the 1e-8 to which it recurred

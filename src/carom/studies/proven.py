@@ -29,7 +29,8 @@ _UNTOUCHED = (
 
 def proven_words(proof: Proof, scales: Scales | None = None) -> str:
     """What a proof has decided, and what it has not."""
-    facts = _facts_of_orbits(proof) if "machine orbits" in proof else _facts_of_levitation(proof, scales)
+    of_orbits = any(claim.name == "machine orbits" for claim in proof)
+    facts = _facts_of_orbits(proof) if of_orbits else _facts_of_levitation(proof, scales)
     told = "; ".join(filter(None, facts)) or "nothing"
     text = f"In ball arithmetic, for the numbers of the machine as doubles: {told}."
     undecided = proof.with_status("undecided")
