@@ -80,7 +80,7 @@ class OrbitSet(Members[Orbit]):
     @classmethod
     @checked
     def none(cls, rotor: Rotor) -> OrbitSet:
-        """No orbits, and none searched: of a rotor whose magnetic bearings have limits."""
+        """No orbits, and none searched: of a rotor whose motions never repeat."""
         return cls(rotor, (), 1, None, np.empty(0), 0.0, complete=False, slip_stays_forward=False)
 
     def rows(self) -> list[tuple[str, str]]:
@@ -101,8 +101,8 @@ class OrbitSet(Members[Orbit]):
         """Why no orbit is missing, in one sentence; or how much was searched, in a few."""
         if self.search is not None:
             return self.search.words
-        if self.rotor.system.limits:
-            return "Orbits were not searched: they are known for magnetic bearings without limits alone."
+        if self.rotor.system.why_not_stationary is not None:
+            return f"There are no orbits: with {self.rotor.system.why_not_stationary[0]} no motion repeats itself."
         count = len(self.periods)
         found = f"F1 has {count or 'no'} root{'' if count == 1 else 's'} for 0 < T ≤ {self.longest_period:.4g}/Ω"
         search = f"{found}, isolated by a bound of its second derivative"

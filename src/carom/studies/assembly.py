@@ -266,9 +266,9 @@ def _prove_states(asked: Asked, tell: Reporter) -> Proof:
 
 
 def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:
-    """Orbits with one impact a period; none of a rotor whose motions in contact repeat in no period that is known, or of several bearings."""
+    """Orbits with one impact a period; none of a rotor whose motions never repeat."""
     rotor = asked.rotor
-    if rotor.system.why_not_periodic is not None or rotor.finite_elements is not None:
+    if rotor.system.why_not_stationary is not None:
         return OrbitSet.none(rotor)
     return orbits_within_reach(rotor) if _is_known(asked) else find_orbits(rotor, impacts=1, guesses=GUESSES)
 

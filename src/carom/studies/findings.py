@@ -157,7 +157,7 @@ def _bouncing(study: StudyData) -> str:
         sentences.append(
             f"{counted(virtual, 'orbit')} {solve} the equations but not the contact law, and so cannot happen."
         )
-    if study.rotor.system.limits:
+    if study.rotor.system.why_not_stationary is not None:
         return orbits.argument
     if orbits.search is None and not orbits.longest_period:
         return f"Orbits with one impact a period were not searched for. {' '.join(sentences)}".rstrip()
