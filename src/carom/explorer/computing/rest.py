@@ -66,6 +66,8 @@ class Rest:
         Direction of a kick outward, a number of modulus one.
     translated : ndarray of complex, shape (n,)
         Coordinates that move with the rotor as a whole.
+    moving : complex or ndarray of complex, shape (n,)
+        Rates of the coordinates: in the frame of the shaft a rotor that hangs under its weight goes round.
     """
 
     words: str
@@ -74,6 +76,7 @@ class Rest:
     place: complex
     outward: complex
     translated: np.ndarray
+    moving: Any = 0.0
 
     def velocity(self, radial: float, tangential: float) -> complex:
         """Change of velocity by a kick, whose parts are in ``c_r Ω``."""
@@ -82,7 +85,7 @@ class Rest:
     def kicked(self, radial: float, tangential: float) -> State:
         """State just after a kick, whose parts are in ``c_r Ω``."""
         velocity = self.velocity(radial, tangential)
-        return State(self.position, velocity * self.translated if np.ndim(self.position) else velocity)
+        return State(self.position, self.moving + (velocity * self.translated if np.ndim(self.position) else velocity))
 
     def kicks(self, fastest: float) -> Disturbance:
         """All kicks up to a size in ``c_r Ω``."""
@@ -103,10 +106,10 @@ def rest_of(rotor: Rotor) -> Rest:
         It does not levitate in several touchdown bearings, in which no such motion is known.
     """
     system = rotor.system
-    rest, _ = system.kicked(0.0)
+    rest, moving = system.kicked(0.0)
     place = complex(system.planes[0] @ rest)
     if system.levitates:
-        return _rest(rotor, STEADY_WORDS["contact-free"], rest, place, outward_from(rotor))
+        return _rest(rotor, STEADY_WORDS["contact-free"], rest, place, outward_from(rotor), moving)
     if len(system.planes) > 1:
         raise CaromError(NONE)
     for found in _rubs(rotor):
@@ -117,10 +120,9 @@ def rest_of(rotor: Rotor) -> Rest:
     return _rest(rotor, "rest on the bearing", rest / abs(place), on_wall, on_wall)
 
 
-def _rest(rotor: Rotor, words: str, position: Any, place: complex, outward: complex) -> Rest:
-    position = np.asarray(position)
-    own = position if position.size > 1 else complex(position.reshape(()))
-    return Rest(words, rotor.system.levitates, own, place, outward, rotor.system.translated)
+def _rest(rotor: Rotor, words: str, position: Any, place: complex, outward: complex, moving: Any = 0.0) -> Rest:
+    own, rates = (each if np.size(each) > 1 else complex(np.reshape(each, ())) for each in (position, moving))
+    return Rest(words, rotor.system.levitates, own, place, outward, rotor.system.translated, rates)
 
 
 def _rubs(rotor: Rotor) -> tuple[Equilibrium, ...]:
