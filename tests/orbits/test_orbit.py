@@ -221,7 +221,9 @@ def test_orbits_of_a_rotor_with_two_coordinates_and_two_planes():
     closed = orbit_of_motion(beside)
     assert beside.multiplicity == 1
     assert closed is not None
-    assert same_orbit(closed, orbit)
+    assert closed.period == pytest.approx(orbit.period, rel=1e-9)
+    assert closed.radial_speed == pytest.approx(abs(orbit.radial_speed), rel=1e-8)
+    assert abs(closed.multipliers.values[0]) == pytest.approx(abs(orbit.multipliers.values[0]), rel=1e-6)
 
 
 def test_where_the_word_is_not_what_the_machine_does():
