@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from carom.arguments import Reals
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.extremes import Extremes, extremes_of
@@ -82,14 +83,18 @@ class SimulatedOrbit(Result):
         return self.start
 
     def plot(self, *args: Any, **options: Any) -> Any:
-        """Draw one period of it, as :func:`carom.plots.motion` draws any motion."""
-        return self.trajectory().plot(*args, **options)
+        """Draw one period of it in the touchdown bearing of its first event, as :func:`carom.plots.motion` draws any motion."""
+        return self.trajectory().seen_at(self.leading_plane).plot(*args, **options)
 
     def trajectory(self, periods: float = 1.0) -> Trajectory:
         """Follow it by simulation, from where its period begins."""
         from carom.motions.simulation import simulate
 
         return simulate(self.rotor, self.start, periods * self.period)
+
+    def path(self, times: Reals, plane: int) -> np.ndarray:
+        """Displacement at a contact plane, in its clearance and in the frame of the shaft, at times since the beginning of a period, in ``1/Ω``."""
+        return self.motion.seen_at(plane).at_plane(np.mod(times, self.period))[0]
 
     @cached_property
     def happenings(self) -> tuple[Happening, ...]:

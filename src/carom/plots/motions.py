@@ -160,9 +160,10 @@ def motion(
     long = trajectory.time - since > _LONG * turns * math.tau
     last = trajectory.time - turns * math.tau if long else since
     sides: tuple[tuple[Frame, Axes], ...] = (("rotating", frames[0]), ("fixed", frames[1]))
+    bearing = f"touchdown bearing {trajectory.plane + 1}" if len(trajectory.rotor.system.contacts) > 1 else ""
     for frame, drawn in sides:
         clearance_circle(drawn, wall=clearance(trajectory.scales))
-        label_frame(drawn, frame, trajectory.scales)
+        label_frame(drawn, frame, trajectory.scales, bearing)
         if long:
             _before(drawn, trajectory, frame, since, last, _FIRST * turns * math.tau)
         words = f"{LOOKS['path'].words}, last {counted(turns, 'turn')}" if long else LOOKS["path"].words
