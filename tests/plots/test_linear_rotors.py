@@ -49,7 +49,7 @@ def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
         (line,) = (line for line in drawn.lines if line.get_gid() == "path")
         assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-9)
         assert "touchdown bearing 2" in drawn.get_title()
-    carom.plots.radius(second)
+    carom.plots.radius(second.trajectory(3.0))
     both = carom.plots.equilibria_and_orbits(found, carom.find_equilibria(found.rotor), plane=1)
     assert "touchdown bearing 2" in both.axes[0].get_title()
     with pytest.raises(InputError, match="plane = 2"):
