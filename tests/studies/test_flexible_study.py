@@ -68,9 +68,9 @@ def test_forces_are_those_of_the_worst_motion(studied):
     assert max(each.document()["force_si"] for each in kicks.bearings) == pytest.approx(largest)
     for each in kicks.bearings:
         assert each.radius > 1.0 if each.contacts else each.radius < 1.0
-    assert studied.loads is not None
-    (check,) = studied.loads.checks
+    (check,) = kicks.checks
     assert check.limit == 300.0
+    assert check.value == pytest.approx(largest, rel=1e-6)
 
 
 def test_the_drop_stands_in_the_verdict_with_its_loads_whether_limits_are_stated_or_not(studied):

@@ -138,8 +138,8 @@ class StudyData(Result):
 
     @property
     def stable_orbits(self) -> tuple[Orbit, ...]:
-        """Orbits on which the machine can stay."""
-        return tuple(orbit for orbit in self.orbits if orbit.admissible and orbit.stable)
+        """Bouncing in which the machine can stay; a stable orbit without an impact is the rolling whirl."""
+        return tuple(orbit for orbit in self.orbits if orbit.admissible and orbit.stable and orbit.impacts)
 
     @property
     def ranges(self) -> tuple[MotionRange, ...]:
