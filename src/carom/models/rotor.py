@@ -89,7 +89,7 @@ class Rotor(Result):
 
     def _check_limits(self, given: Any) -> None:
         if isinstance(given, ControlLimit):
-            if self.planar is None or self.scales is None:
+            if self.definition.planar is None or self.scales is None:
                 raise InputError("rotor", shown(self.definition), "the planar rotor with mass, clearance and speed")
             if self.definition.pull:
                 allowed = (
