@@ -230,7 +230,7 @@ class Rotor(Result):
     @property
     def is_on_mount(self) -> bool:
         """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
-        bearing = None if self.planar is None else self.definition.bearing_at(0)
+        bearing = None if self.definition.planar is None else self.definition.bearing_at(0)
         return bearing is not None and bearing.mount_mass is not None
 
     @property

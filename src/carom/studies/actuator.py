@@ -77,7 +77,7 @@ class Centre(NamedTuple):
     @classmethod
     def along(cls, motion: Trajectory, times: np.ndarray) -> Centre:
         """At given times of a motion of the planar rotor; at an impact just after it."""
-        numbers: Any = motion.rotor.planar
+        numbers: Any = motion.rotor.definition.planar
         position, turning = motion.at(times)
         velocity = turning + 1j * position
         normal, friction = motion.forces(times)
