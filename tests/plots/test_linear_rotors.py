@@ -47,7 +47,7 @@ def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
     second = next(orbit for orbit in found if orbit.segments == "impact+@2")
     for drawn in second.plot().axes:
         (line,) = (line for line in drawn.lines if line.get_gid() == "path")
-        assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-9)
+        assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-12)
         assert "touchdown bearing 2" in drawn.get_title()
     carom.plots.radius(second.trajectory(3.0))
     both = carom.plots.equilibria_and_orbits(found, carom.find_equilibria(found.rotor), plane=1)
@@ -59,8 +59,8 @@ def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
 def test_an_orbit_of_a_tighter_bearing_touches_the_circle():
     found = carom.find_orbits(single(1).model, impacts=1, guesses=60)
     stable = next(orbit for orbit in found if orbit.stable)
-    assert stable.extremes.radius == pytest.approx(1.0, abs=1e-9)
+    assert stable.extremes.radius == pytest.approx(1.0, abs=1e-12)
     rotating, _ = stable.plot().axes
     (line,) = (line for line in rotating.lines if line.get_gid() == "path")
-    assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-9)
+    assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-12)
     found.plot()
