@@ -382,6 +382,8 @@ def test_study_of_a_dimensionless_file(carom, dimensionless):
     assert code == 0
     assert "synchronous rub below 0.37;" in " ".join(out.split())
     assert "N s/m" not in out
+    _, out, _ = carom("study", dimensionless, "--json")
+    assert 0.37001 in [round(each["value"], 5) for each in json.loads(out)["thresholds"]]
 
 
 def test_study_writes_a_report(carom, machine, tmp_path):
