@@ -27,13 +27,18 @@ PROGRAM = """
 import sys
 from types import SimpleNamespace
 from carom.cli import main
+from carom.explorer.computing.rest import rest_of
 from carom.explorer.page import questions
+from carom.models import rotor_of
 # A study takes seconds; it has tests of its own.  This is what it says of one of the examples.
-questions.judge = lambda case, tell: SimpleNamespace(
-    advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
-    lead="Came back each time from what it must survive, zone C: no guarantee, as disturbances are samples.",
-    survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
-)
+def judge(case, tell):
+    rest_of(rotor_of(case))  # refused where there is no levitation, as a study is
+    return SimpleNamespace(
+        advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
+        lead="Came back each time from what it must survive, zone C: no guarantee, as disturbances are samples.",
+        survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
+    )
+questions.judge = judge
 sys.exit(main(["explore", *sys.argv[1:]]))
 """
 DESK = {"width": 1280, "height": 900}
