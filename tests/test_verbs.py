@@ -57,13 +57,12 @@ def case_explored(machine):
 
 
 CALLS = {
-    "attractors.character_of": lambda m: cm.attractors.character_of(
+    "attractors.exponents_of": lambda m: cm.attractors.exponents_of(
         m, next(iter(cm.find_attractors(m, FEW, known=False)))
     ),
     "attractors.find_attractors": lambda m: cm.find_attractors(m, FEW, known=False),
     "attractors.follow_until_settled": lambda m: cm.attractors.follow_until_settled(m, settled(m), impacts=100),
     "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
-    "attractors.measure_lifetimes": lambda m: cm.attractors.measure_lifetimes(m, count=4, impacts=50),
     "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
     "basins.map_cells": lambda m: cm.basins.map_cells(m, KICKS),
     "basins.map_drops": lambda m: told(lambda: cm.basins.map_drops(m, shape=(2, 2))),
@@ -126,8 +125,7 @@ CALLS = {
 GENERAL = {
     "explorer.explore",
     "models.case_of",
-    "attractors.character_of",
-    "attractors.measure_lifetimes",
+    "attractors.exponents_of",
     "orbits.lyapunov_exponents",
     "attractors.find_attractors",
     "bifurcations.sample_attractors",

@@ -10,7 +10,7 @@ from heavy_rotors import LANDING, PARTING, RIGID, SIX, heavy, of_two_coordinates
 from scipy.optimize import brentq
 
 import carom as cm
-from carom.attractors import Attractor, character_of, find_attractors
+from carom.attractors import Attractor, exponents_of, find_attractors
 from carom.attractors.settled import settled_motion
 from carom.attractors.survival import follow_further
 from carom.models import Force, Rigid, jeffcott, rotor_of
@@ -34,9 +34,7 @@ def test_bouncing_is_closed_and_told_to_take_whole_turns(name, impacts, turns):
     assert bouncing.name.multiplicity == impacts
     assert bouncing.period == pytest.approx(math.tau * turns)
     assert bouncing.orbit.turns == turns
-    character = character_of(rotor, bouncing)
-    assert (character.kind, character.lasting) == ("periodic", "attractor")
-    assert character.exponents.across[0] < 0.0
+    assert exponents_of(rotor, bouncing).across[0] < 0.0
 
 
 @pytest.mark.parametrize(
@@ -64,7 +62,7 @@ def test_levitation_goes_round_once_a_turn():
     rotor = rotor_of(HEAVY)
     later = cm.simulate(rotor, levitation.state, math.tau).final
     assert later.position == pytest.approx(levitation.state.position, abs=1e-12)
-    assert character_of(HEAVY, levitation).kind == "equilibrium"
+    assert (exponents_of(HEAVY, levitation).values < 0.0).all()
 
 
 def test_rest_on_the_bearing_is_sliding_that_repeats_every_turn():
@@ -85,18 +83,13 @@ def test_rest_on_the_bearing_is_sliding_that_repeats_every_turn():
     assert np.ptp(np.angle(1j * fixed)) < 3.0 * rotor.value("rho")
 
 
-def test_a_bounce_that_does_not_keep_time_with_the_shaft_is_a_torus():
+def test_a_bounce_that_does_not_keep_time_with_the_shaft_neither_repeats_nor_separates():
     rotor = jeffcott(Parameters(0.15, 0.76, 3 / 7, 0.21, 0.15, 0.95, 400 / 7)).under(Force(-1j, np.array([-1e-3j])))
     bounce = cm.find_orbits(rotor.unforced)["B1,d"]
     found = find_attractors(rotor, [bounce.departure], known=False, patience=2000)
     (irregular,) = touched(found)
     assert irregular.name.irregular
-    character = character_of(rotor, irregular, 12_000)
-    assert character.kind == "torus"
-    # The section at the impact is a curve over the phase of the weight, on which a bounce goes ahead by its period.
-    share = bounce.period / math.tau % 1.0
-    assert character.rotation.number == pytest.approx(min(share, 1.0 - share), abs=1e-4)
-    assert character.exponents.across[0] == pytest.approx(0.0, abs=3e-3)
+    assert exponents_of(rotor, irregular, 12_000).across[0] == pytest.approx(0.0, abs=3e-3)
 
 
 def test_motions_are_followed_further_under_weight_that_points_as_it_does_there():

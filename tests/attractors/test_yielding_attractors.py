@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.attractors import character_of
+from carom.attractors import exponents_of
 from carom.attractors.settled import settled_motion
 from carom.disturbances import Grid, StateSlice
 from carom.models import KelvinVoigt
@@ -30,9 +30,7 @@ def test_bouncing_is_the_orbit_with_its_impulse_and_peak_force(found):
     assert attractor.largest_impulse == pytest.approx(orbit.impulse, rel=1e-6)
     forces = orbit.trajectory().forces(np.linspace(0.0, orbit.period, 40_001))[0]
     assert attractor.largest_force == pytest.approx(forces.max(), rel=1e-4)
-    character = character_of(VOIGT.model, attractor)
-    assert character.kind == "periodic"
-    assert (np.sort(character.rates)[:-1] < 0.0).all()
+    assert exponents_of(VOIGT.model, attractor).across[0] < 0.0
 
 
 def test_the_rub_is_that_of_the_closed_form(found):
@@ -40,7 +38,7 @@ def test_the_rub_is_that_of_the_closed_form(found):
     (rub,) = (rub for rub in cm.find_equilibria(VOIGT.model)[1:] if rub.stable)
     assert abs(attractor.state.position - rub.position) < 1e-6
     assert attractor.largest_force == pytest.approx(rub.normal_force, rel=1e-5)
-    assert character_of(VOIGT.model, attractor).rates == pytest.approx(np.sort(rub.eigenvalues.real)[::-1])
+    assert exponents_of(VOIGT.model, attractor).values == pytest.approx(np.sort(rub.eigenvalues.real)[::-1])
 
 
 def test_rolling_in_the_wall_takes_the_time_of_its_turn():

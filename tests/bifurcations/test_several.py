@@ -42,7 +42,7 @@ def test_the_branch_born_in_the_period_doubling_is_there_once():
 
 
 def test_the_family_of_three_impacts_that_is_stable_beside_that_of_one():
-    """Between the ends that the page on the loss of bouncing has from motions that settled on it; started at once, few do."""
+    """Between ends known from motions that settled on it; started at once, few do."""
     found = find_bifurcations(PAPER, "gamma", (0.0875, 0.093), impacts=3)
     (family,) = [branch for branch in found.several if branch.stable.any()]
     ends = {point.kind: point for point in found.points if point.name == family.name}

@@ -5,22 +5,19 @@
 ``following``   starts followed until they settle
 ``intervals``   :func:`exact_interval`: what a sample says of a probability
 ``survival``    :class:`Survival`: how long irregular motion lasts
-``lifetimes``   :func:`measure_lifetimes`: after how many impacts motions stop bouncing; transient, or not seen to end
 ``settled``     what a settled motion repeats, and whether two repeat the same
 ``names``       :class:`MotionName`: what a motion is called
 ``naming``      the motions on which starts end, by name
 ``groups``      :class:`Attractor`: motions that have settled to the same one
-``regularity``  how fast weighted averages of a sequence converge, and its rotation number
-``characters``  :func:`character_of`: rest, rub, periodic, torus or chaotic
+``exponents``   :func:`exponents_of`: how fast disturbed motions return to it, or separate on it
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
 ==============  =======================================================================================================
 """
 
-from carom.attractors.characters import Character, character_of
+from carom.attractors.exponents import exponents_of
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
 from carom.attractors.intervals import exact_interval
-from carom.attractors.lifetimes import Lifetimes, measure_lifetimes
 from carom.attractors.names import MotionName
 from carom.attractors.search import AttractorSet, find_attractors
 from carom.attractors.starts import DisturbanceSet, Start, known_starts
@@ -29,18 +26,15 @@ from carom.attractors.survival import Survival, document_of, follow_until_settle
 __all__ = [
     "Attractor",
     "AttractorSet",
-    "Character",
     "DisturbanceSet",
     "Ending",
-    "Lifetimes",
     "MotionName",
     "Start",
     "Survival",
-    "character_of",
     "document_of",
     "exact_interval",
+    "exponents_of",
     "find_attractors",
     "follow_until_settled",
     "known_starts",
-    "measure_lifetimes",
 ]

@@ -8,8 +8,6 @@
 ``losses``              the smallest kicks, shocks, losses of a blade and releases that are lost
 ``families``            kinds of disturbances by size and direction, as searches for losses take them
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
-``integrity_measures``  the largest ball of starts that all come back
-``entropy``             basin entropy and boundary basin entropy
 ``maps``                maps over two numbers of any measure: the next two
 ``gains``               these measures against two parameters: gain maps
 ``drops``               how drops end and what the bearing bears, against two numbers
@@ -22,25 +20,19 @@ from carom.basins.brackets import SmallestLoss
 from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.drops import DropMap, map_drops
-from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
-from carom.basins.integrity_measures import Integrity, integrity
 from carom.basins.losses import smallest_loss
 from carom.basins.shares import Population, Share, share_of_kicks
 
 __all__ = [
     "Basin",
-    "BasinEntropy",
     "Cells",
     "DropMap",
     "GainChange",
     "GainMap",
-    "Integrity",
     "Population",
     "Share",
     "SmallestLoss",
-    "basin_entropy",
-    "integrity",
     "least_gain_change",
     "map_basins",
     "map_cells",

@@ -16,15 +16,13 @@ from carom.basins.brackets import SmallestLoss
 from carom.basins.changes import WANTED, GainChange
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
-from carom.basins.entropy import basin_entropy
 from carom.basins.families import size_coordinate
 from carom.basins.gains import GainMap
-from carom.basins.integrity_measures import integrity
 from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
 from carom.disturbances import BaseShock, BladeLoss, Sample
 from carom.disturbances.echo import plan_words
-from carom.outcome import InputError, Outcome
+from carom.outcome import Outcome
 from carom.parameters import Case, in_terms_of
 from carom.parameters.scaling import SCALING
 from carom.results import fields_of, in_si
@@ -54,8 +52,6 @@ def basin_document(
         "share": basin.share_recovered.document,
         "touching": int(basin.touched.sum()),
         "touching_recovered": int((basin.touched & basin.recovered).sum()),
-        "integrity": _integrity(basin),
-        "basin_entropy": _entropy(basin),
         **basin.rotor.document(),
         "disturbances": {
             **json.loads(attributes["disturbances"]),
@@ -110,22 +106,6 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
 def _share(share: Share) -> dict[str, Any]:
     method = "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area"
     return fields_of(share, "fraction", "count", "low", "high") | {"method": method}
-
-
-def _integrity(basin: Basin) -> dict[str, Any] | None:
-    try:
-        found = integrity(basin)
-    except InputError:
-        return None
-    return fields_of(found, "local", "largest", "whole")
-
-
-def _entropy(basin: Basin) -> dict[str, Any] | None:
-    try:
-        found = basin_entropy(basin)
-    except InputError:
-        return None
-    return fields_of(found, "whole", "boundary", "side", "fractal")
 
 
 def _terms(gains: GainMap, change: GainChange | None, case: Case) -> list[dict[str, Any]]:

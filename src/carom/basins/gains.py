@@ -13,12 +13,10 @@ import numpy as np
 
 from carom.arguments import Count, Whole, checked
 from carom.basins.dataset import Mapped, provenance
-from carom.basins.entropy import entropies, usual_side
-from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
 from carom.basins.maps import Measure, OverPlane, Several, Told, map_over
 from carom.basins.shares import Population, Share
-from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
+from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
@@ -49,9 +47,7 @@ class GainMap(OverPlane, Mapped):
     dataset : xarray.Dataset
         Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back, by area) with ``recovered_low``
         and ``recovered_high`` (95 % confidence interval of a sample; each machine draws its own), ``unresolved``, ``levitates`` (whether there is
-        levitation to return to: inside the wall, and stable), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost,
-        as a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a
-        grid).  For kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
+        levitation to return to: inside the wall, and stable).  For kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
         ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back; and where the instant of the turn matters
         ``smallest_unrecovered_kick_instant`` (rad by which the shaft has turned).
     """
@@ -192,27 +188,17 @@ def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None, at: str)
     if not exists.any():
         population = Population.of_model(plan.model, present, at)
         none = Share(0.0, 0.0, 0.0, 0, plan.count, isinstance(plan, Sample), population)
-        nothing = dict.fromkeys(_SHARES, 0.0) | {"share": none}
-        return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
+        return dict.fromkeys(_SHARES, 0.0) | {"share": none}
     share = Share.over(plan, back, exists, present, at=at)
     given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, present)
-    measures: dict[str, Any] = {
+    return {
         "recovered": share.fraction,
         "recovered_low": share.low,
         "recovered_high": share.high,
         "unresolved": given_up.fraction,
         "levitates": 1.0,
         "share": share,
-        **dict.fromkeys(("integrity", "basin_entropy", "boundary_basin_entropy"), math.nan),
     }
-    if isinstance(plan, Grid):
-        if isinstance(plan.model, VelocityKick | BaseShock):
-            size = plan.model.coordinates[0]
-            measures["integrity"] = safe_size(size, exists & ~back) / size.high
-        if min(plan.shape) >= usual_side(len(plan.shape)):
-            entropy = entropies(outcomes, plan.weights())
-            measures |= {"basin_entropy": entropy.whole, "boundary_basin_entropy": entropy.boundary}
-    return measures
 
 
 def _smallest(present: Scales | None, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
@@ -230,9 +216,6 @@ _SHARES = {
     "recovered_high": Told("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
     "unresolved": Told("1", "share given up, or gone beyond the model, before it was known where it ends"),
     "levitates": Told("1", "1 where the rotor levitates without contact and no motion about that grows, else 0"),
-    "integrity": Told("1", "size up to which no disturbance is lost, as a fraction of the largest one"),
-    "basin_entropy": Told("1", "basin entropy of the outcomes"),
-    "boundary_basin_entropy": Told("1", "boundary basin entropy of the outcomes"),
 }
 _KICKS = {
     "smallest_unrecovered_kick": Told(

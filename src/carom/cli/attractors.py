@@ -1,4 +1,4 @@
-"""``carom attractors``: the motions on which disturbances end, and what kind of motion each is."""
+"""``carom attractors``: the motions on which disturbances end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output,
 from carom.outcome import IRREGULAR_BOUNCING
 
 if TYPE_CHECKING:
-    from carom.attractors import Attractor, AttractorSet, Character
+    from carom.attractors import Attractor, AttractorSet
+    from carom.orbits import LyapunovExponents
     from carom.parameters import Case
 
 
@@ -28,9 +29,9 @@ def attractors(
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
-    """List the motions on which disturbances end: rest, rub, periodic orbits, tori and chaos.
+    """List the motions on which disturbances end: rest, rub, periodic orbits and irregular bouncing.
 
-    Each kind comes with its evidence.  Irregular bouncing is followed further to measure how long it lasts: it may be a
+    Irregular bouncing is followed further to measure how long it lasts: it may be a
     transient.  A sample of disturbances proves nothing about motions that none of them reaches.
     """
     from carom.loading import load
@@ -38,14 +39,14 @@ def attractors(
     case = load(machine, settings or ())
     check_output(out)
     with progress("attractors (the kernels are compiled on first use)") as tell:
-        from carom.attractors import character_of, find_attractors
+        from carom.attractors import exponents_of, find_attractors
         from carom.models import rotor_of
         from carom.studies.document import attractors_document
 
         fastest = case.requirement.own(case.parameters.scales).kick
         found = find_attractors(case, count=starts, seed=seed, fastest=fastest, progress=tell)
-        characters = [character_of(case, entry) for entry in found]
-        document = attractors_document(rotor_of(case), found, characters, exponents) if as_json or out else {}
+        known = [exponents_of(case, entry) for entry in found]
+        document = attractors_document(rotor_of(case), found, known if exponents else None) if as_json or out else {}
         if out is not None:
             with output_directory(out, case) as output:
                 output.figure("attractors", found.plot())
@@ -53,57 +54,58 @@ def attractors(
     if as_json:
         print_document(document)
     else:
-        _print(case, found, characters, exponents)
+        _print(case, found, known, exponents)
     say_where(out)
 
 
-def _print(case: Case, found: AttractorSet, characters: list[Character], exponents: bool) -> None:
-    """Print a table of the attractors, and the evidence below it."""
+def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None], exponents: bool) -> None:
+    """Print a table of the attractors, and what the rotor does on each below it."""
     from carom.basins import share_of_kicks
     from carom.cli.fitting import fitted, plain_table
 
     screen = console()
-    columns = ("motion", "kind", "lasting", "disturbances", "impacts", "period", "largest exponent")
-    table = plain_table("Motions on which disturbances end", *columns, right=columns[3:], no_wrap=columns[3:])
-    for entry, character in zip(found, characters, strict=True):
-        table.add_row(
-            entry.name.words, character.kind, character.lasting, *_numbers(entry, character, len(found.disturbances))
-        )
+    columns = ("motion", "lasting", "disturbances", "impacts", "period", "largest exponent")
+    table = plain_table("Motions on which disturbances end", *columns, right=columns[2:], no_wrap=columns[2:])
+    for entry, measured in zip(found, known, strict=True):
+        table.add_row(entry.name.words, _lasting(entry), *_numbers(entry, measured, len(found.disturbances)))
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
     screen.print(fitted(screen, table))
     if share := share_of_kicks(found):
         screen.print(f"{share.words}.")
-    for entry, character in zip(found, characters, strict=True):
-        survival = f" {entry.survival.words[0].upper()}{entry.survival.words[1:]}." if entry.survival else ""
-        screen.print(f"{entry.name.words}: {character.words}{survival}")
+    for entry in found:
+        screen.print(f"{entry.name.words}: {entry.words}")
     if found.transient:
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()} of some disturbances ended: {found.transient.words}.")
     if exponents:
         screen.print()
-        screen.print(fitted(screen, _exponents(found, characters)))
+        screen.print(fitted(screen, _exponents(found, known)))
         screen.print("In Omega, +- standard errors; -inf: contact takes the direction away.")
     screen.print()
     screen.print(found.argument)
 
 
-def _numbers(entry: Attractor, character: Character, total: int) -> tuple[str, ...]:
+def _lasting(entry: Attractor) -> str:
+    """Whether motions stay on it; irregular bouncing is never called an attractor."""
+    if entry.survival is not None:
+        return entry.survival.verdict
+    return "undecided" if entry.name.irregular or not entry.name.outcome.settled else "attractor"
+
+
+def _numbers(entry: Attractor, exponents: LyapunovExponents | None, total: int) -> tuple[str, ...]:
     """Share of all disturbances, impacts, period and largest exponent across the motion, as text."""
     from carom.attractors import exact_interval
 
     low, high = exact_interval(entry.count, total) if total else (0.0, 1.0)
-    period = character.orbit.period if character.orbit else entry.period
     largest = "-"
-    if character.exponents is not None:
-        value, error = character.exponents.across
+    if exponents is not None:
+        value, error = exponents.across
         largest = f"{value:.3g}" + (f" +- {error:.1g}" if error else "")
-    elif character.rates is not None:
-        largest = f"{character.rates[0]:.3g}"
-    impacts = character.orbit.impacts if character.orbit else entry.name.multiplicity
+    impacts = entry.orbit.impacts if entry.orbit else entry.name.multiplicity
     return (
         f"{100.0 * entry.share_of_disturbances:.3g} % ({_end(low)} to {_end(high)})",
         str(impacts) if impacts else "-",
-        f"{period:.6g}" if period else "-",
+        f"{entry.period:.6g}" if entry.period else "-",
         largest,
     )
 
@@ -113,21 +115,18 @@ def _end(share: float) -> str:
     return f"{100.0 * share:.{2 if share < 0.995 else 3}g}"
 
 
-def _exponents(found: AttractorSet, characters: list[Character]):  # type: ignore[no-untyped-def]
+def _exponents(found: AttractorSet, known: list[LyapunovExponents | None]):  # type: ignore[no-untyped-def]
     """Table of all exponents."""
     from carom.cli.fitting import plain_table
 
     table = plain_table("Lyapunov exponents", "motion", "exponents", "impacts measured", right=("impacts measured",))
-    for entry, character in zip(found, characters, strict=True):
-        measured, rates = character.exponents, character.rates
+    for entry, measured in zip(found, known, strict=True):
         if measured is not None:
             pairs = zip(measured.values, measured.errors, strict=True)
             told = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
             table.add_row(
                 entry.name.words, ", ".join(told), f"{measured.impacts:,}" if measured.errors.any() else "exact"
             )
-        elif rates is not None:
-            table.add_row(entry.name.words, ", ".join(f"{value:.6g}" for value in rates), "linearised")
         else:
             table.add_row(entry.name.words, "not known", "-")
     return table

@@ -7,13 +7,13 @@ import math
 import numpy as np
 from rich.console import Console
 
-from carom.basins import Basin, GainChange, GainMap, SmallestLoss, basin_entropy, integrity
+from carom.basins import Basin, GainChange, GainMap, SmallestLoss
 from carom.basins.families import has_sizes, size_coordinate
 from carom.basins.shares import starts_enough
 from carom.cli.fitting import fitted, plain_table
 from carom.disturbances import Coordinate
 from carom.disturbances.echo import plan_words
-from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
+from carom.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.parameters import Case, InTerms, Scales, in_terms_of
 
 
@@ -46,7 +46,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         )
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
-    for line in (*_losses(basin, smallest, harmless), *_measures(basin)):
+    for line in _losses(basin, smallest, harmless):
         screen.print(line)
 
 
@@ -184,28 +184,6 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
         "" if smallest.instant is None else f" when the shaft has turned by {math.degrees(smallest.instant):.0f} deg"
     )
     return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side){turned}"
-
-
-def _measures(basin: Basin) -> list[str]:
-    lines = []
-    try:
-        found = integrity(basin)
-    except InputError:
-        pass
-    else:
-        reach = _size(basin.coordinates[0], found.local * found.whole, basin.scales)
-        text = f"Integrity: all disturbances tried up to {reach} come back, {100 * found.local:.4g} % of the largest radius tried"
-        more = f"; the largest ball anywhere {100 * found.largest:.4g} %" if math.isfinite(found.largest) else ""
-        lines.append(f"{text}{more}.")
-    try:
-        entropy = basin_entropy(basin)
-    except InputError:
-        return lines
-    if entropy.boxes:
-        boundary = f"{entropy.boundary:.4g} at boundaries" if entropy.mixed else "no boundary"
-        kind = "; above ln 2, which suggests a fractal boundary" if entropy.fractal else ""
-        lines.append(f"Basin entropy: {entropy.whole:.4g}, {boundary} (boxes of {entropy.side} starts a side{kind}).")
-    return lines
 
 
 def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: int = 4) -> str:

@@ -84,8 +84,7 @@ class LyapunovExponents(Result):
     @property
     def across(self) -> tuple[float, float]:
         """Largest exponent of disturbances across the motion, in ``Ω``, and its standard error."""
-        place = int(np.argmax(self.values == self.along))
-        largest = 1 if place == 0 else 0
+        largest = int(self.values[0] == self.along)
         return float(self.values[largest]), float(self.errors[largest])
 
     @property

@@ -33,9 +33,6 @@ _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their line styles."""
 _MEASURES = {
     "recovered": ("share of the disturbances that comes back", True),
-    "integrity": ("largest size of which none is lost, of the largest tried", True),
-    "basin_entropy": ("basin entropy of the outcomes", False),
-    "boundary_basin_entropy": ("boundary basin entropy of the outcomes", False),
     "smallest_unrecovered_kick": ("smallest kick tried that does not come back", False),
 }
 """Measures that shades can show: their words, and whether they are shares."""
@@ -43,15 +40,6 @@ _HALF = 50
 """Number of characters of an entry of the legend that fit in half of the width."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 """What stiffness and damping are called; an entry of a machine's file that states them has its own name."""
-_JUDGED_BY = MappingProxyType({"boundary_basin_entropy": "basin_entropy", "smallest_unrecovered_kick": "recovered"})
-"""Measures that may have no value at some machines; for each, the measure that shows whether it was computed."""
-_NONE = MappingProxyType(
-    {
-        "boundary_basin_entropy": "one outcome only: no boundary",
-        "smallest_unrecovered_kick": "every kick tried comes back",
-    }
-)
-"""Why such a measure has no value at a machine that levitates."""
 
 
 @checked
@@ -73,7 +61,7 @@ def gain_map(
     ----------
     change : carom.basins.GainChange, optional
         Least change that reaches a wanted share, to be drawn as an arrow.
-    measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy", "smallest_unrecovered_kick"}
+    measure : {"recovered", "smallest_unrecovered_kick"}
         The measure that the shades show; contours always show the share that comes back.
     told_by : Case, optional
         A machine in whose terms and units both parameters are told: ``derivative_gain`` in A s/m where its file has that.
@@ -83,7 +71,7 @@ def gain_map(
     InputError
         There is no such measure, or it is not defined for the disturbances of the map.
     """
-    known = _known(found)
+    known = [name for name in _MEASURES if name in found.dataset]
     if measure not in known:
         raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
@@ -102,7 +90,7 @@ def gain_map(
     _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), bar, _MEASURES[measure][1])
     here = told[0].of(found.present[0]), told[1].of(found.present[1])
     blank = {"no-levitation": grounded, "none": np.ma.getmaskarray(values) & ~grounded}
-    words = {"none": _NONE.get(measure, "")}
+    words = {"none": "every kick tried comes back"}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
         words["no-levitation"] = "no levitation (in the middle of the cell)"
@@ -122,16 +110,6 @@ def gain_map(
     wide = max(len(str(handle.get_label())) for handle in handles) > _HALF
     figure.legend(handles=handles, loc="outside lower center", ncols=1 if wide else 2)
     return figure
-
-
-def _known(found: GainMap) -> list[str]:
-    """Return the measures that are defined for the disturbances of a map: some need a grid of them."""
-    levitates = found.dataset["levitates"].values > 0.0
-    return [
-        name
-        for name in _MEASURES
-        if name in found.dataset and np.isfinite(found.dataset[_JUDGED_BY.get(name, name)].values[levitates]).all()
-    ]
 
 
 def _shades(

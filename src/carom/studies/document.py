@@ -12,13 +12,14 @@ from importlib.metadata import version
 from typing import Any
 
 from carom.arguments import checked
-from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
+from carom.attractors import Attractor, AttractorSet, document_of, exact_interval
 from carom.basins import share_of_kicks
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
 from carom.models import Rotor, Span, jeffcott
+from carom.orbits.exponents import LyapunovExponents
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
@@ -102,17 +103,13 @@ def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
 
 
 def attractors_document(
-    rotor: Rotor, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
+    rotor: Rotor, found: AttractorSet, exponents: Sequence[LyapunovExponents | None] | None = None
 ) -> dict[str, Any]:
-    """Return the document of attractors, with one character for each member of ``found``.
-
-    ``exponents`` says whether to list the Lyapunov exponents.
-    """
+    """Return the document of attractors, with the Lyapunov exponents of each member of ``found`` where they are given."""
     total, share = len(found.disturbances), share_of_kicks(found)
-    entries = [
-        _characterized(entry, total, character) | ({"exponents": _exponents(character)} if exponents else {})
-        for entry, character in zip(found, characters, strict=True)
-    ]
+    entries = [_attractor(entry, total) for entry in found]
+    for entry, known in zip(entries, exponents or (), strict=False):
+        entry["exponents"] = None if known is None else record(known, EXPONENTS)
     return {
         **rotor.document(),
         "attractors": entries,
@@ -126,30 +123,21 @@ def attractors_document(
     }
 
 
-def _characterized(entry: Attractor, total: int, character: Character) -> dict[str, Any]:
-    orbit, rotation = character.orbit, character.rotation
+EXPONENTS = "per_time=values per_impact error_per_time=errors error_per_impact lost"
+
+
+def _attractor(entry: Attractor, total: int) -> dict[str, Any]:
+    orbit, lasts = entry.orbit, entry.survival
     return {
         **record(entry, "outcome=name.outcome.label name count known_starts=known"),
-        **record(character, "kind words lasting"),
+        "words": entry.words,
         "word": str(orbit.word) if orbit else None,
         **({"turns": orbit.turns} if orbit and orbit.turns is not None else {}),
         "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
         "period": orbit.period if orbit else entry.period,
         "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
-        **(document_of(entry.survival) | {"transient": character.lasting == "transient"}),
-        "rotation_number": rotation.number if rotation and character.kind == "torus" else None,
+        **(document_of(lasts) | {"transient": lasts is not None and lasts.verdict == "transient"}),
     }
-
-
-def _exponents(character: Character) -> dict[str, Any] | None:
-    """Exponents with their errors; ``None`` where they are not known."""
-    found, rates = character.exponents, character.rates
-    if found is not None:
-        return record(found, "per_time=values per_impact error_per_time=errors error_per_impact lost")
-    if rates is None:
-        return None
-    still = {"error_per_time": [0.0] * len(rates), "per_impact": None, "error_per_impact": None}
-    return {"per_time": rates.tolist(), **still}
 
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:

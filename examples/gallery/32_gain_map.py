@@ -1,5 +1,5 @@
 """
-33. Which gains bring back more
+32. Which gains bring back more
 ===============================
 
 The share of kicks that comes back, over stiffness (P gain) and damping (D gain).  The arrow is the least change found that brings back

@@ -1,5 +1,5 @@
 """
-36. Rubs at two bearings at once
+35. Rubs at two bearings at once
 ================================
 
 The same rotor may rub at one bearing or at both.  At up to two planes all equilibria are found.
