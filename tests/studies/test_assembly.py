@@ -10,7 +10,6 @@ import pytest
 from studies import study_once
 
 from carom.files import as_json
-from carom.loading import load
 from carom.outcome import InputError, Outcome
 from carom.parameters import Case, Machine, Parameters, Requirement, Scales, Zones
 from carom.studies import NOT_COVERED, study
@@ -228,16 +227,6 @@ def test_undamped_machine_says_what_was_not_searched():
     assert "was not searched" in finding(result, "What would change it")
 
 
-def test_boundary_sentences_name_the_nearest_loss(real):
-    text = finding(real, "Levitation")
-
-    assert "damping falls to 671 N s/m or stiffness rises to 1,017,000 N/m" in text
-    assert "2,376,000" not in text
-
-
-# ------------------------------------------------------------------------------------------------ tables
-
-
 def test_tables_hold_every_motion(real):
     names = [row.name for row in motion_rows(real)]
 
@@ -248,11 +237,10 @@ def test_tables_hold_every_motion(real):
     assert sum(shares) == len(real.attractors.disturbances)
 
 
-def test_ranges_end_with_recovery_and_advice(real):
-    back, advised = range_rows(real)[-2:]
+def test_ranges_end_with_recovery(real):
+    back = range_rows(real)[-1]
     ends = ("from 3,408 N s/m to 5,600 N s/m (", "from 2,376,000 N/m to 3,920,000 N/m (")
     assert all(told.startswith(words) for told, words in zip(back[1:], ends, strict=True))
-    assert "where all of 10,000 fresh disturbances of up to 166 mm/s, and 96 at their largest, came back" in advised[2]
 
 
 def test_dimensionless_case_has_no_machine_table():
@@ -324,19 +312,6 @@ def test_json_has_the_stable_keys(real):
     assert document["verdict"]["level"] == real.verdict.level
 
 
-def test_the_machine_is_shown_with_what_it_was_given_by():
-    case = load("examples/keogh-cole.toml", ["unbalance=100 g mm", "force_current_factor=100 N/A", "gamma=0.1"])
-
-    rows = {row.words: (row.value, row.given) for row in machine_rows(case)}
-
-    assert rows["eccentricity of the unbalance"] == ("2 µm", "unbalance = 100 g mm, mass = 50 kg")
-    assert rows["damping of the levitation"] == ("921 N s/m", "gamma = 0.1")
-    assert rows["rotor mass"] == ("50 kg", "50 kg")
-    assert rows["number of equal bearings"] == ("1", "not given")
-    assert rows["derivative gain, current over velocity"] == ("9.21 A s/m", "from the damping")
-    assert case.machine.given_texts["eccentricity"] == {"unbalance": "100 g mm", "mass": "50 kg"}
-
-
 def test_json_values_are_those_of_the_study(real):
     document = strict(as_json(real.to_dict()))
     orbit = real.orbits["B1,d"]
@@ -399,18 +374,3 @@ def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
 
     assert all(check.value <= 1e3 for entry in result.recoveries for check in entry.checks)
     assert result.levitates
-
-
-def test_starts_elsewhere_that_are_lost_are_told_apart():
-    """Rolling takes 1 in 500 fast disturbances of this machine, none of the 200 that are listed, and no kick."""
-    machine = Parameters(
-        gamma=0.4, omega=0.557251, rho=0.137942, phi=-0.797449, mu=0.472273, d=0.363411, radius_ratio=1.882414
-    )
-    result = study(machine, requirement=Requirement(kick=2.0))
-
-    (kicks,), elsewhere = result.present.returned, result.elsewhere
-    assert kicks.count == kicks.total
-    assert elsewhere.total - elsewhere.count > 0
-    assert f"{elsewhere.count:,} of {elsewhere.total:,} starts spread over the clearance" in result.verdict.headline
-    assert "starts" not in result.verdict.lead
-    assert result.recommendation.kind == "no-change-needed"

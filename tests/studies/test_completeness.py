@@ -13,9 +13,9 @@ from carom.studies.findings import _bouncing
 @pytest.mark.parametrize(
     ("radius_ratio", "longest", "words"),
     [
-        (400 / 7, None, "bounds exclude any other orbit with one impact a period"),
-        (0.5, None, "orbits whose impacts stop it"),
-        (400 / 7, 5.0, "there may be more such orbits"),
+        (400 / 7, None, "bounds exclude any other"),
+        (0.5, None, "but for those whose impacts stop the slip"),
+        (400 / 7, 5.0, "there may be more"),
     ],
 )
 def test_completeness_is_claimed_only_where_it_is_proven(radius_ratio, longest, words):

@@ -93,10 +93,6 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         holding=_holding(study),
         left_out=sum(not orbit.admissible for orbit in study.orbits),
         ranges=range_rows(study),
-        own=[
-            (study.wording.name(name), study.wording.value(name, study.case.parameters.value(name)))
-            for name in (found.along.name for found in study.recoveries)
-        ],
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
         figures=figures,
         not_covered=not_covered(study),

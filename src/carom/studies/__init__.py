@@ -12,7 +12,6 @@ Read them in this order.
 ``kinds``                the kinds of disturbances that a machine may have to survive
 ``survives``             the sizes of kicks, shocks and losses of a blade up to which none is lost
 ``advice``               the least change that leaves only recovery, in the user's terms and within limits
-``rigid_limit``          whether the rigid wall is good enough
 ``load_checks``          loads of touchdowns against stated limits
 ``load_tables``          what touchdown bearings bear in a motion, in rows and as JSON
 ``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
@@ -33,11 +32,10 @@ Read them in this order.
 ``summaries``            the tables of a study, as text
 ``wording``              numbers with units
 ``document``             results as JSON
-``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
+``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft, and as JSON
 ``critical_speeds``      peaks of the response, with their separation from the operating speeds
 ``response_data``        what it has found, before it is told
 ``response_words``       what it says about the machine, in sentences
-``response_document``    the response as JSON
 ``standards``            limits of vibration: API 617, ISO 14839-2
 =======================  ========================================================================================
 """

@@ -12,11 +12,9 @@ With ``z = c_r U e^{iΩt}`` a velocity is ``ż = c_rΩ w e^{iΩt}``, ``w = U̇ +
     b = ρe^{iφ} - ω²U - γw + (-N + iT)U/|U| + e
 
 So the rate of the current, ``di/dt = ((k/n + ks)ż + (c/n)z̈)/ki``, needs no differences; at a limit of the current it is that of what is asked for.  An impact, or a
-kick, changes ``ż`` at once, and with it the current that the controller asks for: this jump is counted as such, in A, and not as a rate, which
-would be infinite.
+kick, changes ``ż`` at once, and with it the current that the controller asks for: this jump is no rate, and does not count.
 
-The largest values are exact for steady motions.  Along others they are found at all events and at instants so close that
-an oscillation between two of them adds less than 0.1 %.
+The largest values are found at all events and at instants so close that an oscillation between two of them adds less than 0.1 %.
 """
 
 from __future__ import annotations
@@ -29,11 +27,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.attractors import AttractorSet, MotionName
-from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
-from carom.closed_forms.equilibria import SteadyMotion
-from carom.closed_forms.sag import Levitation
-from carom.closed_forms.whirl import Rolling
+from carom.attractors import AttractorSet
 from carom.core.limits import WITHIN
 from carom.disturbances import Sample
 from carom.models import rotor_of
@@ -41,14 +35,11 @@ from carom.models.saturation import saturation_accelerations, saturation_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.orbit import Orbit
-from carom.outcome import Outcome
 from carom.parameters import Case, ControlLimit
 from carom.parameters.told import number
 from carom.results import fields_of
 from carom.studies.trials import coordinates_at_largest
 
-ROLLING = MotionName(Outcome.ROLLING)
 STEP = 0.05
 """Largest step of phase between two instants, in rad of the fastest oscillation."""
 MOST_INSTANTS = 200_000
@@ -68,11 +59,6 @@ class Centre(NamedTuple):
     position: Any
     velocity: Any
     acceleration: Any
-
-    @classmethod
-    def whirling(cls, radius: float, speed: float) -> Centre:
-        """Circular whirl, forward with a positive speed in units of ``Ω``."""
-        return cls(radius, 1j * speed * radius, -(speed**2) * radius)
 
     @classmethod
     def along(cls, motion: Trajectory, times: np.ndarray) -> Centre:
@@ -105,33 +91,15 @@ class SlewLimit:
         A/s.
     per_velocity, per_acceleration : float
         Rate per ``c_rΩ`` of velocity and per ``c_rΩ²`` of acceleration, A/s.
-    per_jump : float
-        The current, in A, by which each ``c_rΩ`` of a sudden change of velocity makes the current jump.
     """
 
     most: float
     per_velocity: float
     per_acceleration: float
-    per_jump: float
 
     def asked(self, motion: Centre) -> Any:
         """What a motion of the rotor centre asks of the bearing, in A/s: the size of a vector of two axes."""
         return np.abs(self.per_velocity * motion.velocity + self.per_acceleration * motion.acceleration)
-
-
-@dataclass(frozen=True)
-class Demand:
-    """What a motion asks of one magnetic bearing at most, in A/s, and its largest jump of the current, in A."""
-
-    motion: str
-    limit: SlewLimit
-    largest: float
-    jump: float = 0.0
-
-    @property
-    def share(self) -> float:
-        """Multiple of the limit."""
-        return self.largest / self.limit.most
 
 
 @dataclass(frozen=True)
@@ -144,12 +112,8 @@ class BearingDemand:
         Largest control force, which acts in the motions.
     slew : SlewLimit or None
         Largest rate of the current, which does not.
-    motions : tuple of Demand
-        Rates that motions which can last ask for.
     shares : ndarray
         The multiple of the largest rate that each disturbance asks for at most, until its end is known; shape (n,), zeros without one.
-    jumps : ndarray
-        The largest jump of the current at an impact of each disturbance, in A; shape (n,).
     at_limit : ndarray of bool, shape (n,)
         Which disturbances come to the largest control force.
     came_back : ndarray of bool, shape (n,)
@@ -158,9 +122,7 @@ class BearingDemand:
 
     control: ControlLimit | None
     slew: SlewLimit | None
-    motions: tuple[Demand, ...]
     shares: np.ndarray
-    jumps: np.ndarray
     at_limit: np.ndarray
     came_back: np.ndarray
 
@@ -174,16 +136,11 @@ class BearingDemand:
         return {
             "control": None if self.control is None else fields_of(self.control, force_si="force", pull_si="pull"),
             "slew_rate": None if self.slew is None else fields_of(self.slew, limit_si="most"),
-            "motions": [
-                fields_of(each, "motion", "share", largest_si="largest", largest_jump_si="jump")
-                for each in self.motions
-            ],
             "disturbances": {
                 "at_limit": int(self.at_limit.sum()),
                 "came_back_at_limit": int((self.at_limit & self.came_back).sum()),
                 "largest_share": float(self.shares.max(initial=0.0)),
                 "beyond": int((self.shares > 1.0).sum()),
-                "largest_jump_si": float(self.jumps.max(initial=0.0)),
             },
             "came_back_beyond": self.doubtful,
         }
@@ -195,24 +152,19 @@ def slew_limit_of(case: Case) -> SlewLimit | None:
     if machine is None or scales is None or machine.slew_rate_limit is None:
         return None
     gains = machine.controller_gains
-    jump = gains["derivative_gain"] * scales.velocity
     return SlewLimit(
         machine.slew_rate_limit,
         gains["proportional_gain"] * scales.velocity,
-        jump * scales.speed,
-        jump,
+        gains["derivative_gain"] * scales.velocity * scales.speed,
     )
 
 
-def bearing_demand(
-    case: Case, equilibria: Iterable[SteadyMotion], orbits: Iterable[Orbit], roll: Rolling | None, found: AttractorSet
-) -> BearingDemand | None:
-    """What the motions of a study have to do with the limits of the magnetic bearings; ``None`` if these have none."""
-    given, slew = rotor_of(case).limits, slew_limit_of(case)
-    control = given if isinstance(given, ControlLimit) else None
-    equilibria = tuple(equilibria)
-    if isinstance(equilibria[0], Levitation):
-        slew = None  # under weight nothing here says what levitation asks for
+def bearing_demand(case: Case, found: AttractorSet) -> BearingDemand | None:
+    """What the disturbances of a study have to do with the limits of the magnetic bearings; ``None`` if these have none."""
+    rotor = rotor_of(case)
+    control = rotor.limits if isinstance(rotor.limits, ControlLimit) else None
+    # Under weight nothing here says what levitation asks for.
+    slew = None if rotor.system.forced is not None else slew_limit_of(case)
     if control is None and slew is None:
         return None
     tried = found.disturbances
@@ -221,28 +173,10 @@ def bearing_demand(
     ]  # until their ends are known
     came_back = np.array([ending.recovered for ending in tried], bool)
     at_limit = np.array([bool((motion.segment_limits > WITHIN).any()) for motion in motions], bool)
-    shares, jumps = np.zeros((2, len(motions)))
+    shares = np.zeros(len(motions))
     if slew is not None:
         shares = np.array([largest_along(motion, slew) for motion in motions]) / slew.most
-        jumps = np.array([largest_jump(motion, slew) for motion in motions])
-    lasting = () if slew is None else tuple(_lasting(slew, equilibria, orbits, roll))
-    return BearingDemand(control, slew, lasting, shares, jumps, at_limit, came_back)
-
-
-def _lasting(
-    limit: SlewLimit, equilibria: Iterable[SteadyMotion], orbits: Iterable[Orbit], roll: Rolling | None
-) -> Iterable[Demand]:
-    """What motions that can last ask for."""
-    for entry in equilibria:
-        if entry.status != "virtual" and entry.stable:
-            name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB
-            yield Demand(name.words, limit, float(limit.asked(Centre.whirling(entry.radius, 1.0))))
-    for orbit in orbits:
-        if orbit.admissible and orbit.stable:
-            motion, name = orbit.trajectory(), MotionName(Outcome.BOUNCING, 1, orbit=orbit.name)
-            yield Demand(name.words, limit, largest_along(motion, limit), largest_jump(motion, limit))
-    if roll is not None and roll.holds:
-        yield Demand(ROLLING.words, limit, float(limit.asked(Centre.whirling(1.0, -roll.speed))))
+    return BearingDemand(control, slew, shares, at_limit, came_back)
 
 
 def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
@@ -254,7 +188,8 @@ def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
     if limit is None:
         return None
     rotor = rotor_of(case)
-    reached = [float(limit.asked(Centre.whirling(rotor.system.rest_radius, 1.0)))]
+    radius = rotor.system.rest_radius
+    reached = [float(limit.asked(Centre(radius, 1j * radius, -radius)))]
     for sample in disturbances:
         starts = sample.model.starts_on(rotor, *coordinates_at_largest(rotor, sample, LARGEST))
         machines = [rotor] * len(starts.positions) if starts.after is None else starts.after
@@ -272,61 +207,25 @@ def largest_along(motion: Trajectory, limit: SlewLimit) -> float:
     return float(limit.asked(Centre.along(motion, motion.sample(count))).max())
 
 
-def largest_jump(motion: Trajectory, limit: SlewLimit) -> float:
-    """Largest jump of the control current at an impact of a motion, in A."""
-    sudden = motion.is_impact | motion.is_landing
-    (_, before), (_, after) = (
-        motion.rotor.system.state(states[sudden]) for states in (motion.arrivals, motion.segment_amplitudes[1:])
-    )
-    return limit.per_jump * float(np.abs(after - before).max(initial=0.0))
-
-
 def actuator_words(demand: BearingDemand) -> str:
     """Say what the limits of the magnetic bearings do in the motions, and which motions ask for a larger rate of the current."""
-    return " ".join([*_words_of_control(demand), *_words_of_slew(demand)])
-
-
-def _words_of_control(demand: BearingDemand) -> list[str]:
-    if demand.control is None:
-        return []
-    total, count = len(demand.at_limit), int(demand.at_limit.sum())
-    sentences = [
-        f"The magnetic bearings give {demand.control.words}: in every motion that was followed they do no more than that.",
-        f"{count or 'None'} of {total} disturbances bring them to this limit"
-        + (f", and {int((demand.at_limit & demand.came_back).sum())} of these came back." if count else "."),
-    ]
-    return sentences if total else sentences[:1]
-
-
-def _words_of_slew(demand: BearingDemand) -> list[str]:
-    if demand.slew is None:
-        return []
-    limit, shares = demand.slew, demand.shares
-    most = f"{number(limit.most)} A/s"
-    sentences = [f"The current of one magnetic bearing changes by at most {most}, which the motions leave out."]
-    sentences += [f"In {each.motion} its rate reaches {number(each.share, 3)} times that." for each in demand.motions]
-    if len(shares):
+    total, count, back = (
+        len(demand.at_limit),
+        int(demand.at_limit.sum()),
+        int((demand.at_limit & demand.came_back).sum()),
+    )
+    sentences = []
+    if demand.control is not None:
         sentences.append(
-            f"{int((shares > 1.0).sum()) or 'None'} of {len(shares)} disturbances ask for a larger rate; the most "
-            f"is {number(shares.max(), 3)} times the limit."
+            f"The magnetic bearings give {demand.control.words}: in every motion that was followed they do no more than that. "
+            f"{count or 'None'} of {total} disturbances bring them to this limit{f', and {back} of these came back' if count else ''}."
         )
-    sentences += _words_of_jumps(demand, limit)
+    if demand.slew is not None:
+        beyond = int((demand.shares > 1.0).sum())
+        sentences.append(
+            f"The current of one magnetic bearing changes by at most {number(demand.slew.most)} A/s, which the motions leave out. "
+            f"{beyond or 'None'} of {total} disturbances ask for a larger rate; the most is {number(demand.shares.max(initial=0.0), 3)} times the limit."
+        )
     if demand.doubtful:
-        sentences.append(
-            f"{demand.doubtful} of the {int(demand.came_back.sum())} that came back are among them: that the real machine comes "
-            "back from these is not shown."
-        )
-    if any(each.share > 1.0 for each in demand.motions) or demand.doubtful:
-        sentences.append("Beyond this limit the real machine moves otherwise than this model.")
-    return sentences
-
-
-def _words_of_jumps(demand: BearingDemand, limit: SlewLimit) -> list[str]:
-    """Say how long the bearing takes for the largest jump that the controller asks for at an impact."""
-    jump = max([float(demand.jumps.max(initial=0.0)), *(each.jump for each in demand.motions)])
-    if not jump:
-        return []
-    return [
-        f"At an impact the controller asks at once for a current that differs by up to {number(jump)} A.",
-        f"The bearing takes {number(1e3 * jump / limit.most)} ms for that; the rates are those between impacts.",
-    ]
+        sentences.append(f"That the real machine comes back from {demand.doubtful} of these is not shown.")
+    return " ".join(sentences)

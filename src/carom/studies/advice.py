@@ -8,12 +8,11 @@ current of magnetic bearings would have to change faster than it can, the next v
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from carom.basins.changes import WANTED
 from carom.basins.shares import percent
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
@@ -48,8 +47,6 @@ CHANGE = (
     "entry=terms.entry set=terms.setting bound ratio disturbances=check.drawn.total recovered=check.drawn.count "
     "share_low=check.drawn.low share_high=check.drawn.high radius: zone buildable demand"
 )
-_SAME = 1e-8
-"""Relative distance up to which two edges are one."""
 _CLOSED_FORMS = (WALL, FOLD, ROLLING)
 
 
@@ -90,14 +87,12 @@ class Change:
         Ratio of the new damping or stiffness to the present one; infinite if there is none now.
     bound : {"at least", "at most", "about"}
         Whether larger or smaller values were tried too, up to the end of the search, and nothing was lost there.
-    margin : Margin or None
-        Distance from the near end of the range; ``None`` if the value only brings back a wanted share.
+    margin : Margin
+        Distance from the near end of the range.
     far : Edge or None
         The other end of the range, if something is lost beyond it.
     check : Check
         The fresh disturbances followed at the value.
-    forced : tuple of Check
-        Nearer values at which some of the fresh disturbances were lost.
     beyond : tuple of Check
         Values beyond it, up to the end of the range, at which all disturbances of the search came back.
     radius, zone : float, str
@@ -116,10 +111,9 @@ class Change:
     terms: InTerms
     ratio: float
     bound: Bound
-    margin: Margin | None
+    margin: Margin
     far: Edge | None
     check: Check
-    forced: tuple[Check, ...]
     beyond: tuple[Check, ...]
     radius: float
     zone: str
@@ -137,11 +131,10 @@ class Change:
         return {
             **say.in_both(name, present=self.present, value=self.value),
             **record(self, CHANGE, say.scales),
-            "margin": self.margin and self.margin.document(say),
+            "margin": self.margin.document(say),
             "other_end": self.far and _end_document(say, name, self.far),
             "at_their_largest": sum(share.total for share in largest),
             "recovered_at_their_largest": sum(share.count for share in largest),
-            "not_nearer": [record(each, "value disturbances=tried") for each in self.forced],
             "beyond": [record(each, "value disturbances=tried") | {"lost": 0} for each in self.beyond],
             **(record(whirl, "rolling_from=certain:velocity", say.scales) if whirl else {"rolling_from": None}),
         }
@@ -192,20 +185,14 @@ def recommend(
         return Recommendation("no-change-needed", (), tuple(margin for margin in margins if margin))
     # Where the samples see no loss at the present value, they cannot say at which others there is none.
     advisers = [_Adviser(case, tuple(disturbances), each) for each in recoveries if not each.holds_present]
-    found = _found(adviser.least for adviser in advisers) or _found(adviser.least_wanted for adviser in advisers)
+    found: list[Change] = []
+    with suppress(BudgetSpentError):
+        found.extend(change for adviser in advisers if (change := adviser.least()))  # what is found before stays
     if not found:
         return Recommendation("no-change-found", (), ())
     buildable = [change for change in found if change.buildable]
     ordered = sorted(buildable or found, key=lambda change: abs(math.log(change.ratio)))
     return Recommendation("change" if buildable else "nothing-buildable", tuple(ordered), ())
-
-
-def _found(searches: Iterable[Callable[[], Change | None]]) -> list[Change]:
-    """The changes that are found before the budget of a study ends the search."""
-    found: list[Change] = []
-    with suppress(BudgetSpentError):
-        found.extend(change for search in searches if (change := search()))  # what is found before stays
-    return found
 
 
 def evidence_of(edge: Edge) -> Evidence:
@@ -259,7 +246,6 @@ class _Adviser:
 
     def least(self) -> Change | None:
         """The nearest value in a range of recovery whose check passes; the first that the bearings can give, if one can."""
-        forced: list[Check] = []
         best: Change | None = None
         for span in sorted(self.recovery.spans, key=lambda span: self._away(self._ends(span).low.value)):
             for value, farther in self._values(span):
@@ -268,27 +254,12 @@ class _Adviser:
                 terms = self._terms(value)
                 check = self._checked(terms)
                 if not check.recovers:
-                    forced.append(check)
                     continue
-                change = self._change(terms, check, span, tuple(forced))
+                change = self._change(terms, check, span)
                 best = best or change
                 if change.buildable:
                     return change
         return best
-
-    def least_wanted(self) -> Change | None:
-        """The nearest value tried at which the wanted share comes back, if none leaves only recovery."""
-        found = self.recovery
-        tried = [check.value for check in found.checks if check.value != self.present]
-        for value in sorted(tried, key=self._away):
-            rough = check_recovery(found.rotor, found.disturbances, along=self.name, value=value, seed=SEED + 1)
-            if not _enough(rough):
-                continue
-            terms = self._terms(value)
-            check = self._checked(terms)
-            if _enough(check):
-                return self._change(terms, check, None, ())
-        return None
 
     def _away(self, value: float) -> float:
         return abs(math.log(value / self.present)) if self.present > 0.0 else value
@@ -322,53 +293,27 @@ class _Adviser:
             raise BudgetSpentError("too few disturbances could be followed")
         return check
 
-    def _change(self, terms: InTerms, check: Check, span: Span | None, forced: tuple[Check, ...]) -> Change:
-        value, present = check.value, self.present
-        case = with_setting(self.case, terms)
+    def _change(self, terms: InTerms, check: Check, span: Span) -> Change:
+        value, present, case = check.value, self.present, with_setting(self.case, terms)
         rotor = rotor_of(case)
-        known = exact_results(rotor)
-        margin: Margin | None = None
-        far: Edge | None = None
-        beyond: tuple[Check, ...] = ()
-        bound: Bound = "about"
-        if span is not None:
-            near, end = self._ends(span)
-            margin = _margin(self.recovery, value, self._best_known(near))
-            far = end if _happens(end) else None
-            low, high = sorted((value, end.value))
-            beyond = tuple(each for each in self.recovery.clear if low < each.value < high)
-            if far is None and beyond:
-                bound = "at least" if present < value else "at most"
-        radius = rotor.system.rest_radius
+        known, radius = exact_results(rotor), rotor.system.rest_radius
+        near, end = self._ends(span)
+        far = end if _happens(end) else None
+        low, high = sorted((value, end.value))
+        beyond = tuple(each for each in self.recovery.clear if low < each.value < high)
         return Change(
             self.name,
             present,
             value,
             terms,
             (value / present) ** power_of(self.recovery.along) if present > 0.0 else math.inf,
-            bound,
-            margin,
+            "about" if far or not beyond else "at least" if present < value else "at most",
+            _margin(self.recovery, value, near),
             far,
             check,
-            forced,
             beyond,
             radius,
             case.zones.zone(min(radius, 1.0)),
             known.whirl if known.rolls and known.rolls.holds else None,
             asked_by(case, self.disturbances),
         )
-
-    def _best_known(self, edge: Edge) -> Edge:
-        """Return the closed form of an edge, if several motions end there and one of them has a closed form."""
-        if edge.kind == "simulated":
-            return edge
-        known = (other for entry in self.recovery.motions for span in entry.spans for other in span)
-        exact = (
-            each for each in known if each.kind in _CLOSED_FORMS and math.isclose(each.value, edge.value, rel_tol=_SAME)
-        )
-        return next(exact, edge)
-
-
-def _enough(check: Check) -> bool:
-    """Whether the wanted share of each kind of disturbance came back."""
-    return min(share.fraction for share in check.returned) >= WANTED

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from carom.basins.changes import WANTED
 from carom.models import Edge
 from carom.outcome import Outcome
 from carom.parameters import in_terms_of
@@ -17,7 +16,6 @@ from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import event_words
 from carom.studies.recovery import Recovery, power_of
 from carom.studies.study_data import StudyData
-from carom.studies.trials import Check, Lost
 from carom.studies.verdict import judged
 from carom.studies.wording import Wording, counted, entry_words, present_values
 
@@ -35,7 +33,6 @@ _HOW_SURE = (
     "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
     "disturbances, so that rare ones may end elsewhere. Results not marked 'proven' are not proven"
 )
-_KINDS = {"kick": "a kick", "state": "a start in the clearance", "shock": "a shock", "blade-loss": "a loss of a blade"}
 _LAST_ZONE = "D"
 _fact = partial(Fact, "Recommendation")
 
@@ -111,34 +108,16 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
     """Label, text and evidence of the lines under a change: how to try it, margin, levitation there, what was tried, what remains."""
     say, margin, zone, demand = study.wording, change.margin, f"zone {change.zone}", change.demand
     yield "Set", f'--set "{change.terms.setting}"', None
-    if margin is None:
-        text = f"none: no value tried brings all back, and this one brings back at least {number(100.0 * WANTED, 3)} % (sampled)"
-    else:
-        text = f"{number(100.0 * margin.share, 2)} % beyond {_end(say, margin.parameter, margin.edge)}"
-        text += "" if change.far is None else f"; stay on this side of {_end(say, change.parameter, change.far)}"
+    text = f"{number(100.0 * margin.share, 2)} % beyond {_end(say, margin.parameter, margin.edge)}"
+    text += "" if change.far is None else f"; stay on this side of {_end(say, change.parameter, change.far)}"
     yield "Margin", text, None
     if change.zone == _LAST_ZONE:
-        still = "still " if study.zone == _LAST_ZONE else ""
-        zone = (
-            f"{still}{zone}: less unbalance is needed too"
-            if still or study.zone is None
-            else f"{zone}, which is worse than now"
-        )
+        zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: less unbalance is needed too"
     yield "Then", f"levitates at {_place(say, change.radius)}, {zone}", "closed form"
     yield "Tried", _tried(study, change), "sampled"
-    for check in change.forced:
-        lost = check.tried - check.drawn.count - sum(share.count for share in check.largest)
-        example = f", such as {lost_words(study, check.example)}" if check.example else ""
-        text = (
-            f"at {_stated(study, change.parameter, check.value)} {lost:,} of {check.tried:,} did not come back{example}"
-        )
-        yield "Not nearer", text, "sampled"
     if demand is not None:
-        most = f"{number(demand, 3)} times" if demand > 1.0 else f"{number(100.0 * demand, 3)} % of"
         beyond = "; values beyond it may ask for more" if change.beyond else ""
-        text = (
-            f"asked at this value for at most {most} the largest rate of the current of the magnetic bearings{beyond}"
-        )
+        text = f"asked at this value for at most {number(demand, 3)} times the largest rate of the current of the magnetic bearings{beyond}"
         yield "Bearings", text, "sampled"
     if change.whirl is not None:
         fast = say.velocity(change.whirl.certain)
@@ -147,33 +126,16 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
 
 
 def _tried(study: StudyData, change: Change) -> str:
-    """Say how many disturbances were followed at the value and beyond it, and how many came back."""
-    text = check_words(study, change.check)
+    """Say how many fresh disturbances were followed at the value and beyond it, and that all came back."""
+    drawn, largest = change.check.drawn, sum(share.total for share in change.check.largest)
+    text = (
+        f"all of {drawn.total:,} fresh disturbances of up to {study.wording.velocity(study.required.kick)}, and {largest:,} at their largest, "
+        f"came back (so at least {number(100.0 * drawn.low, 4)} % do, with 95 % confidence)"
+    )
     if not change.beyond:
         return f"{text}; no value beyond it was tried"
     each = min(check.tried for check in change.beyond)
-    places = f"{'each of ' if len(change.beyond) > 1 else ''}{counted(len(change.beyond), 'value')} {_farthest(study, change)}"
-    return f"{text}; beyond it so did all of {each:,} at {places}"
-
-
-def check_words(study: StudyData, check: Check) -> str:
-    """Say how many fresh disturbances were followed at a value, how fast they were, and how many came back."""
-    drawn, lost = check.drawn, sum(share.total - share.count for share in check.largest)
-    sample = f"{drawn.total:,} fresh disturbances of up to {study.wording.velocity(study.required.kick)}"
-    at_most = f"{sum(share.total for share in check.largest):,} at their largest"
-    low, high = (number(100.0 * share, 4) for share in (drawn.low, drawn.high))
-    if check.recovers:
-        return f"all of {sample}, and {at_most}, came back (so at least {low} % do, with 95 % confidence)"
-    return f"{drawn.count:,} of {sample} came back ({low} to {high} % do, with 95 % confidence); of {at_most} {lost or 'none'} did not"
-
-
-def lost_words(study: StudyData, lost: Lost) -> str:
-    """Describe a disturbance that did not come back, by its coordinates."""
-    pairs = zip(lost.model.coordinates, lost.values, strict=False)
-    sizes = [f"{each.words} {each.told(value, study.wording.scales)}" for each, value in pairs if not each.periodic]
-    ends = f", which ends in {motion_words(lost.motion)}" if lost.motion else ""
-    told = f" ({', '.join(sizes)})" if sizes else ""
-    return f"{_KINDS.get(lost.model.kind, lost.model.kind)}{told}{ends}"
+    return f"{text}; beyond it so did all of {each:,} at each of {counted(len(change.beyond), 'value')} {_farthest(study, change)}"
 
 
 def _end(say: Wording, name: str, edge: Edge) -> str:

@@ -13,20 +13,16 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, get_args
 
-import numpy as np
-
 from carom.arguments import checked
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
-from carom.basins import Share
-from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms import harmless_kick
 from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import Gain
-from carom.disturbances import AnyState, Disturbance, Plan, Sample
-from carom.disturbances.following import follow, refuse_another_machine
+from carom.disturbances import Disturbance, Plan, Sample
+from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, axis, case_of, rotor_of
-from carom.motions.budget import NOT_FOLLOWED, Budget, Question
+from carom.motions.budget import Budget, Question
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import Case, Field, Required, Requirement, read_quantity
@@ -44,15 +40,11 @@ from carom.studies.questions import (
     CHANGE,
     DESCRIBED,
     DROP,
-    ELSEWHERE,
     FULL_SIZE,
     PRESENT,
-    WALLS,
     events_for,
 )
 from carom.studies.recovery import Recovery, find_recovery
-from carom.studies.rigid_limit import TRIED as ON_WALLS
-from carom.studies.rigid_limit import OtherWall, on_other_walls
 from carom.studies.study_data import StudyData
 from carom.studies.survives import Survives, comes_to_rest, decides, lost_kinds, required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
@@ -68,8 +60,6 @@ FIRST, FRESH = 2000, 10_000
 """Fresh disturbances at the machine's own gains: at first, and if all of these came back."""
 PROOF_TIME = "30 s"
 """Time for the proof of kicks, if it is asked for."""
-ELSEWHERE_TRIED = 1000
-"""Starts elsewhere in the clearance."""
 GUESSES = 30
 """Stretches of motions from which orbits are searched where no closed form has them: a tenth of a second each."""
 TIME_LIMIT = Field("time_limit", "", "time to follow motions", "a time", "s", 1e-3, 1e9, '"2 min"')
@@ -144,8 +134,8 @@ def study(
         Parameters along which recovery is searched and a change is looked for, such as ``"speed"``, ``"friction"`` or ``"touchdown_stiffness"``; by
         default damping and stiffness of the levitation, or the gains of the magnetic bearings.
     proofs : bool
-        Prove equilibria and orbits too, by :func:`carom.prove`, which of the kicks that must be survived come back, by
-        :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch), and whether all states as fast as these do, by :func:`carom.proofs.prove_states`; needs the extra
+        Prove equilibria and orbits too, by :func:`carom.prove`, and which of the kicks that must be survived come back, by
+        :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch); needs the extra
         ``carom[proof]``.
     proof_time : str or float
         Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
@@ -259,12 +249,6 @@ def _prove_kicks(asked: Asked, tell: Reporter) -> ProvenKicks:
     return ProvenKicks.of(prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell), asked.rotor)
 
 
-def _prove_states(asked: Asked, tell: Reporter) -> Proof:
-    from carom.proofs import prove_states
-
-    return prove_states(asked.rotor, asked.required.kick, progress=tell)
-
-
 def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:
     """Orbits with one impact a period; none of a rotor whose motions never repeat."""
     rotor = asked.rotor
@@ -290,14 +274,6 @@ def _present(asked: Asked, tell: Reporter) -> Check:
             wanted = check.recovers and rotor.system.is_planar
             checks.append(check_recovery(rotor, [more], seed=SEED) if wanted else check)
     return Check.joined(checks)
-
-
-def _elsewhere(asked: Asked, tell: Reporter) -> Share:
-    """Starts anywhere in the clearance."""
-    rotor = asked.rotor
-    ends = follow(rotor, Sample(AnyState(asked.required.kick), ELSEWHERE_TRIED, SEED).starts(rotor))
-    followed = int(np.count_nonzero(ends.outcomes != NOT_FOLLOWED))
-    return Share.of(int(np.count_nonzero(ends.recovered)), followed, drawn=True)
 
 
 def _parameters(asked: Asked) -> tuple[str, ...]:
@@ -331,11 +307,6 @@ def _recoveries(asked: Asked, tell: Reporter) -> tuple[Recovery, ...]:
     return tuple(found)
 
 
-def _boundaries(asked: Asked, tell: Reporter) -> tuple[BoundaryEquilibrium, ...]:
-    gains = [gain for gain in get_args(Gain) if gain in _parameters(asked)]
-    return tuple(each for gain in gains for each in boundary_equilibria(asked.rotor, gain))
-
-
 def _recommendation(asked: Asked, tell: Reporter) -> Recommendation:
     return recommend(asked.case, asked.tried, asked.found["recoveries"], needed=asked.needed)
 
@@ -348,31 +319,23 @@ def _full_size(asked: Asked, tell: Reporter) -> tuple[FullSize, ...]:
     return at_full_size(asked.rotor, asked.required, asked.case.limits)
 
 
-def _other_walls(asked: Asked, tell: Reporter) -> tuple[OtherWall, ...]:
-    return on_other_walls(asked.rotor, required_disturbances(asked.required, ON_WALLS))
-
-
 def _is_proven(asked: Asked) -> bool:
     return _is_known(asked) and _returns(asked)
 
 
-OF_PROOFS = ("proof", "kicks", "states")
+OF_PROOFS = ("proof", "kicks")
 CONTRIBUTORS = (
     Contributor("proof", "proofs", 0.1, _prove),
-    Contributor("states", "proof of states", 0.1, _prove_states, _is_proven),
     Contributor("kicks", "proof of kicks", 0.3, _prove_kicks, _is_proven),
     Contributor("levitating", "whirls", 0.02, lambda asked, _: levitating(asked.case, asked.rotor)),
     Contributor("equilibria", "equilibria", 0.02, lambda asked, _: steady_motions(asked.rotor)),
     Contributor("orbits", "periodic orbits (the kernels are compiled on first use)", 0.06, _orbits),
     Contributor("attractors", "disturbances", 0.1, _attractors, question=DESCRIBED),
     Contributor("present", "what must be survived", 0.05, _present, _returns),
-    Contributor("elsewhere", "starts elsewhere", 0.01, _elsewhere, _returns, ELSEWHERE),
     Contributor("survives", "the smallest disturbances that do not come back", 0.2, _survives, _returns),
     Contributor("full_size", "loads of the touchdown bearings", 0.05, _full_size, _returns, FULL_SIZE),
     Contributor("recoveries", "recovery along parameters", 0.4, _recoveries),
-    Contributor("boundaries", "loss of levitation", 0.05, _boundaries, _is_known),
     Contributor("recommendation", "the least change", 0.05, _recommendation, question=CHANGE),
     Contributor("drop", "the drop", 0.02, lambda asked, _: drop_of(asked.case), _returns, DROP),
-    Contributor("other_walls", "other touchdown bearings", 0.03, _other_walls, _returns, WALLS),
 )
 """The parts of a study, in the order in which they are asked; later ones use what earlier ones have found."""

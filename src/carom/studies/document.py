@@ -14,7 +14,6 @@ from typing import Any
 from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, document_of, exact_interval
 from carom.basins import share_of_kicks
-from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
@@ -172,9 +171,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
             | {"spans": _spans(entry.spans), "searched": _spans((entry.searched,))[0] if entry.searched else None}
             for entry in study.ranges
         ],
-        "boundaries": [_boundary(entry, say) for entry in study.boundaries],
         "present": _check(study.present) if study.present else None,
-        "elsewhere": record(study.elsewhere, SHARE) if study.elsewhere else None,
         "recovery": [_recovery(entry, say) for entry in study.recoveries],
         "recommendation": study.recommendation.document(say),
         "attractors": [_attractor(entry, rotor) for entry in study.attractors],
@@ -185,7 +182,6 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "drop": of(study.drop),
         "proof": of(study.proof),
         "kick_proof": of(study.kicks and study.kicks.proof),
-        "state_proof": of(study.states),
     }
 
 
@@ -203,13 +199,6 @@ def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
         document |= _wall(indentation_of_hit(entry.rotor.in_rigid_wall, entry.radial_speed))
     return document
-
-
-def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
-    possible = [orbit for orbit in entry.orbits if orbit.admissible]
-    orbits = {"orbits": [record(orbit, "name levitating_side stable period") for orbit in possible]}
-    own = record(entry, "parameter=gain value levitates kind complete")
-    return own | orbits | say.in_si(entry.gain, value=entry.value)
 
 
 def _spans(spans: tuple[Span, ...]) -> list[list[float]]:

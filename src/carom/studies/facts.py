@@ -22,7 +22,6 @@ Topic = Literal[
     "What would change it",
     "Proven",
     "Magnetic bearings",
-    "Touchdown bearing",
     "Touchdown loads",
     "Drop",
     "Accuracy",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import Levitation
@@ -23,7 +22,6 @@ from carom.studies.facts import Fact
 from carom.studies.levitation_facts import bearing_facts, critical_speed_facts, levitation_facts
 from carom.studies.proven import proofs_of
 from carom.studies.questions import unfinished_facts
-from carom.studies.rigid_limit import wall_values, wall_words
 from carom.studies.study_data import StudyData
 from carom.studies.summaries import ranges_along
 from carom.studies.touchdown_facts import accuracy_facts, drop_facts, drop_headline, load_facts
@@ -52,9 +50,6 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     yield from bearing_facts(study.levitating)
     if study.bearing_demand is not None:
         yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
-    if study.other_walls:
-        words, values = wall_words(study.wording, study.other_walls), wall_values(study.other_walls, study.rotor.scales)
-        yield Fact("Touchdown bearing", words, evidence="sampled", values=values)
     yield from load_facts(study)
     yield from drop_facts(study)
     yield from accuracy_facts(study)
@@ -74,12 +69,9 @@ def _levitation(study: StudyData) -> str:
     if isinstance(levitation, Levitation):
         widths = study.rotor.system.widths
         sag, whirl = (say.length(float((widths * each).max())) for each in (levitation.sags, levitation.radii))
-        where = (
-            f"hangs {sag} from the centre under its weight and whirls about that place with {whirl}: it comes as far as r = "
-            f"{say.radius(levitation.reach)}"
-        )
+        where = f"hangs {sag} from the centre and whirls there with {whirl}, out to r = {say.radius(levitation.reach)}"
     limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
-    text = f"The rotor {where}, zone {study.zone} (zone limits {limits} of the clearance). A gap of {say.length(1.0 - levitation.radius)} to the wall is left."
+    text = f"The rotor {where}, zone {study.zone} (zone limits {limits} of the clearance)."
     if not levitation.stable:
         return f"{text} But nothing damps it: a disturbance does not die out."
     decay = -float(levitation.eigenvalues.real.max())
@@ -89,29 +81,7 @@ def _levitation(study: StudyData) -> str:
         text += (
             f" Where it touches it is {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
         )
-    return " ".join([text, *_loss_of_levitation(study)])
-
-
-def _loss_of_levitation(study: StudyData) -> list[str]:
-    """Say how levitation ends if one gain is changed far enough."""
-    say = study.wording
-    places: dict[str, list[str]] = {}
-    for boundary in study.boundaries:
-        own = study.case.parameters.value(boundary.gain)
-        if (boundary.value < own) == (
-            boundary.levitates == "above"
-        ):  # else beyond the range in which this machine levitates
-            moves = "falls" if boundary.levitates == "above" else "rises"
-            where = f"{say.name(boundary.gain)} {moves} to {say.value(boundary.gain, boundary.value)}"
-            places.setdefault(_LOSS[boundary.kind], []).append(where)
-    return [f"Where {' or '.join(where)}, {what}." for what, where in places.items()]
-
-
-_LOSS = {
-    "persistence": f"it turns into a {RUB} whose force grows from zero",
-    "non-smooth fold": f"it meets an unstable {RUB} and both vanish, so that the rotor must go somewhere else",
-    "degenerate": "it ends on the wall",
-}
+    return text
 
 
 def _rub(study: StudyData) -> str:
@@ -122,17 +92,21 @@ def _rub(study: StudyData) -> str:
         return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."
     say, rub = study.wording, stable or rubs[0]
     wall = study.rotor.system.contacts[rub.plane].wall
-    indentation = indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)
-    load = _with_weight(study, rub.normal_force)
-    if gives_way(indentation):
-        load = f"one for which there is no model: {steel_words(indentation)}"
-    elif (friction := wall.friction * rub.normal_force) > 0.0:
-        slip, heat = say.slip(wall.surface_speed), say.power(friction * wall.surface_speed)
-        load += f", and friction of {say.force(friction)} at a slip of {slip} would heat the contact with {heat}"
-    if stable is None:
-        return f"A {RUB} exists. It is not stable in every direction, but it marks a way to stay in contact: the bearing force is {load}."
+    load = _load(study, rub.normal_force)
+    if wall.friction and not gives_way(indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)):
+        load += f", and friction would heat the contact with {say.power(wall.friction * rub.normal_force * wall.surface_speed)}"
     coexists = "coexists with levitation" if study.levitates else "exists"
-    return f"A {RUB} {coexists} and is stable: once it has settled there the rotor stays pressed against the touchdown bearing. The bearing force would be {load}."
+    holds = "is stable: it can hold the rotor" if stable else "is not stable in every direction"
+    return f"A {RUB} {coexists} and {holds}. The bearing force would be {load}."
+
+
+def _load(study: StudyData, force: float) -> str:
+    """A force of lasting contact with its multiple of the weight of the rotor, or that no rigid wall bears it."""
+    indentation, scales = indentation_of_force(study.rotor.in_rigid_wall, force), study.rotor.scales
+    if gives_way(indentation):
+        return f"one that the rigid model cannot predict: {steel_words(indentation)}"
+    weight = f" ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)" if scales else ""
+    return f"{study.wording.force(force)}{weight}"
 
 
 def _of_hit(study: StudyData, impulse: float) -> str:
@@ -143,40 +117,22 @@ def _of_hit(study: StudyData, impulse: float) -> str:
 
 
 def _bouncing(study: StudyData) -> str:
-    orbits, sentences = study.orbits, [_stable_orbit(study, orbit) for orbit in study.stable_orbits]
-    unstable = sum(orbit.admissible and not orbit.stable for orbit in orbits)
-    virtual = sum(not orbit.admissible for orbit in orbits)
-    if unstable:
-        are, they = ("is", "it takes") if unstable == 1 else ("are", "they take")
-        sentences.append(
-            f"{counted(unstable, 'orbit')} with one impact a period {are} unstable: the rotor does not stay there, but {they} part in deciding "
-            "which disturbances come back."
-        )
-    if virtual:
-        solve = "solves" if virtual == 1 else "solve"
-        sentences.append(
-            f"{counted(virtual, 'orbit')} {solve} the equations but not the contact law, and so cannot happen."
-        )
-    if study.rotor.system.why_not_stationary is not None:
-        return orbits.argument
-    if orbits.search is None and not orbits.longest_period:
-        return f"Orbits with one impact a period were not searched for. {' '.join(sentences)}".rstrip()
-    if not len(orbits):
-        none = "No orbit with one impact a period was found."
-        sentences.append(none if orbits.search else "There is no orbit with one impact a period.")
-    if orbits.search is not None:
-        sentences.append(orbits.argument)
+    orbits = study.orbits
+    if orbits.search is not None or study.rotor.system.why_not_stationary is not None:
+        sure = orbits.argument
+    elif not orbits.longest_period:
+        sure = "Orbits with one impact a period were not searched for."
     elif not orbits.complete:
         longest = study.wording.time(orbits.longest_period)
-        sentences.append(f"Only periods up to {longest} were searched; there may be more such orbits.")
-    elif orbits.slip_stays_forward:
-        sentences.append("The list is complete: bounds exclude any other orbit with one impact a period.")
+        sure = f"Orbits of one impact a period were searched up to a period of {longest}; there may be more."
     else:
-        sentences.append(
-            "The list is complete for impacts that do not stop the slip; orbits whose impacts stop it, which only a rotor "
-            "about as small as its clearance can have, were not searched."
+        sure = f"{'These are' if study.stable_orbits else 'There are no'} stable orbits with one impact a period"
+        sure += (
+            ": bounds exclude any other."
+            if orbits.slip_stays_forward
+            else ", but for those whose impacts stop the slip."
         )
-    return " ".join(sentences)
+    return " ".join([*(_stable_orbit(study, orbit) for orbit in study.stable_orbits), sure])
 
 
 def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
@@ -192,33 +148,21 @@ def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
 
 def _disturbances(study: StudyData) -> str:
     say, found, hardest = study.wording, study.attractors, hardest_impulse(study.attractors)
-    hit = (
-        f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
-        if hardest > 0
-        else ""
-    )
-    return f"Simulated to where they settle: {found.words()}. {_endings(study)}{hit}"
-
-
-def _endings(study: StudyData) -> str:
-    found, touched = study.attractors, touching(study.attractors)
-    counts = {member.name: member.count for member in found if member.count}
-    if list(counts) == [LEVITATION]:
-        return "All of them came back to levitation."
+    counts, touched = {member.name: member.count for member in found if member.count}, touching(found)
+    text = f"Simulated to where they settle: {found.words()}."
     if not counts:
-        return "None of them was followed."
-    text = f"They ended: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}.{_irregular(found)}"
-    if study.levitates and touched:
-        text += f" Of the {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
+        return f"{text} None of them was followed."
+    if list(counts) == [LEVITATION]:
+        text += " All of them came back to levitation."
+    else:
+        text += f" They ended: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}."
+        if study.levitates and touched:
+            text += (
+                f" Of the {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
+            )
+    if hardest > 0.0:
+        text += f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
     return text
-
-
-def _irregular(found: AttractorSet) -> str:
-    """Say how long irregular bouncing lasts, if any was found."""
-    if found.transient is not None:
-        return f" On the way some bounced irregularly for long: {found.transient.words}."
-    lasting = next((member.survival for member in found if member.survival is not None), None)
-    return f" Of such irregular motions {lasting.words}." if lasting else ""
 
 
 def _backward_whirl(study: StudyData) -> str:
@@ -226,29 +170,17 @@ def _backward_whirl(study: StudyData) -> str:
     roll, runaway = known.rolls, known.whirl
     if roll is None or runaway is None:
         return _simulated_rolling(study)
-    name, bound, every_angle = (
-        say.name("gamma"),
-        *(say.value("gamma", at) for at in (roll.damping_bound, roll.largest_damping)),
-    )
+    bound = f"{say.name('gamma')} above {say.value('gamma', roll.damping_bound)}"
     if roll.damping_bound <= 0.0:
         return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
     if study.rotor.value("gamma") > roll.damping_bound:
-        least = bound if say.scales else f"γ = {bound}"
-        return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {least})."
+        return f"No backward whirl in lasting contact sustains itself: {bound} rules it out."
     if not roll.holds:
         return (
             "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
-            f"each turn is not ruled out; {name} above {bound} would rule it out."
+            f"each turn is not ruled out; {bound} would rule it out."
         )
-    part = (
-        ""
-        if every_angle == bound
-        else f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
-    )
-    return (
-        f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway)} {_where_it_ends(study, roll)} "
-        f"Only {name} above {bound} rules that out{part}."
-    )
+    return f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway, roll)} Only {bound} rules that out."
 
 
 def _simulated_rolling(study: StudyData) -> str:
@@ -261,32 +193,12 @@ def _simulated_rolling(study: StudyData) -> str:
     return f"Dry friction can drive the rotor backward round the bearing: {met} in {ROLLING}."
 
 
-def _no_return(study: StudyData, runaway: Runaway) -> str:
-    """Say from which speed backward whirl runs away, and with which load on the bearing."""
-    say, at = study.wording, study.case.parameters
+def _no_return(study: StudyData, runaway: Runaway, roll: Rolling) -> str:
+    """Say from which speed backward whirl runs away, with which load on the bearing, and with which it ends."""
+    at, whirl = study.case.parameters, number(runaway.certain, 3)
     force = runaway.certain**2 - at.omega**2 + at.rho
-    power = say.power(at.mu * force * max(runaway.rolling_speed - runaway.certain, 0.0))
-    certain, average = say.velocity(runaway.certain), say.velocity(runaway.average)
-    # Below the speed that is certain the unbalance decides.
-    perhaps = "" if certain == average else f", and it may get there from about {average} on"
     return (
-        f"There is no return if, in lasting contact, its centre moves backward faster than {certain} (whirl at "
-        f"{number(runaway.certain, 3)} times the speed of the shaft){perhaps}; the bearing then carries up to "
-        f"{_with_weight(study, force)}, and friction takes {power} from the drive."
+        f"There is no return if, in lasting contact, its centre moves backward faster than {study.wording.velocity(runaway.certain)} (whirl at "
+        f"{whirl} times the speed of the shaft). The bearing then carries up to {_load(study, force)}, and in {ROLLING}, where it ends, "
+        f"{_load(study, roll.largest_force)}."
     )
-
-
-def _where_it_ends(study: StudyData, roll: Rolling) -> str:
-    """Say with which load it ends in rolling, or that a rigid wall is no model of that."""
-    indentation = indentation_of_force(study.case.parameters, roll.largest_force)
-    if gives_way(indentation):
-        return f"The rigid model cannot predict the final load: in {ROLLING}, a rigid wall would carry a load at which {steel_words(indentation)}."
-    return f"It ends in {ROLLING}, with {_with_weight(study, roll.largest_force)}, and stays in it."
-
-
-def _with_weight(study: StudyData, force: float) -> str:
-    """Return a force with its multiple of the weight of the rotor."""
-    text, scales = study.wording.force(force), study.rotor.scales
-    if scales is None:
-        return text
-    return f"{text} ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)"

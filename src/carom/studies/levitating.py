@@ -103,6 +103,12 @@ class Levitating(Result):
         return min(self.whirls, key=lambda each: each.damping_ratio, default=None)
 
     @property
+    def measured_at(self) -> str:
+        """Where peaks of the response are measured."""
+        sensors = self.response is not None and self.response.sensors.forward.shape[1]
+        return "sensors of magnetic bearing" if sensors else "touchdown bearing"
+
+    @property
     def met(self) -> bool:
         """Whether every separation that API 617 requires is kept."""
         return all(each.separation.met for each in self.criticals)

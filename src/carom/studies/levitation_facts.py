@@ -103,7 +103,7 @@ def critical_speed_facts(found: Levitating) -> Iterator[Fact]:
         if not found.criticals:
             yield Fact("Critical speeds", f"The response has no peak between {low} and {high}.")
     for each in found.criticals:
-        text = critical_words(each, (found.speed, found.speed))
+        text = critical_words(each, (found.speed, found.speed), found.measured_at)
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
     if searched or found.criticals:
         yield Fact("Critical speeds", f"{RULE}{searched}")

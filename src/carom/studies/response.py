@@ -6,23 +6,32 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from importlib.metadata import version
 from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.arguments import checked
-from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response, synchronous_response
+from carom.closed_forms import (
+    SpeedResponse,
+    SynchronousResponse,
+    find_equilibria,
+    rolling,
+    speed_response,
+    synchronous_response,
+)
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import read_quantity
 from carom.parameters.fields import RPM
-from carom.results import in_a_line
+from carom.results import fields_of, in_a_line
 from carom.rotors import find_whirls
 from carom.studies.critical_speeds import criticals_of, exact_criticals
 from carom.studies.levitating import WHIRLS, speeds_of_response
 from carom.studies.response_data import ResponseData, Rubs, Steady, Stretch, stretches_between
+from carom.studies.standards import ASSUMPTIONS, FULL_SPEED, vibration_limit
 
 SPEEDS = 801
 """Number of speeds of the curves."""
@@ -59,9 +68,7 @@ class UnbalanceResponse(ResponseData):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the response as ``carom response --json`` prints it."""
-        from carom.studies.response_document import response_document  # only here: a study does without
-
-        return response_document(self, self.words)
+        return _document(self)
 
 
 @checked
@@ -124,7 +131,7 @@ def _usual_range(free: SpeedResponse | None, run: tuple[float, float]) -> tuple[
 def _speeds(model: Rotor, free: SpeedResponse | None, interval: tuple[float, float]) -> list[float]:
     """Speeds of the curves: evenly, densely about narrow peaks, and those that are named."""
     reduced, scales = model.finite_elements, model.scales
-    marks = [] if scales is None else [scales.speed]
+    marks = [FULL_SPEED] if scales is None else [FULL_SPEED, scales.speed]
     if free is not None:
         marks += [speed for speed in (free.critical_speed, *free.contact_changes()) if speed is not None]
     if reduced is None:
@@ -197,3 +204,86 @@ def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:
     if low > high:
         raise InputError("operating", f"{low:g} to {high:g}", "the lowest operating speed, then the highest")
     return low, high
+
+
+def _document(response: UnbalanceResponse) -> dict[str, Any]:
+    """Return the document of a response over speed: speeds in rad/s and rpm, amplitudes in clearances and in m."""
+    free, margin, rubs = response.contact_free, response.separation, response.rubs
+    highest = max(response.criticals, key=lambda each: each.amplitude, default=None)
+    numbers = ("amplification_factor", "damping_ratio", "half_power", "natural_frequency")
+    own = dict.fromkeys(numbers) if free is None else fields_of(free, *numbers)
+    return {
+        "name": response.case.name,
+        "carom": version("carom"),
+        **rotor_of(response.case).document(),
+        "speeds_si": list(response.interval),
+        "present": _at(response, response.present) | {"steady": response.steady_at_present._asdict()},
+        "critical": None if highest is None else _at(response, highest.speed),
+        "half_power_si": None if own["half_power"] is None else list(own["half_power"]),
+        "amplification_factor": highest.factor if highest else None,
+        "damping_ratio": own["damping_ratio"],
+        "natural_frequency_si": own["natural_frequency"],
+        "criticals": [
+            fields_of(each, "bearing", amplification_factor="factor", speed_si="speed", amplitude_si="amplitude")
+            | {"rpm": each.speed / RPM, "separation": fields_of(each.separation, "side", "actual", "required", "met")}
+            for each in response.criticals
+        ],
+        "operating_si": list(response.operating),
+        "separation": None if margin is None else fields_of(margin, "side", "actual", "required", "met"),
+        "zone_limits": list(response.case.zones.limits),
+        "zones": [_stretch(entry) | {"zone": entry.what or None} for entry in response.zones],
+        "exceeds_api_617": [_stretch(entry) for entry in response.exceeds_api_617 if entry.what],
+        "saturates": [_stretch(entry) for entry in response.saturating if entry.what],
+        "steady": [_stretch(entry) | entry.what._asdict() for entry in response.stretches],
+        "curve": {
+            "speed_si": response.speeds.tolist(),
+            "amplitude": response.amplitude.tolist(),
+            "peak_to_peak_si": response.peak_to_peak_si.tolist(),
+            "lag": response.lag.tolist(),
+            "api_617_limit_si": vibration_limit(response.speeds).tolist(),
+        },
+        "touchdowns": _bearings(response.whirl),
+        "rubs": rubs and {"speed_si": rubs.speeds.tolist(), "lags": rubs.lags.tolist(), "radii": rubs.radii.tolist()},
+        "words": list(response.words),
+        "assumptions": list(ASSUMPTIONS),
+    }
+
+
+def _at(response: ResponseData, speed: float) -> dict[str, Any]:
+    """Contact-free response at a speed: that of the touchdown bearing where the rotor comes closest, then those of all."""
+    found = response.at(speed)
+    worst = int(found.reach[0].argmax())
+    size = float(found.touchdowns.major[0, worst])
+    return {
+        "speed_si": speed,
+        "rpm": speed / RPM,
+        "amplitude": size / float(found.clearances[worst]),
+        "peak_to_peak_si": 2.0 * size,
+        "lag": float(found.lags[0, worst]),
+        "admissible": bool(found.reach.max() < 1.0),
+        "zone": response.zone_at(speed) or None,
+        "api_617_limit_si": float(vibration_limit(np.array(speed))),
+        "touchdowns": _bearings(found),
+        "saturation": float(found.saturation.max()) if found.saturation.size else None,
+    }
+
+
+def _bearings(found: SynchronousResponse) -> list[dict[str, Any]]:
+    """Amplitudes 0-to-peak at each touchdown bearing, from 1 on, over the speeds of a response."""
+    places = zip(found.clearances.tolist(), found.sags.tolist(), strict=True)
+    return [
+        {
+            "bearing": place + 1,
+            "clearance_si": clearance,
+            "sag_si": sag,
+            "amplitude_si": found.touchdowns.major[:, place].tolist(),
+            "forward_si": np.abs(found.touchdowns.forward[:, place]).tolist(),
+            "backward_si": np.abs(found.touchdowns.backward[:, place]).tolist(),
+            "lag": found.lags[:, place].tolist(),
+        }
+        for place, (clearance, sag) in enumerate(places)
+    ]
+
+
+def _stretch(stretch: Stretch) -> dict[str, Any]:
+    return {"from_si": stretch.low, "to_si": stretch.high, "from_rpm": stretch.low / RPM, "to_rpm": stretch.high / RPM}

@@ -17,7 +17,7 @@ from carom.closed_forms import SpeedResponse, SynchronousResponse, synchronous_r
 from carom.parameters import Case, Scales
 from carom.results import Result
 from carom.studies.critical_speeds import Critical, Separation
-from carom.studies.standards import FULL_SPEED, LARGEST, vibration_limit
+from carom.studies.standards import vibration_limit
 
 
 class Steady(NamedTuple):
@@ -211,27 +211,12 @@ class ResponseData(Result):
         """Over which speeds the contact-free vibration exceeds the limit of API 617."""
 
         def over(speed: float) -> float:
-            return float(2.0 * self.at(speed).touchdowns.major.max() - vibration_limit(np.array(speed)))
+            width, allowed = 2.0 * self.at(speed).touchdowns.major.max(), vibration_limit(np.array(speed))
+            return float(np.arctan2(width, allowed)) - 0.25 * math.pi  # finite at the peak of an undamped rotor
 
-        edges = [FULL_SPEED, *self._edges_of_limit()]
-        if self.contact_free is None:
-            edges += crossings(self.speeds, self.peak_to_peak_si - vibration_limit(self.speeds), over)
+        values = np.arctan2(self.peak_to_peak_si, vibration_limit(self.speeds)) - 0.25 * math.pi
+        edges = crossings(self.speeds, values, over)
         return stretches_between(self.interval, edges, lambda speed: over(speed) > 0.0)
-
-    def _edges_of_limit(self) -> list[float]:
-        """Speeds at which a rotor with one mass meets the limit of API 617, in closed form."""
-        free = self.contact_free
-        if free is None:
-            return []
-        share = LARGEST / (2.0 * self.scales.clearance)
-        edges = list(free.beyond(share) or ())
-        # Beyond FULL_SPEED: (ρ/share)²w⁵ = (ω_n/Ω_0)⁴ − 2b(ω_n/Ω_0)²w² + w⁴ for w = Ω/Ω_0.
-        ratio = (free.natural_frequency / FULL_SPEED) ** 2
-        middle = 1.0 - 2.0 * free.damping_ratio**2
-        rho = free.rotor.parameters.rho / share
-        roots = np.roots([-(rho**2), 1.0, 0.0, -2.0 * middle * ratio, 0.0, ratio**2])
-        # A double root may have a small imaginary part; an edge too many does no harm.
-        return edges + [FULL_SPEED * root.real for root in roots if abs(root.imag) < 1e-4 * abs(root)]
 
     @property
     def separation(self) -> Separation | None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from carom.attractors import AttractorSet
 from carom.basins import Share
-from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium, SteadyMotion
 from carom.closed_forms.exact_results import ExactResults, exact_results
 from carom.models import Rotor
@@ -26,7 +25,6 @@ from carom.studies.kinds import Kind
 from carom.studies.levitating import Levitating
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.rigid_limit import OtherWall
 from carom.studies.survives import Survives, lost_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
@@ -47,16 +45,12 @@ class StudyData(Result):
         The contact-free one, then the synchronous rubs; under weight levitation about the static sag alone.
     orbits : OrbitSet
         Orbits with one impact a period: all of the planar rotor, those that a search finds of other models.
-    boundaries : tuple of BoundaryEquilibrium
-        Values of damping and stiffness at which the contact-free motion of the planar rotor meets the wall, and what happens there.
     attractors : AttractorSet
         The motions in which simulated disturbances, and starts next to the known motions, end.
     survives : Survives or None
         The sizes of kicks, shocks and losses of a blade up to which none is lost; ``None`` where there is no stable levitation.
     present : Check or None
         Fresh disturbances of what must be survived, at the machine's own gains; ``None`` where there is no stable levitation.
-    elsewhere : Share or None
-        Of starts anywhere in the clearance, as fast as the kicks that must be survived, how many came back.  Nothing requires them to.
     full_size : tuple of FullSize
         What must be survived at its full size in all directions, and what the touchdown bearings bear in it; empty without stable levitation.
     drop : DropStudy or None
@@ -65,8 +59,6 @@ class StudyData(Result):
         Along damping and along stiffness, or other parameters: for which values each motion exists, and at which all that must be survived came back.
     recommendation : Recommendation
         The least change that leaves only recovery, with its margin and how sure it is.
-    other_walls : tuple of OtherWall
-        How disturbances end on stiffer or softer walls; none where nothing can be compared, or without stable levitation.
     unfinished : tuple of Question
         The questions for which the budget of events, or a time limit, did not suffice.
     proof : Proof or None
@@ -74,8 +66,6 @@ class StudyData(Result):
     kicks : ProvenKicks or None
         What is proven of the kicks that must be survived, or of faster ones where these never touch, if it was asked for and there is stable
         levitation.
-    states : Proof or None
-        The same of all states in the clearance that are no faster than these kicks.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839", "api617")
@@ -88,17 +78,13 @@ class StudyData(Result):
     attractors: AttractorSet
     recommendation: Recommendation
     recoveries: tuple[Recovery, ...] = ()
-    boundaries: tuple[BoundaryEquilibrium, ...] = ()
     survives: Survives | None = None
     present: Check | None = None
-    elsewhere: Share | None = None
     full_size: tuple[FullSize, ...] = ()
     drop: DropStudy | None = None
-    other_walls: tuple[OtherWall, ...] = ()
     unfinished: tuple[Question, ...] = ()
     proof: Proof | None = None
     kicks: ProvenKicks | None = None
-    states: Proof | None = None
 
     @property
     def known(self) -> ExactResults:
@@ -195,4 +181,4 @@ class StudyData(Result):
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
         """What the motions have to do with the limits of the magnetic bearings; ``None`` if the machine has none of these."""
-        return bearing_demand(self.case, self.equilibria, self.orbits, self.known.rolls, self.attractors)
+        return bearing_demand(self.case, self.attractors)

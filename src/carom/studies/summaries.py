@@ -15,31 +15,28 @@ from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.outcome import STEADY_WORDS, shown
-from carom.parameters import ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
+from carom.outcome import STEADY_WORDS
+from carom.parameters import ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.named import own_numbers
-from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
-from carom.studies.advice_facts import check_words
 from carom.studies.endings import motion_words
 from carom.studies.kinds import LABELS
 from carom.studies.proven import is_proven
 from carom.studies.ranges import Motion
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
-from carom.studies.verdict import lost_to
+from carom.studies.verdict import SURVIVED, condition_of, survived_cells
 from carom.studies.wording import Wording, counted, no_rigid_wall
 
 
 @dataclass(frozen=True)
 class ValueRow:
-    """A parameter: symbol, description, value with its unit, and by what the user gave it, if by something else."""
+    """A parameter: symbol, description, and value with its unit."""
 
     symbol: str
     words: str
     value: str
-    given: str = ""
 
 
 State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
@@ -65,31 +62,6 @@ class MotionRow:
     remark: str = ""
 
 
-@dataclass(frozen=True)
-class SurvivedRow:
-    """What of one kind of disturbance is survived."""
-
-    kind: str
-    harmless: str
-    """Up to which size contact is proven to be impossible."""
-    all_back: str
-    """Up to which size all tried came back."""
-    lost: str
-    """The smallest lost, and where it ends."""
-    proven: str = ""
-    """Up to which size all are proven to come back, through contact; empty where this was not looked at."""
-
-
-@dataclass(frozen=True)
-class ShareRow:
-    """The share of one kind of disturbance that comes back."""
-
-    of: str
-    now: str
-    after: str
-    """After the first change that is advised; empty where none is."""
-
-
 MOTIONS: dict[Motion, str] = {
     "contact-free": STEADY_WORDS["contact-free"],
     "rub": STEADY_WORDS["rub"],
@@ -112,34 +84,30 @@ MOTION_COLUMNS = {
 """Headings of the table of motions, by the fields of :class:`MotionRow`."""
 
 
-def survived_rows(study: StudyData) -> list[SurvivedRow]:
-    """Return a row for each kind of disturbance that was searched; none where there is no stable levitation."""
-    rows: list[SurvivedRow] = []
+def survived_rows(study: StudyData) -> list[tuple[str, ...]]:
+    """Return the headings, and a row for each kind of disturbance that was searched; nothing where there is no stable levitation."""
     if study.survives is None:
-        return rows
-    for name, found in study.survives.items():
-        size, shock = study.wording.size_of(name), f" of {study.wording.time(study.survives.duration)}"
-        of = {"shock": shock, "blade_loss": ", change of the unbalance"}.get(name, "")
-        up_to = found.largest if found.size is None and found.complete else found.all_back
-        lost = "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}"
-        proven = study.kicks.told_up_to if name == "kick" and study.kicks else ""
-        untouched, back = ("none" if each is None else size(each) for each in (found.harmless or None, up_to))
-        rows.append(SurvivedRow(f"{LABELS[name]}{of}", untouched, back, lost, proven))
-    return rows
+        return []
+    found = [(name, survived_cells(study, name, each)) for name, each in study.survives.items()]
+    used = [column for column in SURVIVED if any(column in cells for _, cells in found)]
+    rows = [
+        (" ".join([LABELS[name], condition_of(study, name)]).strip(), *(cells.get(column, "none") for column in used))
+        for name, cells in found
+    ]
+    return [("disturbance", *(SURVIVED[column] for column in used)), *rows]
 
 
-def share_rows(study: StudyData) -> list[ShareRow]:
-    """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance, which nothing requires to."""
+def share_rows(study: StudyData) -> list[tuple[str, ...]]:
+    """Return the headings, and a row for each kind of disturbance that must be survived: what, and how many come back now and after the advised change."""
     change = study.recommendation.advised
     now = study.present.returned if study.present else ()
     after = change.check.returned if change else ()
-    rows = zip_longest(map(_share_back, now), map(_share_back, after), fillvalue="none" if change else "")
-    of = [share.population.words for share in now or after]
-    found = [ShareRow(words, here, there) for words, (here, there) in zip(of, rows, strict=True)]
-    if study.elsewhere is not None:
-        words = f"starts spread over the clearance, up to {study.wording.velocity(study.required.kick)}, which nothing requires"
-        found.append(ShareRow(words, _share_back(study.elsewhere), ""))
-    return found
+    rows = [
+        (share.population.words, *(_share_back(each) if each else "none" for each in pair))
+        for share, pair in zip(now or after, zip_longest(now, after) if change else zip(now), strict=False)
+    ]
+    head = ("how many come back (of those drawn; 95 % confidence)", "now", "after the change")
+    return [head[: 3 if change else 2], *rows] if rows else []
 
 
 def _share_back(share: Share) -> str:
@@ -158,25 +126,12 @@ def machine_rows(case: Case) -> list[ValueRow]:
     helpers = [name for name in HELPER_FIELDS if name in type(machine).model_fields]
     if machine.force_current_factor is None and machine.force_limit is None:
         helpers.remove("magnetic_bearings")
-    found = {name: getattr(machine, name) for name in MACHINE_FIELDS}
-    found |= {name: value for name in helpers if (value := getattr(machine, name)) is not None}
+    found = {name: getattr(machine, name) for name in (*MACHINE_FIELDS, *helpers)} | machine.controller_gains
     return [
-        ValueRow(ENTRIES[name].symbol, ENTRIES[name].words, told_entry(name, value, 6), given_words(machine, name))
-        for name, value in (found | machine.controller_gains).items()
+        ValueRow(ENTRIES[name].symbol, ENTRIES[name].words, told_entry(name, value, 6))
+        for name, value in found.items()
+        if value is not None
     ]
-
-
-def given_words(machine: Machine, name: str) -> str:
-    """Return the entries that gave a number, such as ``unbalance = 15 g mm, mass = 2 kg``."""
-    field = set_by(name)
-    given = machine.given.get(field, {})
-    if name != field and name in machine.controller_gains:
-        return shown(given[name]) if name in given else f"from the {field}"
-    if not given:
-        return "not given"
-    return ", ".join(
-        f"{shown(value)}" if entry == name else f"{entry} = {shown(value)}" for entry, value in given.items()
-    )
 
 
 def dimensionless_rows(case: Case) -> list[ValueRow]:
@@ -312,14 +267,10 @@ def _back_words(say: Wording, found: Recovery) -> str:
 
 
 def range_rows(study: StudyData) -> list[tuple[str, ...]]:
-    """Return rows that say where each motion exists along each parameter of ``study.recoveries``.
-
-    The last rows say where all that must be survived came back, and what is advised with how that was checked.
-    """
-    told = [dict(ranges_along(study.wording, found)) for found in study.recoveries]
+    """Return the headings, then rows that say where each motion exists along each parameter of ``study.recoveries``, and where all that must be survived came back."""
+    tables = [ranges_along(study.wording, found) for found in study.recoveries]
+    if not tables:
+        return []
+    told = [dict(rows) for rows in tables]
     rows = [(name, *(each.get(name, "not searched") for each in told)) for name in (*MOTIONS.values(), BACK)]
-    advised = {
-        change.parameter: f"{change.terms.text}, where {check_words(study, change.check)}"
-        for change in study.recommendation.changes
-    }
-    return [*rows, ("advised", *(advised.get(found.along.name, "none") for found in study.recoveries))]
+    return [("motion", *(f"{name} (this machine: {value})" for (name, value), *_ in tables)), *rows]

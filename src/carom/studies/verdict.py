@@ -17,7 +17,7 @@ from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
 from carom.studies.kinds import LABELS, Kind, required_kinds
-from carom.studies.proven import proven_kicks_document, states_return
+from carom.studies.proven import proven_kicks_document
 from carom.studies.study_data import StudyData
 from carom.studies.survives import decides
 from carom.studies.wording import listed
@@ -30,6 +30,13 @@ _CHOSEN = {
     "option": "as the options say",
     "default": "default: the impact speed of a free fall across the diametral clearance",
 }
+SURVIVED = {
+    "untouched": "cannot touch up to",
+    "sure": "every one comes back up to",
+    "back": "all tried came back up to",
+    "lost": "smallest found that does not come back",
+}
+"""What is said of each kind of disturbance: headings of a table, and words before the size in a sentence."""
 _fact = partial(Fact, "Verdict")
 
 
@@ -69,11 +76,10 @@ class Verdict:
 def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:
     """Write the verdict of a study from its facts."""
     facts = {fact.label: fact.text for fact in about(found, "Verdict")}
-    lead = {"Elsewhere": "Apart from what is required: ", "Certain": "Proven: ", "Drop": "In a drop: "}
-    lead |= {label: f"{label}{'' if label == 'Shock' else ':'} " for label in LABELS.values()}
+    lead = {"Certain": "Proven: ", "Drop": "In a drop: ", **{label: f"{label}: " for label in LABELS.values()}}
     if "Share" in facts:
         lead["Share"] = f"It must survive {facts['Must survive']}; "
-    order = (*LABELS.values(), "Share", "Elsewhere", "Certain", "Drop")
+    order = (*LABELS.values(), "Share", "Certain", "Drop")
     return Verdict(*judged(study), tuple(f"{lead[label]}{facts[label]}." for label in order if label in facts))
 
 
@@ -85,7 +91,9 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
             entry: SmallestLoss = getattr(study.survives, name)
             motions = () if entry.outcome is None else (entry.outcome.label,)
             yield _fact(_survived(study, name, entry), LABELS[name], None, values, motions, name)
-    yield from _shares(study)
+    if study.share is not None and study.share.total:
+        words, values = f"{study.share.words}, weighted by area", study.share.document
+        yield _fact(words, "Share", "sampled", values, disturbances="kick")
     if study.kicks is not None:
         yield _fact(study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks), disturbances="kick")
     yield from _others(study)
@@ -105,30 +113,40 @@ def _required_words(study: StudyData) -> str:
     return f"{listed(study.wording.required(study.required))} ({how})"
 
 
-def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> str:
-    size, timed = study.wording.size_of(name), study.rotor.depends_on_instant
-    of = ""
-    if name == "shock" and study.survives is not None:
-        of = f"of {study.wording.time(study.survives.duration)}, "
-    elif name == "blade_loss":
-        of = f"change of the unbalance, at the worst phase{' and instant of the turn' if timed else ''}: "
-    if timed and name != "blade_loss":
-        of += f"{ANY_INSTANT}, "
-    parts = [f"cannot touch up to {size(found.harmless)} (proven)"] if found.harmless > 0.0 else []
+def survived_cells(study: StudyData, name: Kind, found: SmallestLoss) -> dict[str, str]:
+    """What of one kind of disturbance is survived, by :data:`SURVIVED`; what is not known is left out."""
+    size, cells = study.wording.size_of(name), {}
+    if found.harmless > 0.0:
+        cells["untouched"] = f"{size(found.harmless)} (proven)"
     if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
-        parts.append(f"every one comes back up to {study.kicks.told_up_to} (proven)")
-    if found.size is None and found.complete:
-        most = "; with more it cannot levitate" if name == "blade_loss" else ""
-        parts.append(f"all {found.tried:,} tried came back, up to {size(found.largest)}{most}")
-        return of + ", ".join(parts)
-    if found.all_back is not None:
-        parts.append(f"all tried came back up to {size(found.all_back)}")
-    if found.size is None:
-        return of + ", ".join([*parts, "larger ones were not reached"])
-    remarks = "; ".join(each for each in (lost_to(study, name, found), found.sensitivity) if each)
-    which = "" if found.complete else "found "
-    parts.append(f"smallest {which}that does not come back {size(found.size)}{remarks and f' ({remarks})'}")
-    return of + ", ".join(parts if found.complete else [*parts, "smaller ones were not searched to the end"])
+        cells["sure"] = f"{study.kicks.told_up_to} (proven)"
+    none = found.size is None and found.complete
+    if (up_to := found.largest if none else found.all_back) is not None:
+        most = "; with more it cannot levitate" if none and name == "blade_loss" else ""
+        cells["back"] = f"{size(up_to)} ({found.tried:,} tried{most})"
+    remarks = [lost_to(study, name, found), found.sensitivity, "" if found.complete else "not searched to the end"]
+    told = "; ".join(filter(None, remarks))
+    if found.size is not None:
+        cells["lost"] = f"{size(found.size)} ({told})"
+    elif not found.complete:
+        cells["lost"] = told
+    return cells
+
+
+def condition_of(study: StudyData, name: Kind) -> str:
+    """What is the same for all disturbances of a kind."""
+    parts = []
+    if name == "shock" and study.survives is not None:
+        parts.append(f"of {study.wording.time(study.survives.duration)}")
+    if name == "blade_loss":
+        parts.append("change of the unbalance at the worst phase")
+    return ", ".join([*parts, ANY_INSTANT] if study.rotor.depends_on_instant else parts)
+
+
+def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> str:
+    of, cells = condition_of(study, name), survived_cells(study, name, found)
+    told = ", ".join(f"{SURVIVED[column]} {cell}" for column, cell in cells.items())
+    return f"{of}: {told}" if of else told
 
 
 def lost_to(study: StudyData, name: Kind, found: SmallestLoss) -> str:
@@ -138,21 +156,6 @@ def lost_to(study: StudyData, name: Kind, found: SmallestLoss) -> str:
     # The motions of this machine are not those that a larger unbalance leaves.
     motions = [] if name == "blade_loss" else [entry.name for entry in study.attractors]
     return ending_words(found.outcome, motions).removeprefix("it ")
-
-
-def _shares(study: StudyData) -> Iterator[Fact]:
-    """The share of kicks that comes back, and apart from it that of starts elsewhere in the clearance."""
-    share, elsewhere, sure = study.share, study.elsewhere, states_return(study.states)
-    if share is not None and share.total:
-        yield _fact(f"{share.words}, weighted by area", "Share", "sampled", share.document, disturbances="kick")
-    if share is None or elsewhere is None or not elsewhere.total:
-        return
-    upto = study.wording.velocity(study.required.kick)
-    text = f"{elsewhere.count:,} of {elsewhere.total:,} starts spread over the clearance, of up to {upto} in the room, came back; nothing requires them to"
-    if sure:
-        text = f"every start in the clearance, of up to {upto} in the room, comes back, as did {elsewhere.count:,} of {elsewhere.total:,} drawn"
-    values = {"count": elsewhere.count, "total": elsewhere.total, **elsewhere.document}
-    yield _fact(text, "Elsewhere", "proven" if sure else "sampled", values, disturbances="state")
 
 
 def _others(study: StudyData) -> Iterator[Fact]:
@@ -175,7 +178,7 @@ def _others(study: StudyData) -> Iterator[Fact]:
 
 def judged(study: StudyData) -> tuple[Level, str, str]:
     """The level, the outcome in a few words, and the reason to stand behind it."""
-    levitation, zone = study.equilibria[0], f"zone {study.zone}"
+    levitation, zone = study.equilibria[0], f"vibration in zone {study.zone}"
     if levitation.status != "admissible":
         what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
         whirl = "sag and whirl" if study.heavy else "whirl from unbalance"
@@ -208,12 +211,11 @@ def _reservations(study: StudyData) -> str:
     """What has to be said where all that must be survived came back."""
     parts = ["no guarantee, as disturbances are samples"]
     if kicks_surely_return(study):
-        others = " and for all starts in the clearance that are no faster" if states_return(study.states) else ""
-        parts = [f"proven for these kicks{others}; no guarantee for other disturbances, which are samples"]
+        parts = ["proven for these kicks; no guarantee for other disturbances, which are samples"]
     if study.bearing_demand is not None and (count := study.bearing_demand.doubtful):
         parts.append(f"{count} disturbances ask for a faster current than its magnetic bearings have")
     zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
-    parts += [f"sensitivity in zone {max(zones)} of ISO 14839-3"] if zones else []
+    parts += [f"sensitivity of its loops in zone {max(zones)} (ISO 14839-3)"] if zones else []
     parts += [] if study.levitating.met else ["a critical speed is nearer than API 617 allows"]
     return "; ".join(
         [*parts, *(f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits)]
