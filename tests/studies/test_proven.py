@@ -36,7 +36,7 @@ def test_words_name_what_is_proven(proof):
     words = proven_words(proof)
 
     assert "levitation lies inside the wall" in words
-    assert "synchronous with the shaft: B1,a, B1,b, B1,c, B1,d;" in words
+    assert "synchronous with the shaft: B1,a, B1,b, B1,c, B1,d." in words
     assert "could not be decided" not in words
 
 

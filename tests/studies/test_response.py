@@ -159,11 +159,11 @@ def test_separation_margin():
     assert not above.separation.met
     inside = unbalance_response(LIGHT, operating=("2000 rpm", "9000 rpm"))
     assert (inside.separation.side, inside.separation.actual, inside.separation.met) == ("inside", 0.0, False)
-    assert "which is not met" in " ".join(inside.words)
+    assert "not met" in " ".join(inside.words)
     flat = unbalance_response(LIGHT.replace(damping="12000 N s/m"))
     assert flat.contact_free.amplification_factor is None
     assert flat.separation.met
-    assert "requires no separation" in " ".join(flat.words)
+    assert "no separation is required" in " ".join(flat.words)
     assert unbalance_response(LIGHT.replace(damping="20000 N s/m")).separation is None
 
 
@@ -174,10 +174,10 @@ def test_separation_margin():
         ({}, "exceeded from 5,323 rpm to 7,455 rpm"),
         ({}, "the rotor touches nowhere in this range"),
         ({"eccentricity": "0.15 um"}, "nowhere exceeded"),
-        ({"eccentricity": "0.1 mm"}, "times the clearance, so the rotor touches before"),
+        ({"eccentricity": "0.1 mm"}, "the response calculated there is virtual"),
         ({"eccentricity": "0.1 mm", "speed": "6000 rpm"}, "the clearance allows 400 µm: the rotor touches"),
         ({"eccentricity": "0.1 mm", "restitution": 1.0}, "No stable synchronous rub exists there"),
-        ({"damping": "20000 N s/m"}, "There is no critical speed"),
+        ({"damping": "20000 N s/m"}, "The response has no peak between"),
         ({"damping": 0.0}, "amplification factor is infinite"),
     ],
 )

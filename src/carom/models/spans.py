@@ -23,8 +23,6 @@ class Edge:
         Of the orbit that appears, vanishes or changes there: its period in ``1/Ω`` and radial speed in ``c_r Ω``.
     name : str
         Name of this orbit; empty if there is none.
-    certified : bool
-        Whether the edge is exact, or confirmed by the certified orbits close by on both sides.
     motion : MotionName or None
         For the kind ``"simulated"``: the motion in which a disturbance ended beyond the edge.
     """
@@ -34,7 +32,6 @@ class Edge:
     period: float | None = None
     radial_speed: float | None = None
     name: str = ""
-    certified: bool = True
     motion: str | None = None
 
 

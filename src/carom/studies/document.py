@@ -42,7 +42,7 @@ ATTRACTOR = (
     "known_starts=known largest_impulse: largest_force:"
 )
 DISTURBANCES = "fastest patience smallest_unrecovered_kick:velocity"
-THRESHOLD = "motion kind=edge.kind exists parameter value=edge.value period=edge.period certified=edge.certified"
+THRESHOLD = "motion kind=edge.kind exists parameter value=edge.value period=edge.period"
 SHARE = "tried=total came_back=count"
 
 

@@ -20,7 +20,7 @@ from carom.closed_forms.whirl import rolling
 from carom.models import Axis, Edge, Rotor, Span, axis, exact_rotor_of
 from carom.models.axes import usual_range
 from carom.models.spans import spans_where
-from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
+from carom.orbits.single_impact import longest_within_reach
 from carom.outcome import CaromError
 from carom.parameters import PHYSICAL_PARTNER
 from carom.parameters.told import own_entry
@@ -47,8 +47,6 @@ EVENTS = {
 DAMPING_STEP, STEP = 0.1, 0.05
 """Relative steps between the values at which all orbits are computed: along damping, and along other parameters."""
 _OWN: dict[str, str] = {there: own for own, there in PHYSICAL_PARTNER.items()}
-NEARBY = 1e-6
-"""Relative distance from an edge at which the certified lists of orbits must confirm it."""
 
 
 def event_words(edge: Edge) -> str:
@@ -172,15 +170,7 @@ def _orbit_ranges(rotor: Rotor, along: Axis, values: Sequence[float], progress: 
         found = {"single-impact": windows.possible, "stable-single-impact": windows.stable}
     searched, step = Span(Edge(values[0]), Edge(values[-1])), values[1] / values[0] - 1.0
     return [
-        MotionRange(
-            motion,
-            along.name,
-            tuple(_confirmed(rotor, along, span, stable=motion == "stable-single-impact") for span in spans),
-            searched,
-            step,
-        )
-        for motion, spans in found.items()
-        if spans is not None
+        MotionRange(motion, along.name, spans, searched, step) for motion, spans in found.items() if spans is not None
     ]
 
 
@@ -210,17 +200,3 @@ def _values(rotor: Rotor, along: Axis) -> list[float]:
 
 def _can_search(rotor: Rotor) -> bool:
     return rotor.parameters.gamma > 0.0 and longest_within_reach(rotor) is None
-
-
-def _confirmed(rotor: Rotor, along: Axis, span: Span, *, stable: bool) -> Span:
-    """A span of orbits whose ends are certified where the orbits found close by on both sides confirm them."""
-
-    def exists(value: float) -> bool:
-        orbits = orbits_within_reach(along.move(rotor, value))
-        return any(orbit.admissible and (orbit.stable or not stable) for orbit in orbits)
-
-    def checked_at(edge: Edge, inward: float) -> Edge:
-        places = (edge.value * (1.0 + side * NEARBY) for side in (inward, -inward))
-        return replace(edge, certified=[exists(place) for place in places] == [True, False]) if edge.kind else edge
-
-    return Span(checked_at(span.low, 1.0), checked_at(span.high, -1.0))

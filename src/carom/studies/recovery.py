@@ -230,6 +230,6 @@ def _recovering(trial: Trial, span: Span, known: Sequence[Edge]) -> tuple[Span, 
         if here != there:
             beyond, inside = (value, after) if there else (after, value)
             lost = trial.checks[beyond].example
-            here_lost = Edge(inside, "simulated", certified=False, motion=lost.motion if lost else None)
+            here_lost = Edge(inside, "simulated", motion=lost.motion if lost else None)
             ends.append(next((edge for edge in known if edge.kind and value <= edge.value <= after), here_lost))
     return paired([*ends, span.high] if marks[-1][1] else ends)

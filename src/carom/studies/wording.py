@@ -112,10 +112,6 @@ class Wording:
             return _with_prefix(value * self.scales.force, "N", least=1.0)
         return told(value, "force", self.scales)
 
-    def spring(self, value: float) -> str:
-        """The stiffness of a touchdown bearing given in ``m Ω²``; always in MN/m, so that those of a page compare at a glance."""
-        return f"{number(1e-6 * value * self.scales.stiffness, 3)} MN/m" if self.scales else f"{number(value)} m Ω²"
-
     def impulse(self, value: float) -> str:
         """An impulse given in ``m c_r Ω``."""
         return told(value, "impulse", self.scales)
