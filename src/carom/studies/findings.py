@@ -126,12 +126,11 @@ def _bouncing(study: StudyData) -> str:
         longest = study.wording.time(orbits.longest_period)
         sure = f"Orbits of one impact a period were searched up to a period of {longest}; there may be more."
     else:
-        sure = f"{'These are' if study.stable_orbits else 'There are no'} stable orbits with one impact a period"
-        sure += (
-            ": bounds exclude any other."
-            if orbits.slip_stays_forward
-            else ", but for those whose impacts stop the slip."
+        none = "" if study.stable_orbits else "No orbit with one impact a period is stable. "
+        but = (
+            ": bounds exclude any other" if orbits.slip_stays_forward else ", but for those whose impacts stop the slip"
         )
+        sure = f"{none}The list of these is complete{but}."
     return " ".join([*(_stable_orbit(study, orbit) for orbit in study.stable_orbits), sure])
 
 
