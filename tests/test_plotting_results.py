@@ -13,7 +13,6 @@ from carom import plots
 from carom.basins import map_basins, map_gains
 from carom.disturbances import Grid, VelocityKick
 from carom.motions import energy_ledger
-from carom.motions.spectrum import full_spectrum
 from carom.outcome import InputError
 from carom.proofs import ProvenKicks, prove_kicks
 from carom.results import Result
@@ -30,7 +29,6 @@ EXAMPLES = {
     "EnergyLedger": lambda: energy_ledger(motion()),
     "EquilibriumSet": lambda: carom.find_equilibria(PAPER),
     "AttractorSet": lambda: carom.find_attractors(PAPER, count=12),
-    "FullSpectrum": lambda: full_spectrum(motion()),
     "Orbit": lambda: carom.find_orbits(PAPER)["B1,d"],
     "OrbitSet": lambda: carom.find_orbits(PAPER),
     "Basin": lambda: map_basins(PAPER, KICKS),

@@ -83,11 +83,3 @@ def test_virtual_orbits_are_hidden_unless_asked_for(weak):
     assert {text.get_text() for text in axes.figure.legends[0].get_texts()} == possible
     asked = plots.multipliers(weak.orbits, virtual=True)
     assert len(asked.legends[0].get_texts()) == len(weak.orbits) > len(possible)
-
-
-def test_amplitudes_of_a_machine_are_in_mm(bouncing):
-    full = carom.motions.full_spectrum(bouncing)
-    (axes,) = plots.spectrum(full).axes
-    assert axes.get_ylabel() == "amplitude (mm)"
-    top = max(np.max(line.get_ydata()) for line in axes.lines if len(line.get_xdata()) > 2)
-    assert top == pytest.approx(0.7 * abs(full.amplitudes).max())

@@ -14,7 +14,6 @@ from matplotlib.colors import to_rgb
 import carom
 from carom import plots
 from carom.motions.ledger import energy_ledger
-from carom.motions.spectrum import full_spectrum
 from carom.plots import LOOKS, touchdowns
 from carom.plots.style import REGIMES
 
@@ -104,12 +103,6 @@ def test_energies_draw_every_account(ledger):
     np.testing.assert_allclose(drawn["work of the drive"], ledger.scales.energy * ledger.drive)
     assert "(J)" in figure.axes[0].get_ylabel()
     assert len([label for label in drawn if not label.startswith("_")]) == 6
-
-
-def test_spectrum_marks_multiples_of_the_shaft_speed(bouncing):
-    figure = plots.spectrum(full_spectrum(bouncing, highest_order=3.0))
-    ticks = [tick.get_text() for tick in figure.axes[0].get_xticklabels()]
-    assert ticks == ["\N{MINUS SIGN}3X", "\N{MINUS SIGN}2X", "\N{MINUS SIGN}1X", "0", "+1X", "+2X", "+3X"]
 
 
 def test_user_settings_are_left_alone(rub, ledger):

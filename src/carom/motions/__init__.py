@@ -26,7 +26,6 @@
 ``reduction_errors``  what the vectors left out of a flexible machine change
 ``ledger``            energies of a motion
 ``across``            energies of bearings that act differently in two directions
-``spectrum``          forward and backward whirl at each multiple of the shaft speed
 ====================  ======================================================================================
 """
 
@@ -39,7 +38,6 @@ from carom.motions.load_sums import drop_loads, follow_loads, touchdown_loads
 from carom.motions.loads import TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
-from carom.motions.spectrum import FullSpectrum, full_spectrum
 from carom.motions.starts import Kick, State, kick
 from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
@@ -53,7 +51,6 @@ __all__ = [
     "DropLoads",
     "Endings",
     "EnergyLedger",
-    "FullSpectrum",
     "Kick",
     "LastWhirl",
     "LastingContact",
@@ -67,7 +64,6 @@ __all__ = [
     "drop_loads",
     "energy_ledger",
     "follow_loads",
-    "full_spectrum",
     "kick",
     "settle",
     "simulate",

@@ -128,7 +128,6 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     See Also
     --------
     carom.plots.energies, carom.plots.touchdown : draw it
-    carom.motions.full_spectrum : the motion as a sum of whirls
 
     Examples
     --------

@@ -80,7 +80,7 @@ def simulate(
     --------
     carom.settle : many starts at once
     carom.kick, carom.drop, carom.State : starts
-    carom.motions.energy_ledger, carom.motions.full_spectrum : evaluate a motion
+    carom.motions.energy_ledger : evaluate a motion
 
     Examples
     --------

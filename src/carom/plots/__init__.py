@@ -37,7 +37,7 @@ from carom.plots.regions import region_map
 from carom.plots.responses import unbalance_response
 from carom.plots.shapes import mode_shapes
 from carom.plots.sheet import applied
-from carom.plots.spectra import multipliers, spectrum
+from carom.plots.spectra import multipliers
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
 from carom.plots.sweeps import sweep_map
 from carom.plots.touchdowns import energies, forces, regimes, touchdown
@@ -76,7 +76,6 @@ __all__ = [
     "region_map",
     "save",
     "sensitivity",
-    "spectrum",
     "sweep_map",
     "touchdown",
     "unbalance_response",

@@ -1,4 +1,4 @@
-"""Spectra: multipliers of periodic orbits next to the unit circle, and the full spectrum of a motion."""
+"""Multipliers of periodic orbits next to the unit circle."""
 
 from __future__ import annotations
 
@@ -12,11 +12,10 @@ from matplotlib.figure import Figure
 
 from carom.arguments import checked
 from carom.plots.plane import Complex, one_axes
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import orbit_look, orbit_words, told_in
+from carom.plots.style import LOOKS, ONE_COLUMN, styled
+from carom.plots.words import orbit_look, orbit_words
 
 if TYPE_CHECKING:
-    from carom.motions.spectrum import FullSpectrum
     from carom.orbits.orbit import Orbit
 
 _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
@@ -140,34 +139,3 @@ def _dots(axes: Axes, values: Complex, count: int) -> None:
     look = LOOKS["virtual"]
     words = f"{count} orbits \N{EM DASH} {look.words}"
     axes.plot(values.real, values.imag, ".", markersize=2.5, color=look.colour, label=words, zorder=2, gid="virtual")
-
-
-@checked
-@styled
-def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
-    """Draw the full spectrum of a motion over the multiple of the shaft speed: backward whirl left, forward right.
-
-    Amplitudes are on a logarithmic axis, in mm if the machine is known and in clearances otherwise.
-    """
-    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.36 * TWO_COLUMNS))
-    factor, unit = told_in("length", full.scales)
-    sizes = factor * np.abs(full.amplitudes)
-    floor = max(float(sizes.max()) * 1e-6, 1e-12)
-    for part, meaning, words in (
-        (full.orders <= 0, "backward", "backward whirl"),
-        (full.orders >= 0, "forward", "forward whirl"),
-    ):
-        look = LOOKS[meaning]
-        drawn.fill_between(
-            full.orders[part], floor, np.maximum(sizes[part], floor), color=look.colour, lw=0, label=words
-        )
-        drawn.plot(full.orders[part], np.maximum(sizes[part], floor), color="#333333", lw=0.4)
-    drawn.axvline(0.0, color="#1a1a1a", lw=0.5)
-    highest = int(np.floor(full.orders[-1] + 1e-9))
-    ticks = np.arange(-highest, highest + 1)
-    drawn.set_xticks(ticks, [f"{tick:+d}X".replace("-", "\N{MINUS SIGN}") if tick else "0" for tick in ticks])
-    drawn.set_xlim(full.orders[0], full.orders[-1])
-    drawn.set_ylim(floor, 2.0 * float(sizes.max()))
-    drawn.set(yscale="log", xlabel="multiple of the shaft speed", ylabel=f"amplitude ({unit})")
-    drawn.legend(loc="upper left")
-    return figure
