@@ -42,7 +42,7 @@ def test_fresh_drops_agree_with_the_map(balls, found):
         motion = cm.simulate(machine, drop, "40 ms", settle=True)
         loads = drop_loads(motion)
         (plane,) = loads.planes
-        si = plane.loads.si()
+        si = plane.si()
         assert dataset["outcome"].values[at] == loads.outcome
         # Text and number of a size differ by rounding, which impacts enlarge.
         for name in ("force", "impulse", "depth", "heat", "pressure", "contact_time", "power"):

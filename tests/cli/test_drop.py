@@ -133,7 +133,7 @@ def test_a_map_for_people_and_as_json(carom, tmp_path):
     machine = cm.load("examples/dropped-rotor.toml")
     assert speed == pytest.approx(machine.machine.speed)
     loads = cm.motions.drop_loads(cm.simulate(machine, cm.drop(phase=phase)))
-    assert document["impulse_si"][1][1] == pytest.approx(loads.planes[0].loads.si()["impulse"], rel=1e-9)
+    assert document["impulse_si"][1][1] == pytest.approx(loads.planes[0].si()["impulse"], rel=1e-9)
     assert document["force_si"] == [[None] * 2] * 3
 
 

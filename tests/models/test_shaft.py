@@ -329,14 +329,6 @@ def test_the_energy_ledger_holds_the_spin(rotor):
     assert (ledger.drive[-1] != 0.0) == (rotor.shaft.torque != 0.0 and len(motion.lasting_contacts) > 0)
 
 
-def test_what_the_drive_would_do_in_flight_is_told():
-    rotor = single(Rigid(0.8), Shaft(5.0, 0.3), 0.2, 4.0)
-    motion = cm.simulate(rotor, cm.kick(0.01), 2.5)
-    ledger = cm.motions.energy_ledger(motion)
-    assert ledger.drive_left_out[-1] == pytest.approx(0.3 * 2.5, rel=1e-13)
-    assert not ledger.drive.any()
-
-
 @pytest.mark.jit_only
 @pytest.mark.parametrize("laws", [[Rigid(0.8), Rigid(0.7)], [Rigid(0.8), SOFT]])
 def test_impulses_at_a_rigid_wall_are_those_that_brake_the_shaft(laws):

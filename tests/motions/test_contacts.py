@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray
 from compilation import sized
 from drawn_motions import EVENTS, MANY
 from hypothesis import given
@@ -19,7 +18,6 @@ from yielding_walls import with_walls
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import HuntCrossley, KelvinVoigt, jeffcott
-from carom.motions.contacts import LastingContact, polar
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
@@ -62,32 +60,6 @@ class TestContactLog:
         assert log.sticks.any()
         assert np.allclose(log.slip_after[log.sticks], 0.0, rtol=0, atol=1e-14)
 
-    def test_si_units(self, motion):
-        log = motion.contacts
-        table = replace(log, scales=SCALES).to_dataset()
-        columns = {name: (table[name].values, table[name].units) for name in table}
-        expected = {
-            "time": (log.time / 184.2, "s"),
-            "angle": (log.angle, "rad"),
-            "radial_speed": (log.radial_speed * 0.7e-3 * 184.2, "m/s"),
-            "touchdown_bearing": (log.touchdown_bearing, "1"),
-            "angular_speed": (log.angular_speed * 184.2, "rad/s"),
-            "radial_speed_after": (log.radial_speed_after * 0.7e-3 * 184.2, "m/s"),
-            "angular_speed_after": (log.angular_speed_after * 184.2, "rad/s"),
-            "normal_impulse": (log.normal_impulse * 50.0 * 0.7e-3 * 184.2, "N s"),
-            "tangential_impulse": (log.tangential_impulse * 50.0 * 0.7e-3 * 184.2, "N s"),
-            "slip_before": (log.slip_before * 0.7e-3 * 184.2, "m/s"),
-            "slip_after": (log.slip_after * 0.7e-3 * 184.2, "m/s"),
-            "sticks": (log.sticks, "1"),
-            "by_poisson": (log.by_poisson, "1"),
-            "contact_work": (log.contact_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
-            "drive_work": (log.drive_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
-        }
-        assert columns.keys() == expected.keys()
-        for name, (values, unit) in expected.items():
-            assert np.allclose(columns[name][0], values, rtol=1e-14, atol=0), name
-            assert columns[name][1] == unit, name
-
     def test_dataset(self, motion):
         log = motion.contacts
         plain, si = log.to_dataset(), replace(log, scales=SCALES).to_dataset()
@@ -117,33 +89,6 @@ class TestContactLog:
         assert np.allclose(si["contact_work"], normal + friction, rtol=1e-12, atol=0)
         surface = PAPER.radius_ratio * SCALES.velocity
         assert np.allclose(si["drive_work"], -surface * si["tangential_impulse"], rtol=1e-12, atol=0)
-
-    @pytest.mark.parametrize("scales", [None, SCALES])
-    def test_a_dataset_keeps_its_units_in_a_file(self, motion, scales, tmp_path):
-        table = replace(motion.contacts, scales=scales).to_dataset()
-        table.to_netcdf(tmp_path / "contacts.nc", engine="h5netcdf")
-        with xarray.open_dataset(tmp_path / "contacts.nc", engine="h5netcdf", decode_times=False) as read:
-            assert set(read) == set(table)
-            for name in table:
-                assert np.array_equal(read[name].values.astype(table[name].dtype), table[name].values), name
-                assert read[name].attrs["units"] == table[name].attrs["units"]
-                assert read[name].attrs["long_name"] == table[name].attrs["long_name"]
-
-
-def test_polar_speeds_do_not_depend_on_the_angle():
-    angles = np.linspace(-3.0, 3.0, 7)
-    normals = np.exp(1j * angles)
-    angle, radial, angular = polar(normals, (0.4 - 1.3j) * normals)
-    assert np.allclose(angle, angles, rtol=0, atol=1e-15)
-    assert np.allclose(radial, 0.4, rtol=0, atol=1e-15)
-    assert np.allclose(angular, -1.3, rtol=0, atol=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("phase", "kind"), [(Phase.FORWARD_SLIP, "slide"), (Phase.BACKWARD_SLIP, "slide"), (Phase.ROLLING, "roll")]
-)
-def test_kinds_of_lasting_contact(phase, kind):
-    assert LastingContact(phase, 1.0, 2.0).kind == kind
 
 
 # ------------------------------------------------------------------------------------------------ force histories
@@ -216,19 +161,6 @@ def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
         "m",
         "s",
     ]
-
-
-@pytest.mark.parametrize("scales", [None, SCALES])
-def test_a_history_goes_to_a_file(scales, tmp_path):
-    motion = simulate(jeffcott(PAPER.replace(gamma=0.2, d=0.5)), START, 40.0)
-    table = replace(motion.history(np.linspace(0.0, 40.0, 300)), scales=scales).to_dataset()
-    table.to_netcdf(tmp_path / "history.nc", engine="h5netcdf")
-    with xarray.open_dataset(tmp_path / "history.nc", engine="h5netcdf", decode_times=False) as read:
-        assert read["phase"].attrs["flag_meanings"] == "flight forward_slip backward_slip rolling separated"
-        assert read["phase"].attrs["flag_values"].tolist() == [0, 1, 2, 3, 4]
-        assert read["normal_force"].attrs["units"] == ("N" if scales else "m c_r Omega^2")
-        assert np.array_equal(read["normal_force"].values, table["normal_force"].values)
-        assert np.array_equal(read["time"].values, table["time"].values)
 
 
 @pytest.mark.jit_only

@@ -11,8 +11,6 @@ import carom
 from carom.motions import portions
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
-from carom.parameters import Scales
-from carom.progress import Progress
 
 SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
 
@@ -121,12 +119,6 @@ def test_starts_may_have_machines_of_their_own(machine):
             np.testing.assert_array_equal(getattr(mixed, name)[which == number], getattr(alone, name), err_msg=name)
 
 
-def test_arrays_keep_their_shape(machine):
-    endings = settle(carom.models.jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
-    assert endings.outcomes.shape == endings.velocities.shape == (2, 3)
-    assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
-
-
 @pytest.mark.parametrize("shape", [(0,), (0, 3), (3, 0)])
 @pytest.mark.parametrize("threads", [1, 3, None])
 def test_no_start_is_no_ending(machine, shape, threads):
@@ -148,12 +140,6 @@ def test_without_settling_motions_reach_the_time(machine):
     endings = settle(carom.models.jeffcott(machine), *starts(8), until=5.0, patience=0)
     assert (endings.outcomes == Outcome.TIME_REACHED).all()
     np.testing.assert_array_equal(endings.times, 5.0)
-
-
-def test_progress_ends_at_one(machine):
-    told = []
-    settle(carom.models.jeffcott(machine), *starts(8), until=5.0, progress=told.append)
-    assert told[-1] == Progress(1.0, "following starts")
 
 
 @pytest.mark.parametrize(
@@ -180,15 +166,6 @@ def test_bad_input_is_named(machine, changes, words):
 def test_a_start_needs_a_machine_that_exists(machine):
     with pytest.raises(InputError, match="whole numbers from 0 to 0"):
         settle([carom.models.jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
-
-
-def test_a_time_may_have_a_unit():
-    """Each machine is followed for the same time in seconds, whatever its own unit of time."""
-    machines = [PAPER.replace(scales=Scales(50.0, 0.7e-3, speed)) for speed in (100.0, 184.2)]
-    found = settle(machines, 0.2, 0.1j, which=[0, 1], until="0.02 s", patience=0)
-    assert found.times.tolist() == [0.02 * 100.0, 0.02 * 184.2]
-    with pytest.raises(InputError, match=r"^until = 0.02 s: must be a number without a unit"):
-        settle(PAPER, 0.2, 0.1j, until="0.02 s")
 
 
 @pytest.mark.jit_only

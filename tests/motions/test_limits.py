@@ -12,7 +12,7 @@ import carom as cm
 from carom.loading import load
 from carom.models import jeffcott, rotor_of
 from carom.motions import State, Trajectory, energy_ledger
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import Outcome, Phase
 from carom.parameters import ControlLimit, TouchdownBearing
 
 KEOGH = "examples/keogh-cole.toml"
@@ -216,18 +216,6 @@ def test_many_motions_end_as_each_alone():
         assert endings.positions[place] == pytest.approx(alone.final.position, abs=1e-9)
 
 
-def test_levitation_asks_for_what_the_bearings_can_give():
-    rotor = keogh_cole()
-    asked = abs(rotor.parameters.omega**2 + 1j * rotor.parameters.gamma) * abs(rotor.system.rest[0])
-    rest, push = complex(rotor.system.rest[0]), 0.001
-
-    kept = cm.simulate(limited(rotor, 1.1 * asked), State(rest, push))
-    scarce = cm.simulate(limited(rotor, 0.9 * asked), State(rest, push), 100.0, settle=True)
-
-    assert kept.outcome is Outcome.LEVITATED
-    assert scarce.outcome is not Outcome.LEVITATED
-
-
 def test_a_motion_is_saved_with_its_limits(tmp_path):
     motion = cm.simulate(limited(keogh_cole(), 0.4, 0.2), State(0.3, 0.8 + 0.6j), 6.0)
     motion.save(tmp_path / "motion.nc")
@@ -237,16 +225,3 @@ def test_a_motion_is_saved_with_its_limits(tmp_path):
     times = np.linspace(0.0, 6.0, 200)
     assert again.at(times)[0].tolist() == motion.at(times)[0].tolist()
     assert again.rotor.limits == motion.rotor.limits
-
-
-def test_a_machine_file_gives_the_limits():
-    case = load(
-        KEOGH,
-        ["magnetic_bearings=2", "force_current_factor=70 N/A", "negative_stiffness=100 N/mm", "current_limit=4 A"],
-    )
-    assert rotor_of(case).limits == ControlLimit(2 * 70.0 * 4.0, 2e5)
-    both = load(KEOGH, ["force_limit=200 N"])
-    assert rotor_of(both).limits == ControlLimit(200.0, 0.0)
-    assert rotor_of(load(KEOGH)).has_closed_forms
-    with pytest.raises(InputError, match="limits"):
-        cm.models.exact_rotor_of(case)

@@ -47,9 +47,9 @@ def test_heat_is_that_of_the_ledger():
         assert loads.heat + loads.restitution_loss == pytest.approx(lost, rel=1e-10, abs=1e-12)
         assert loads.heat >= 0.0
         assert loads.restitution_loss >= 0.0
-        assert loads.impacts == len(motion.contacts)
+        assert loads.contacts == len(motion.contacts)
         slides += loads.contact_time > 1.0
-        impacts += loads.impacts > 3
+        impacts += loads.contacts > 3
     assert min(slides, impacts) >= sized(10, 1, 100)
 
 
@@ -90,7 +90,7 @@ def test_sliding_against_an_independent_integration():
         # A smooth maximum between two nodes is missed by less than a thousandth.
         assert loads.force == pytest.approx(forces.max(), rel=1e-3)
         assert loads.power == pytest.approx((at.mu * forces * (at.radius_ratio + w)).max(), rel=1e-3)
-        assert loads.impulse == loads.impacts == 0
+        assert loads.impulse == loads.contacts == 0
     assert tried >= sized(10, 2, 40)
 
 
@@ -135,7 +135,7 @@ def test_motions_that_go_on():
 
 def test_no_contact_no_load():
     loads = touchdown_loads(cm.simulate(PAPER, cm.kick(1e-3), 10.0))
-    assert (loads.impacts, loads.impulse, loads.force, loads.power, loads.heat) == (0, 0.0, 0.0, 0.0, 0.0)
+    assert (loads.contacts, loads.impulse, loads.force, loads.power, loads.heat) == (0, 0.0, 0.0, 0.0, 0.0)
     assert loads.si() is None
 
 
@@ -154,7 +154,7 @@ def test_any_linear_rotor():
     machine = tilting()
     motion = cm.simulate(machine.model, cm.kick(1.5), 60.0)
     loads, ledger = touchdown_loads(motion), energy_ledger(motion)
-    assert loads.impacts == len(motion.contacts)
+    assert loads.contacts == len(motion.contacts)
     assert loads.heat > 0.0
     assert np.isfinite(ledger.friction[-1])
 
@@ -165,7 +165,7 @@ def test_walls_that_give_way(law):
     """Against the contacts and the ledger; a stiff wall bears nearly the impulses and heat of the rigid one."""
     motion = cm.simulate(with_walls(single(1), law), cm.State(0.2 + 0.1j, 1.0), 20.0)
     loads, touches, ledger = touchdown_loads(motion), motion.touches, energy_ledger(motion)
-    assert loads.impacts == len(touches) > 5
+    assert loads.contacts == len(touches) > 5
     assert loads.impulse == touches.normal_impulse.max()
     assert loads.force == pytest.approx(motion.forces(touches.peak_time)[0].max(), rel=1e-9)
     # Two thousand samples of a contact miss its maxima by less than a millionth.
@@ -189,7 +189,7 @@ def test_the_rigid_limit():
     for stiffness in (1e6, 1e8):
         law = KelvinVoigt(stiffness, 2.0 * damped * math.sqrt(stiffness * mass))
         loads = touchdown_loads(cm.simulate(with_walls(rotor, law), start, 1.2))
-        assert loads.impacts == rigid.impacts == 1
+        assert loads.contacts == rigid.contacts == 1
         errors.append(
             [abs(getattr(loads, name) / getattr(rigid, name) - 1.0) for name in ("impulse", "heat", "restitution_loss")]
         )

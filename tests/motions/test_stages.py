@@ -11,7 +11,7 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Stage, Trigger, in_stages, jeffcott, rotor_from
+from carom.models import Force, Stage, Trigger, in_stages, jeffcott
 from carom.outcome import InputError, Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
@@ -177,15 +177,6 @@ def test_a_start_in_lasting_contact_counts_from_its_beginning():
     assert (first.segment_phases[-1] == Phase.FORWARD_SLIP).all()
 
 
-def test_stages_are_read_again_from_their_attributes():
-    staged = in_stages((Stage(ROTOR, Trigger(time=5.0, contact_gap=0.2), carry=np.eye(2) * 1j), Stage(HELPED)))
-    again = rotor_from(staged.attributes())
-    assert [each.trigger for each in again.stages] == [each.trigger for each in staged.stages]
-    assert np.array_equal(again.stages[0].carry, 1j * np.eye(2))
-    assert again.stages[1].rotor == HELPED
-    assert staged.replace(mu=0.3).stages[1].rotor.value("mu") == 0.3
-
-
 @pytest.mark.parametrize(
     ("field", "made"),
     [
@@ -323,16 +314,6 @@ def test_disturbances_of_a_rotor_at_rest_are_refused_where_it_never_is(disturban
     shaken = ROTOR.under(WEIGHT, Force(0.3j, np.array([0.01])))
     with pytest.raises(InputError, match="forces that change in the fixed frame"):
         cm.map_basins(shaken, grid, until=20.0)
-
-
-def test_impact_maps_do_not_know_forces_that_change_with_time():
-    with pytest.raises(InputError, match="forces that change with time"):
-        cm.orbits.impact_map(ROTOR.under(WEIGHT), cm.orbits.Section(0.3, 0.5, 0.1))
-
-
-def test_a_map_of_basins_of_stages_is_shown():
-    staged = in_stages((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
-    assert "levitation" in repr(cm.map_basins(staged, cm.Grid(cm.disturbances.VelocityKick(1.0), (2, 3))))
 
 
 def test_low_bounces_in_a_later_stage_are_told_from_others():

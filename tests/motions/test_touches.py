@@ -15,7 +15,7 @@ from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMA
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import State, energy_ledger, simulate, touchdown_loads
 from carom.motions.contacts import presses, slip_velocity
-from carom.motions.quadrature import NODES, WEIGHTS
+from carom.motions.ledger import NODES, WEIGHTS
 from carom.motions.touches import contact_works
 from carom.outcome import Phase
 from carom.parameters import Scales

@@ -37,7 +37,7 @@ def test_the_orbit_and_how_deep_it_goes(soft):
     left, right = plots.drop_orbit(soft).axes
     deepest = np.nanmin(line(right, "contact").get_ydata())
     # Drawn with the time of the largest force, next to which the depth is largest.
-    assert deepest == pytest.approx(-1e6 * plane.loads.si()["depth"], rel=1e-4)
+    assert deepest == pytest.approx(-1e6 * plane.si()["depth"], rel=1e-4)
     path = line(left, "path")
     assert np.hypot(path.get_xdata(), path.get_ydata()).max() == pytest.approx(0.25 - 1e-3 * deepest, rel=1e-6)
     # It falls down the y axis, where the angle counts from.
@@ -53,7 +53,7 @@ def test_force_slip_and_race_over_time(soft):
     figure = plots.drop_loads(soft)
     gap, force, speed = figure.axes
     drawn = line(force, "force")
-    assert drawn.get_ydata().max() == pytest.approx(plane.loads.si()["force"], rel=1e-12)
+    assert drawn.get_ydata().max() == pytest.approx(plane.si()["force"], rel=1e-12)
     peak = drawn.get_xdata()[drawn.get_ydata().argmax()]
     assert peak == pytest.approx(1e3 * plane.force_at * soft.rotor.scales.time, rel=1e-9)
     assert line(speed, "race").get_ydata()[-1] == pytest.approx(plane.race_at_end * 300 * np.pi * 20.25e-3, rel=1e-9)
@@ -68,7 +68,7 @@ def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole(rigid):
     figure = plots.drop_loads(rigid)
     beside = [axes for axes in figure.axes if axes.get_ylabel().startswith("impulse")]
     dots = beside[-1].lines[0].get_ydata()
-    assert dots.max() == pytest.approx(plane.loads.si()["impulse"], rel=1e-12)
+    assert dots.max() == pytest.approx(plane.si()["impulse"], rel=1e-12)
     assert "impulse of an impact (right axis)" in words(figure)
     assert "surface of the race" not in words(figure)
     _, right = plots.drop_orbit(rigid, until=20.0).axes

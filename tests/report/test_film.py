@@ -39,7 +39,7 @@ def test_the_samples_are_those_of_the_motion(played):
     place = np.array(data["x"]) + 1j * np.array(data["y"])
     assert np.abs(place - motion.position(np.minimum(times, motion.time), "fixed")).max() < 2e-5
     loads = cm.motions.drop_loads(motion).planes[0]
-    assert data["largest"][0] == pytest.approx(loads.loads.si()["force"], rel=1e-3)
+    assert data["largest"][0] == pytest.approx(loads.si()["force"], rel=1e-3)
     assert data["t"][data["poster"]] == pytest.approx(1e3 * loads.force_at * motion.rotor.scales.time, abs=1e-5)
     # The shaft turns once per turn, and the race by the integral of its speed.
     assert np.ptp(data["a"]) == pytest.approx(times[-1], abs=1e-3)

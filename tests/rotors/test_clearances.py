@@ -48,7 +48,7 @@ def test_the_unit_of_lengths_changes_no_result_in_si_units(wall):
     ):
         motion = cm.simulate(machine.with_modes(4).model, cm.drop(), "9 ms")
         loads = cm.motions.drop_loads(motion).planes
-        rows = [[*plane.loads.si().values(), plane.force_at * plane.scales.time] for plane in loads]
+        rows = [[*plane.si().values(), plane.force_at * plane.scales.time] for plane in loads]
         for plane in (0, 1):
             seen = motion.seen_at(plane)
             dataset = seen.to_dataset(seen.sample(50))
@@ -174,7 +174,7 @@ def test_balls_have_a_pressure_at_each_plane():
     model = with_clearances(munich(touchdown=wall), (0.2e-3, 0.3e-3), 0.1e-3).with_modes(3).model
     planes = cm.motions.drop_loads(cm.simulate(model, cm.drop(regained_after="8 ms"), "9 ms")).planes
     for plane in planes:
-        si = plane.loads.si()
+        si = plane.si()
         assert si["pressure"] == pytest.approx(ball_pressure(wall, si["force"]), rel=1e-12)
         assert si["pressure"] > 1e8
     again = rotor_from(model.unforced.attributes())

@@ -64,7 +64,7 @@ def test_any_parameter_of_the_machine_has_a_search(studied):
 def test_forces_are_those_of_the_worst_motion(studied):
     (kicks,) = studied.full_size
     loads = cm.motions.drop_loads(kicks.worst)
-    largest = max(plane.loads.si()["force"] for plane in loads.planes)
+    largest = max(plane.si()["force"] for plane in loads.planes)
     assert max(each.document()["force_si"] for each in kicks.bearings) == pytest.approx(largest)
     for each in kicks.bearings:
         assert each.radius > 1.0 if each.contacts else each.radius < 1.0
@@ -81,7 +81,7 @@ def test_the_drop_stands_in_the_verdict_with_its_loads_whether_limits_are_stated
         (drop,) = (fact.text for fact in about(tuple(facts_of(found)), "Verdict") if fact.label == "Drop")
         assert drop.startswith(studied.drop.loads.outcome.words)
         for plane in studied.drop.loads.planes:
-            assert f"{plane.loads.si()['force']:,.3g} N" in drop
+            assert f"{plane.si()['force']:,.3g} N" in drop
         assert drop.endswith("no limit of a touchdown bearing is stated to compare them with") == (not limits.given)
 
 

@@ -21,7 +21,7 @@ from carom.disturbances.following import NO_START
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, follow_loads
-from carom.motions.bearing_loads import DropLoads
+from carom.motions.loads import DropLoads
 from carom.motions.starts import Until
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
@@ -320,10 +320,9 @@ class Landing(Measure):
 
 def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     """Numbers of a drop by the names of :data:`MEASURES`, in SI units."""
-    loads = [plane.loads for plane in found.planes]
-    si = [each.si() or {} for each in loads]
+    si = [plane.si() or {} for plane in found.planes]
     soft = any(plane.gives_way for plane in found.planes)
-    pressures = [each.pressure for each in loads if each.pressure is not None]
+    pressures = [plane.pressure for plane in found.planes if plane.pressure is not None]
     whirls = [plane.whirl for plane in found.planes if plane.whirl is not None and plane.whirl.direction]
     turning = max((whirl.angular_speed for whirl in whirls), key=abs, default=math.nan)
     return {

@@ -13,8 +13,8 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, cons
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from carom.motions.bearing_loads import DropLoads
     from carom.motions.drops import Drop
+    from carom.motions.loads import DropLoads
     from carom.motions.reduction_errors import ReductionError
     from carom.parameters import Case
     from carom.studies.drops import DropStudy

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
     from carom.disturbances.echo import Echo
     from carom.models import Rotor
-    from carom.motions.bearing_loads import DropLoads
     from carom.motions.drops import Drop, Whirl
+    from carom.motions.loads import DropLoads
     from carom.motions.reduction_errors import ReductionError
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
@@ -106,6 +106,6 @@ def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> 
             console.print(begun if part.begins else _FIRST.get(kind, "From the beginning:"))
         print_motion(console, case, part, loads=not together)
     found = drop_loads(motion) if together else None
-    if found is not None and any(plane.contacts or plane.loads.contact_time for plane in found.planes):
+    if found is not None and any(plane.contacts or plane.contact_time for plane in found.planes):
         print_tables(console, load_tables(found, _SINCE.get(kind, "the start")))
         print_checks(console, checks_of_planes(found, case.limits))

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import Field, dataclass, field
 from inspect import cleandoc
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.arguments import Whole, checked
 from carom.core.friction import rebound
-from carom.models import Rotor
 from carom.outcome import Phase
 from carom.parameters import UNITS
 from carom.results import Result, flags
@@ -20,13 +18,19 @@ if TYPE_CHECKING:
     import xarray
 
     from carom.models import System
-    from carom.motions.blows import Blows
+    from carom.motions.trajectories import Trajectory
     from carom.parameters import Scales
 
 UNLIKE = 1e-9
 """Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution; impulses
 below that are too small to tell."""
 
+
+AT_WALL = 1e-9
+"""Distance from its wall up to which a plane may have been struck together with another (:data:`carom.core.joint.ONE_INSTANT`), with
+a margin for the rounding of states: of a plane that was not struck the equations give none but a rounding error."""
+NONE, ROUNDING = 1e-12, 1e-14
+"""Impulse, relative to the largest in the event and to the terms of velocities, below which a plane at its wall was not struck."""
 
 NUMBERED = "touchdown bearing, counted from 1"
 """What a table says of the column that names the bearing: people count from 1, indices of arrays (``plane``) count from 0."""
@@ -57,9 +61,9 @@ class LastingContact:
         return "roll" if self.phase is Phase.ROLLING else "slide"
 
 
-def column(quantity: str, words: str) -> dict[str, str]:
-    """Metadata of a column: a property of :class:`~carom.parameters.Scales`, or a unit where it needs none; and words."""
-    return {"quantity": quantity, "words": words}
+def column(quantity: str, words: str) -> Any:
+    """Field of a table: a property of :class:`~carom.parameters.Scales`, or a unit where it needs none; and words."""
+    return field(metadata={"quantity": quantity, "words": words})
 
 
 def in_units(
@@ -75,7 +79,7 @@ def in_units(
 class Table(Result):
     """Table of columns with units, all along one dimension.
 
-    A column is a field with the metadata of :func:`column`, which docstring and dataset are made from.  Arrays are in
+    A column is a field made by :func:`column`, which docstring and dataset are made from.  Arrays are in
     the units of the equations; a table knows the scales of its machine, if these are known.
     """
 
@@ -128,46 +132,30 @@ class ContactLog(Table):
     speed changes gives from its own.
     """
 
-    time: np.ndarray = field(metadata=column("time", "time of impact"))
-    touchdown_bearing: np.ndarray = field(metadata=column("1", NUMBERED))
-    angle: np.ndarray = field(metadata=column("rad", "angle of impact in the co-rotating frame"))
-    radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed before impact"))
-    angular_speed: np.ndarray = field(metadata=column("speed", "angular speed before impact, co-rotating frame"))
-    radial_speed_after: np.ndarray = field(metadata=column("velocity", "radial speed after impact"))
-    angular_speed_after: np.ndarray = field(metadata=column("speed", "angular speed after impact, co-rotating frame"))
-    normal_impulse: np.ndarray = field(metadata=column("impulse", "normal impulse of the bearing on the rotor, inward"))
-    tangential_impulse: np.ndarray = field(
-        metadata=column("impulse", "friction impulse of the bearing on the rotor, along growing angle")
-    )
-    slip_before: np.ndarray = field(metadata=column("velocity", "slip velocity before impact"))
-    slip_after: np.ndarray = field(metadata=column("velocity", "slip velocity after impact"))
-    sticks: np.ndarray = field(metadata=column("1", "whether friction stopped the slip"))
-    by_poisson: np.ndarray = field(
-        metadata=column(
-            "1", "whether Poisson's restitution took the place of Newton's, which would have raised the energy"
-        )
-    )
-    contact_work: np.ndarray = field(
-        metadata=column("energy", "work of the impact on the contact point, never positive in the sum over the planes")
-    )
-    drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft through friction"))
+    time: np.ndarray = column("time", "time of impact")
+    touchdown_bearing: np.ndarray = column("1", NUMBERED)
+    angle: np.ndarray = column("rad", "angle of impact in the co-rotating frame")
+    radial_speed: np.ndarray = column("velocity", "radial speed before impact")
+    angular_speed: np.ndarray = column("speed", "angular speed before impact, co-rotating frame")
+    radial_speed_after: np.ndarray = column("velocity", "radial speed after impact")
+    angular_speed_after: np.ndarray = column("speed", "angular speed after impact, co-rotating frame")
+    normal_impulse: np.ndarray = column("impulse", "normal impulse of the bearing on the rotor, inward")
+    tangential_impulse: np.ndarray = column("impulse", "friction impulse on the rotor, along growing angle")
+    slip_before: np.ndarray = column("velocity", "slip velocity before impact")
+    slip_after: np.ndarray = column("velocity", "slip velocity after impact")
+    sticks: np.ndarray = column("1", "whether friction stopped the slip")
+    by_poisson: np.ndarray = column("1", "whether Poisson's restitution took the place of Newton's")
+    contact_work: np.ndarray = column("energy", "work on the contact point, never positive in the sum over the planes")
+    drive_work: np.ndarray = column("energy", "work of the shaft through friction")
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "impact"
 
     @classmethod
-    @checked
-    def from_states(
-        cls,
-        rotor: Rotor,
-        times: np.ndarray,
-        blows: Blows,
-        before: np.ndarray,
-        after: np.ndarray,
-        scales: Scales | None,
-    ) -> ContactLog:
-        """Log of impacts from their impulses, amplitudes just before and just after, shape (n, N), and the scales of the plane."""
-        system, planes = rotor.system, blows.planes
+    def of(cls, motion: Trajectory, blows: Blows) -> ContactLog:
+        """Log of impacts of a motion from their impulses."""
+        before, after = motion.arrivals[blows.events], motion.segment_amplitudes[1:][blows.events]
+        system, planes = motion.rotor.system, blows.planes
         arrays = system.arrays
         angle, radial, angular = polar(*system.at_planes(before, planes))
         _, radial_after, angular_after = polar(*system.at_planes(after, planes))
@@ -175,17 +163,17 @@ class ContactLog(Table):
         surface_speed, mass = arrays.surface_speed[planes], arrays.masses[planes]
         radius = surface_speed - 1.0
         normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
-        slip, slip_after = np.zeros((2, len(times)))
+        slip, slip_after = np.zeros((2, len(planes)))
         for plane in np.unique(planes).tolist():
             here = planes == plane
             slip[here], slip_after[here] = (slip_velocity(system, plane, each[here]) for each in (before, after))
         normal_work = -0.5 * normal * (radial + radial_after)
-        newton = np.zeros(len(times))
+        newton = np.zeros(len(planes))
         for plane, contact in enumerate(system.contacts):
             newton[planes == plane] = rebound(np.maximum(radial[planes == plane], 0.0), contact.wall)
         unlike = np.abs(radial_after + newton) > UNLIKE * (1.0 + radial)
         return cls(
-            time=times,
+            time=motion.segment_starts[1:][blows.events],
             touchdown_bearing=planes + 1,
             angle=angle,
             radial_speed=radial,
@@ -200,7 +188,7 @@ class ContactLog(Table):
             by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > UNLIKE)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-radius * (0.5 * (spin + spin_after)) * tangential,
-            scales=scales,
+            scales=motion.scales,
         )
 
     def __len__(self) -> int:
@@ -209,7 +197,7 @@ class ContactLog(Table):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactHistory(Table):
-    """Forces and slip of lasting contact at chosen times; all arrays have shape (n,).
+    """Course of a motion at its plane, with the forces and the slip of lasting contact, at chosen times; all arrays have shape (n,).
 
     In flight, and where a plane has parted from its wall, forces, slip and powers are zero.  Phases are those of
     :class:`~carom.outcome.Phase`.  The slip velocity of the contact point is ``v = s + r(1 + θ̇)`` at the radius ``r``, which is one on a
@@ -217,39 +205,31 @@ class ContactHistory(Table):
     that gives way the gap is negative: the depth.
     """
 
-    time: np.ndarray = field(metadata=column("time", "time"))
-    phase: np.ndarray = field(metadata=column("1", "kind of motion"))
-    angle: np.ndarray = field(metadata=column("rad", "angle in the co-rotating frame"))
-    gap: np.ndarray = field(metadata=column("length", "distance from the wall"))
-    normal_force: np.ndarray = field(metadata=column("force", "normal force of the bearing on the rotor, inward"))
-    friction_force: np.ndarray = field(
-        metadata=column("force", "friction force of the bearing on the rotor, along growing angle")
-    )
-    slip: np.ndarray = field(metadata=column("velocity", "slip velocity"))
-    friction_power: np.ndarray = field(
-        metadata=column("power", "power of friction on the contact point, never positive")
-    )
-    drive_power: np.ndarray = field(metadata=column("power", "power of the shaft's drive through friction"))
+    time: np.ndarray = column("time", "time")
+    phase: np.ndarray = column("1", "kind of motion")
+    angle: np.ndarray = column("rad", "angle in the co-rotating frame")
+    gap: np.ndarray = column("length", "distance from the wall")
+    normal_force: np.ndarray = column("force", "normal force of the bearing on the rotor, inward")
+    friction_force: np.ndarray = column("force", "friction force of the bearing on the rotor, along growing angle")
+    slip: np.ndarray = column("velocity", "slip velocity")
+    friction_power: np.ndarray = column("power", "power of friction on the contact point, never positive")
+    drive_power: np.ndarray = column("power", "power of the shaft's drive through friction")
+    x: np.ndarray = column("length", "position along x, co-rotating frame")
+    y: np.ndarray = column("length", "position along y, co-rotating frame")
+    velocity_x: np.ndarray = column("velocity", "velocity along x, co-rotating frame")
+    velocity_y: np.ndarray = column("velocity", "velocity along y, co-rotating frame")
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "time"
 
     @classmethod
-    @checked
-    def from_states(
-        cls,
-        rotor: Rotor,
-        plane: Whole,
-        times: np.ndarray,
-        phases: np.ndarray,
-        amplitudes: np.ndarray,
-        forces: tuple[np.ndarray, np.ndarray],
-    ) -> ContactHistory:
-        """History at a plane from amplitudes (n, N), and normal and friction forces, each of shape (n,)."""
-        position, _ = rotor.system.at_plane(amplitudes, plane)
-        surface_speed = float(rotor.system.arrays.surface_speed[plane])
-        normal, friction = forces
-        slip = np.where(presses(phases), slip_velocity(rotor.system, plane, amplitudes), 0.0)
+    def of(cls, motion: Trajectory, times: np.ndarray) -> ContactHistory:
+        """History of a motion at its plane."""
+        system, plane = motion.rotor.system, motion.plane
+        amplitudes, every = motion.amplitudes_at(times)
+        phases, (position, velocity) = every[..., plane], system.at_plane(amplitudes, plane)
+        normal, friction = motion.forces_of(amplitudes, every, times)
+        slip = np.where(presses(phases), slip_velocity(system, plane, amplitudes), 0.0)
         return cls(
             time=times,
             phase=phases,
@@ -259,8 +239,12 @@ class ContactHistory(Table):
             friction_force=friction,
             slip=slip,
             friction_power=friction * slip,
-            drive_power=-(surface_speed - 1.0) * shaft_speed(rotor.system, amplitudes) * friction,
-            scales=rotor.system.scales_at(plane, rotor.scales),
+            drive_power=(1.0 - float(system.arrays.surface_speed[plane])) * shaft_speed(system, amplitudes) * friction,
+            x=position.real,
+            y=position.imag,
+            velocity_x=velocity.real,
+            velocity_y=velocity.imag,
+            scales=motion.scales,
         )
 
 
@@ -323,3 +307,63 @@ def polar(position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.nd
     """Angle, radial and angular speed of states on the wall."""
     local = position.conj() * velocity / np.abs(position)
     return np.angle(position), local.real, local.imag / np.abs(position)
+
+
+class Blows(NamedTuple):
+    """Impulses at planes; arrays of shape (k,)."""
+
+    events: np.ndarray
+    """Number of the event."""
+    planes: np.ndarray
+    """Contact plane."""
+    impulses: np.ndarray
+    """Impulse on the rotor per effective mass of the plane, ``−P + iF``: outward, and along growing angle.  Complex."""
+
+    def at(self, plane: int) -> Blows:
+        """Those at one plane."""
+        here = self.planes == plane
+        return Blows(*(part[here] for part in self))
+
+
+def blows_of(motion: Trajectory, events: np.ndarray) -> Blows:
+    """Impulses that have changed the amplitudes of a rotor in some events, by their numbers, shape (n,).
+
+    Of a plane struck alone the impulse is the change of its own velocity.  Where others are at their walls too, the impulses
+    follow from the changes of velocity at all of these: ``Δu_p = Σ_q A_pq π_q`` (:mod:`carom.core.joint`), less those by the unbalance of
+    a shaft whose speed jumps.  Of planes that always
+    move alike only the sum of their impulses counts, which is given to them in equal parts.
+    """
+    system, planes = motion.rotor.system, motion.event_planes[events]
+    lasting = motion.segment_phases[events] != Phase.FLIGHT
+    before, after = motion.arrivals[events], motion.segment_amplitudes[events + 1]
+    arrays, places, count = system.arrays, np.arange(len(events)), lasting.shape[1]
+    pushed = (before, _without_jolt(system, before, after))
+    states = [[system.at_planes(each, np.full(len(events), p)) for p in range(count)] for each in pushed]
+    position = np.stack([place for place, _ in states[0]], axis=-1)
+    normal = position / np.abs(position)
+    speeds = [
+        np.stack([radial + 1j * along for _, radial, along in (polar(*at) for at in each)], axis=-1) for each in states
+    ]
+    changes = speeds[1] - speeds[0]
+    at_wall = (lasting | (np.abs(position) >= 1.0 - AT_WALL)) & (arrays.stiffness == 0.0)
+    at_wall[places, planes] = True
+    impulses = np.where(at_wall, changes, 0.0)
+    for event in np.flatnonzero(at_wall.sum(axis=1) > 1):
+        here = np.flatnonzero(at_wall[event])
+        couplings = normal[event, here].conj()[:, None] * arrays.mobility[np.ix_(here, here)] * normal[event, here]
+        impulses[event, here] = np.linalg.lstsq(couplings, changes[event, here])[0]
+    sizes, terms = np.abs(impulses), np.abs(before) @ np.abs(arrays.rate_rows).T
+    struck = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True) + ROUNDING * terms
+    struck[places, planes] |= ~struck.any(axis=1)
+    rows, columns = np.nonzero(struck)
+    return Blows(events[rows], columns, impulses[rows, columns])
+
+
+def _without_jolt(system: System, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Amplitudes after events without the impulse of the unbalance, which moves the rotor as the speed of its shaft jumps."""
+    if system.shaft is None:
+        return after
+    direction = before[:, int(system.arrays.shaft[0]), None]
+    jump = shaft_speed(system, after) - shaft_speed(system, before)
+    freed: np.ndarray = after + 1j * jump[:, None] * direction * system.arrays.unbalance
+    return freed

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.models import Rotor
 from carom.motions.contacts import presses, race_speed, shaft_lead, yields
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
@@ -78,57 +77,51 @@ class Course:
 
 def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     """Sample all stages of a motion up to a time from the release, in ``1/Ω``, about so often beside its events."""
-    columns, parts = list[tuple[Any, ...]](), [part.seen_at(motion.plane) for part in motion.parts]
-    for part in parts:
-        end = min(part.time, until - part.begins)
-        if end <= 0.0:
-            break
-        system, events = part.rotor.system, part.segment_starts[part.segment_starts <= end]
-        even = np.linspace(0.0, end, max(2, int(samples * end / until)))
-        peaks = part.touches.peak_time if yields(system, part.plane) else np.zeros(0)
-        times = np.unique(np.concatenate([even, events, np.nextafter(events[1:], 0.0), peaks[peaks <= end]]))
-        amplitudes, phases = part.amplitudes_at(times)
-        history, fixed = part.history(times), part.begins + times
-        place = (1.0 - history.gap) * np.exp(1j * (history.angle + fixed))
-        mount = _mount(part.rotor, amplitudes) * np.exp(1j * fixed)
-        heavy = part.rotor.unbalance_phase + fixed + shaft_lead(system, amplitudes)
-        race = race_speed(system, part.plane, amplitudes)
-        forces = history.normal_force, history.friction_force, np.abs(history.slip)
-        columns.append((fixed, place, mount, heavy, *forces, race, presses(phases[:, part.plane])))
-    times, place, mount, heavy, force, friction, slip, race, held = map(np.concatenate, zip(*columns, strict=True))
-    system = motion.rotor.system
+    rotor, plane = motion.rotor, motion.plane
+    parts = [part.seen_at(plane) for part in motion.parts]
+    followed = [(part, end) for part in parts if (end := min(part.time, until - part.begins)) > 0.0]
+    columns = [_sampled(part, end, int(samples * end / until)) for part, end in followed]
+    course: dict[str, Any] = {name: np.concatenate([each[name] for each in columns]) for name in columns[0]}
+    if not rotor.is_on_mount:
+        course["mount"] = None
+    if rotor.system.arrays.race[plane] < 0:
+        course["race"] = None
     return Course(
-        times=times,
-        place=place,
-        mount=mount if motion.rotor.is_on_mount else None,
-        heavy=heavy,
-        force=force,
-        friction=friction,
-        slip=slip,
-        race=race if system.arrays.race[motion.plane] >= 0 else None,
-        held=held,
-        blows=None if yields(system, motion.plane) else _blows(parts, until),
+        **course,
+        blows=None if yields(rotor.system, plane) else _blows(parts, until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
-        down=motion.rotor.direction_of_fall,
+        down=rotor.direction_of_fall,
         scales=motion.scales,
     )
 
 
-def _mount(rotor: Rotor, amplitudes: np.ndarray) -> np.ndarray:
-    """Place of the mount in the frame of the rotor; zero without one."""
-    if not rotor.is_on_mount:
-        return np.zeros(len(amplitudes), complex)
-    place: np.ndarray = rotor.system.state(amplitudes)[0][:, 1]
-    return place
+def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray]:
+    """Columns of one stage up to a time, at so many instants beside its events."""
+    system, events = part.rotor.system, part.segment_starts[part.segment_starts <= end]
+    even = np.linspace(0.0, end, max(2, samples))
+    peaks = part.touches.peak_time if yields(system, part.plane) else np.zeros(0)
+    times = np.unique(np.concatenate([even, events, np.nextafter(events[1:], 0.0), peaks[peaks <= end]]))
+    amplitudes, phases = part.amplitudes_at(times)
+    history, fixed = part.history(times), part.begins + times
+    mount = system.state(amplitudes)[0][:, 1] if part.rotor.is_on_mount else np.zeros(len(times), complex)
+    return {
+        "times": fixed,
+        "place": (1.0 - history.gap) * np.exp(1j * (history.angle + fixed)),
+        "mount": mount * np.exp(1j * fixed),
+        "heavy": part.rotor.unbalance_phase + fixed + shaft_lead(system, amplitudes),
+        "force": history.normal_force,
+        "friction": history.friction_force,
+        "slip": np.abs(history.slip),
+        "race": race_speed(system, part.plane, amplitudes),
+        "held": presses(phases[:, part.plane]),
+    }
 
 
 def _blows(parts: list[Trajectory], until: float) -> Blows:
-    logs = [part.contacts for part in parts]
-    times = np.concatenate([part.begins + log.time for part, log in zip(parts, logs, strict=True)])
-    impulses, frictions, slips = (
-        np.concatenate([getattr(log, name) for log in logs])[times <= until]
-        for name in ("normal_impulse", "tangential_impulse", "slip_before")
-    )
+    logs = [(part.begins, part.contacts) for part in parts]
+    columns = [(since + log.time, log.normal_impulse, log.tangential_impulse, log.slip_before) for since, log in logs]
+    times, *rest = map(np.concatenate, zip(*columns, strict=True))
+    impulses, frictions, slips = (each[times <= until] for each in rest)
     return Blows(times[times <= until], impulses, frictions, np.abs(slips))
 
 

@@ -179,29 +179,28 @@ def settle(
     for rotor in rotors if until is not None or patience == 0 else ():
         own_time("until", until, rotor.scales)
     positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
-    limits, threads = Limits(until, patience, max_events), threads or available_cores()
     tell = Reporter.of(progress, "following starts")
-    endings = _followed(rotors, which, positions, velocities, started, limits, threads, tell)
+    limits = Limits(until, patience, max_events, threads or available_cores(), tell)
+    starts = positions, velocities, started, np.zeros(len(which))
+    endings = _followed([stages_of(rotor) for rotor in rotors], which, starts, limits)
     present_question().count(endings.outcomes)
     return endings.reshaped(*shape)
 
 
-def _followed(
-    rotors: Sequence[Rotor],
-    which: np.ndarray,
-    positions: np.ndarray,
-    velocities: np.ndarray,
-    begins: np.ndarray,
-    limits: Limits,
-    threads: int,
-    tell: Reporter,
-) -> Endings:
-    """Endings of starts in one dimension, through all stages."""
-    courses = [stages_of(rotor) for rotor in rotors]
-    starts = positions, velocities, begins, np.zeros(len(which))
-    endings = _noted_in_stage([stages[0] for stages in courses], which, starts, limits, threads, tell)
+_Begun = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Positions and velocities at the beginning of a stage, the times at which the starts were taken, and those elapsed since."""
+
+
+def _followed(courses: Sequence[Sequence[Stage]], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
+    """Endings of starts in one dimension, through all stages of their machines."""
+    endings = _in_stage([stages[0] for stages in courses], which, starts, limits)
     for number in range(1, max(map(len, courses), default=1)):
-        _refuse_turning(courses, number)
+        for stages in courses:
+            systems = [stage.rotor.system for stage in stages]
+            # Of many motions these speeds are not kept.
+            if number < len(stages) and any(each.races is not None or each.shaft is not None for each in systems):
+                turning = "a race that turns, or a shaft whose speed changes, in stages"
+                raise InputError("machine", turning, "one motion at a time: carom.simulate keeps these speeds")
         further = np.array([number < len(stages) for stages in courses])[which]
         on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
         before = endings[on]
@@ -213,9 +212,7 @@ def _followed(
                 _check_starts(places, speeds, begun.rotor.system.is_planar)
             before.positions[here], before.velocities[here] = places, speeds
         states = before.positions, before.velocities, before.begins, before.times
-        later = _noted_in_stage(
-            [stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell
-        )
+        later = _in_stage([stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits)
         later.times[:] += before.times
         later.impacts[:] += before.impacts
         for name, values in vars(endings).items():
@@ -223,29 +220,28 @@ def _followed(
     return endings
 
 
-_Begun = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""Positions and velocities at the beginning of a stage, the times at which the starts were taken, and those elapsed since."""
+def _in_stage(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
+    """Endings in one stage of each machine, with times that count from its beginning, and low bounces told from others.
+
+    Motions that do not repeat are followed further to see whether they stay at the wall in low bounces.
+    """
+    endings, rotors = _settled(stages, which, starts, limits), [stage.rotor for stage in stages]
+    may = np.array([may_be_low(rotor, limits.patience) for rotor in rotors], bool)
+    doubtful = np.flatnonzero(np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0) & may[which])
+    if not len(doubtful):
+        return endings
+    here, which = endings[doubtful], which[doubtful]
+    look = limits._replace(until=None, patience=LOW_FOR, tell=Reporter.of(None, ""))
+    states = here.positions, here.velocities, here.begins, starts[3][doubtful] + here.times
+    ends = _settled(list(map(Stage, rotors)), which, states, look)
+    intervals = np.array([low_interval(rotor) for rotor in rotors])[which]
+    low = np.isin(ends.outcomes, REPEATING) & (ends.multiplicities == 0) & (ends.times < intervals * ends.impacts)
+    endings.outcomes[doubtful[low]] = Outcome.LOW_BOUNCES
+    return endings
 
 
-def _refuse_turning(courses: Sequence[Sequence[Stage]], number: int) -> None:
-    """Refuse races that turn, and shafts whose speed changes, where a stage follows: of many motions these speeds are not kept."""
-    for stages in courses:
-        systems = [stage.rotor.system for stage in stages]
-        if number < len(stages) and any(each.races is not None or each.shaft is not None for each in systems):
-            turning = "a race that turns, or a shaft whose speed changes, in stages"
-            raise InputError("machine", turning, "one motion at a time: carom.simulate keeps these speeds")
-
-
-def _in_stage(
-    stages: Sequence[Stage],
-    which: np.ndarray,
-    starts: _Begun,
-    limits: Limits,
-    threads: int,
-    tell: Reporter,
-) -> Endings:
-    """Endings in one stage of each machine, with times that count from its beginning."""
-    # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
+def _settled(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
+    """Endings in one stage, in which the starts of each machine are followed together, in portions."""
     order, question = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable"), present_question()
     if len(stages) == 1 and question.left < np.inf:
         # Those that the events of a question suffice for are a fair part of all.
@@ -253,51 +249,27 @@ def _in_stage(
     positions, velocities, begins, elapsed = (values[order] for values in starts)
     motions = motions_from(positions, velocities, begins + elapsed)
     purse = question.purse(len(motions))
-    parts = parts_of(stages, which[order], motions, elapsed, purse, threads)
     done = 0
-    for finished in settle_parts(parts, limits, threads):
+    for finished in settle_parts(parts_of(stages, which[order], motions, elapsed, purse, limits.threads), limits):
         done += finished
-        tell(done / len(motions))
+        limits.tell(done / len(motions))
     question.pay(purse)
     missed = ~purse.followed
     motions[missed] = np.zeros((), motions.dtype)
     motions.outcome[missed] = NOT_FOLLOWED
-    endings = _endings(motions, order, starts[2])
+    found = np.empty_like(motions)
+    found[order] = motions  # in the order of the starts
     ends = np.array([stage.trigger.time for stage in stages])[which]
-    endings.outcomes[(endings.outcomes == Outcome.TIME_REACHED) & (endings.times >= ends)] = Outcome.TRIGGERED
-    return endings
-
-
-def _noted_in_stage(
-    stages: Sequence[Stage],
-    which: np.ndarray,
-    starts: _Begun,
-    limits: Limits,
-    threads: int,
-    tell: Reporter,
-) -> Endings:
-    """:func:`_in_stage`, with low bounces told from others."""
-    endings = _in_stage(stages, which, starts, limits, threads, tell)
-    _note_low_bounces(stages, which, starts[3], endings, limits, threads)
-    return endings
-
-
-def _note_low_bounces(
-    stages: Sequence[Stage], which: np.ndarray, elapsed: np.ndarray, endings: Endings, limits: Limits, threads: int
-) -> None:
-    """Note, in place, which motions that do not repeat stay at the wall in low bounces; they are followed further to see that."""
-    rotors = [stage.rotor for stage in stages]
-    may = np.array([may_be_low(rotor, limits.patience) for rotor in rotors], bool)
-    doubtful = np.flatnonzero(np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0) & may[which])
-    if not len(doubtful):
-        return
-    here, which = endings[doubtful], which[doubtful]
-    look = limits._replace(until=None, patience=LOW_FOR)
-    starts = here.positions, here.velocities, here.begins, elapsed[doubtful] + here.times
-    ends = _in_stage(list(map(Stage, rotors)), which, starts, look, threads, Reporter.of(None, ""))
-    intervals = np.array([low_interval(rotor) for rotor in rotors])[which]
-    low = np.isin(ends.outcomes, REPEATING) & (ends.multiplicities == 0) & (ends.times < intervals * ends.impacts)
-    endings.outcomes[doubtful[low]] = Outcome.LOW_BOUNCES
+    reached = (found.outcome == Outcome.TIME_REACHED) & (found.time >= ends)
+    return Endings(
+        outcomes=np.where(reached, Outcome.TRIGGERED, found.outcome).astype(np.int8),
+        times=found.time.copy(),
+        impacts=found.impacts.astype(np.int64),
+        multiplicities=found.multiplicity.astype(np.int64),
+        positions=found.position.copy(),
+        velocities=found.velocity.copy(),
+        begins=starts[2].copy(),
+    )
 
 
 def _coordinates(rotors: Sequence[Rotor]) -> tuple[int, ...]:
@@ -341,23 +313,3 @@ def _check_starts(positions: np.ndarray, velocities: np.ndarray, planar: bool) -
     outside = np.abs(positions) > 1.0 + WALL_TOLERANCE
     if planar and outside.any():
         raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
-
-
-def _endings(motions: np.recarray, order: np.ndarray | slice, begins: np.ndarray) -> Endings:
-    """Endings in the order of the starts, which were taken at given times."""
-
-    def gather(name: str, kind: type) -> np.ndarray:
-        found = motions[name]
-        values: np.ndarray = np.empty(found.shape, kind)
-        values[order] = found
-        return values
-
-    return Endings(
-        outcomes=gather("outcome", np.int8),
-        times=gather("time", float),
-        impacts=gather("impacts", np.int64),
-        multiplicities=gather("multiplicity", np.int64),
-        positions=gather("position", complex),
-        velocities=gather("velocity", complex),
-        begins=begins.copy(),
-    )

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.polynomial import legendre
 
 from carom.arguments import checked
 from carom.core.wall_work import LOST
-from carom.models import Matrices
+from carom.models import Matrices, Rotor
+from carom.models.anisotropic import TURN
 from carom.models.saturation import saturation_accelerations, saturation_of
-from carom.motions.across import Across
-from carom.motions.contacts import Table, column, race_speed, slip_velocity, yields
-from carom.motions.quadrature import NODES, WEIGHTS, pieces
-from carom.motions.spin import spin_of
+from carom.motions.contacts import Table, column, presses, race_speed, shaft_speed, yields
 from carom.motions.touches import contact_works, lost_on_parting, stored
 from carom.motions.trajectories import Trajectory
-from carom.outcome import InputError
+from carom.outcome import InputError, Phase
 from carom.parameters import Scales
 
+NODES, WEIGHTS = legendre.leggauss(16)
+"""Gauss rule for a piece, on −1 … 1."""
+LONGEST_PIECE = 1.5
+"""Longest stretch, in ``1/max|λ|``, over which one Gauss rule is used; its error is below rounding."""
 HERMITIAN = 1e-12
 """Largest skew part of a matrix, relative to its largest element, that counts as rounding."""
 
@@ -38,41 +41,28 @@ class EnergyLedger(Table):
     before the plane has left the wall, the spring is as deep as the plane, and what it then holds, which is less, is taken back.
 
     A shaft at constant speed gets from its drive whatever friction takes.  One whose speed changes holds the energy ``Jσ²/2`` of its spin, which
-    friction takes from it, and ``drive`` is the work of its drive's torque in contact.  In flight the torque is left out of the motion;
-    ``drive_left_out`` is what it would do there.  The unbalance does its work through the bearing forces of an ideal axis: its torque on the
+    friction takes from it, and ``drive`` is the work of its drive's torque in contact; in flight the torque is left out of the motion.  The unbalance does its work through the bearing forces of an ideal axis: its torque on the
     shaft is left out too.
     """
 
     figure: ClassVar[str] = "energies"
 
-    times: np.ndarray = field(metadata=column("time", "time"))
-    kinetic: np.ndarray = field(metadata=column("energy", "kinetic energy of all masses"))
-    spring: np.ndarray = field(metadata=column("energy", "energy of the springs"))
-    wall: np.ndarray = field(metadata=column("energy", "energy of the springs of walls that press on the rotor"))
-    races: np.ndarray = field(metadata=column("energy", "kinetic energy of the races that turn"))
-    shaft: np.ndarray = field(metadata=column("energy", "kinetic energy of the spin of a shaft whose speed changes"))
-    unbalance: np.ndarray = field(metadata=column("energy", "work of the unbalance since the start"))
-    damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
-    circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
-    forces: np.ndarray = field(metadata=column("energy", "work of weight and other outer forces since the start"))
-    limits: np.ndarray = field(
-        metadata=column(
-            "energy", "work that bearings at their limits do not do as their controllers ask for, since the start"
-        )
-    )
-    impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
-    friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
-    drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive since the start"))
-    wall_damping: np.ndarray = field(metadata=column("energy", "work of the dampers of walls since the start"))
-    race_drag: np.ndarray = field(metadata=column("energy", "work of drag on the races that turn since the start"))
-    parting: np.ndarray = field(
-        metadata=column("energy", "energy of the springs of walls lost where planes part from them, since the start")
-    )
-    drive_left_out: np.ndarray = field(
-        metadata=column(
-            "energy", "work that the torque of the drive would do in flight, where it is left out, since the start"
-        )
-    )
+    times: np.ndarray = column("time", "time")
+    kinetic: np.ndarray = column("energy", "kinetic energy of all masses")
+    spring: np.ndarray = column("energy", "energy of the springs")
+    wall: np.ndarray = column("energy", "energy of the springs of walls that press on the rotor")
+    races: np.ndarray = column("energy", "kinetic energy of the races that turn")
+    shaft: np.ndarray = column("energy", "kinetic energy of the spin of a shaft whose speed changes")
+    unbalance: np.ndarray = column("energy", "work of the unbalance since the start")
+    damping: np.ndarray = column("energy", "work of damping since the start")
+    circulatory: np.ndarray = column("energy", "work of circulatory forces since the start")
+    forces: np.ndarray = column("energy", "work of weight and other outer forces since the start")
+    limits: np.ndarray = column("energy", "work that bearings at their limits do not do, since the start")
+    impacts: np.ndarray = column("energy", "work at the contact point in impacts since the start")
+    friction: np.ndarray = column("energy", "work of friction in lasting contact since the start")
+    drive: np.ndarray = column("energy", "work of the shaft's drive since the start")
+    wall_loss: np.ndarray = column("energy", "work that walls take, in dampers and on parting, since the start")
+    race_drag: np.ndarray = column("energy", "work of drag on the races that turn since the start")
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "times"
@@ -83,14 +73,9 @@ class EnergyLedger(Table):
         return self.kinetic + self.spring + self.wall + self.races + self.shaft
 
     @property
-    def wall_loss(self) -> np.ndarray:
-        """What walls that give way have taken since the start: in their dampers, and where planes part from them; never positive."""
-        return self.wall_damping + self.parting
-
-    @property
     def works(self) -> tuple[np.ndarray, ...]:
         """All works since the start."""
-        contact = self.impacts, self.friction, self.drive, self.wall_damping, self.parting, self.race_drag
+        contact = self.impacts, self.friction, self.drive, self.wall_loss, self.race_drag
         return self.unbalance, self.damping, self.circulatory, self.forces, self.limits, *contact
 
     @property
@@ -138,7 +123,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     True
     """
     matrices = trajectory.rotor.matrices
-    edges, counts = pieces(trajectory)
+    edges, counts = _pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
         raise InputError("mass", matrices.mass.tolist(), "a Hermitian matrix: otherwise there is no kinetic energy")
     half = 0.5 * np.diff(edges)
@@ -155,43 +140,42 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         np.add.at(shares, events + 1, values)
         return np.cumsum(shares)
 
-    powers = [contact_power(trajectory.seen_at(plane), times) for plane in range(trajectory.segment_phases.shape[1])]
-    slides, drives = np.sum(powers, axis=0)
+    histories = [seen.history(times) for seen in trajectory.at_each]
+    slides, drives = np.sum([(each.friction_power, each.drive_power) for each in histories], axis=0)
+    damping, stiffness = _on_conjugates(trajectory.rotor)
+    circulates, turning = 0.5 * (stiffness - stiffness.T), np.exp(TURN * (trajectory.begins + times))
     skew = 0.5 * (matrices.stiffness - matrices.stiffness.conj().T)
     if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
         skew = np.zeros_like(skew)
-    across = Across(trajectory)
-    kinetic, spring = _stored(trajectory, matrices, across)
-    wall, parting, wall_damping = _walls(trajectory)
+    kinetic, spring = _stored(trajectory, matrices)
+    wall, wall_loss = _walls(trajectory)
     races, drag = _races(trajectory, times)
-    spin = spin_of(trajectory, times)
+    shaft, push, torque, jolts = _spin(trajectory, times)
     impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
     impacts, landings = trajectory.log_of(trajectory.is_impact), trajectory.log_of(trajectory.is_landing)
     if trajectory.rotor.system.shaft is None:
         drive = work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work)
     else:
-        drive = work(spin.drive)
+        drive = work(torque)
     return EnergyLedger(
         times=edges[ends],
         kinetic=kinetic,
         spring=spring,
         wall=wall,
         races=races,
-        shaft=spin.energy,
-        unbalance=work(((fixed.conj() @ matrices.forcing) * spin.unbalance).real)
-        + at_events(np.arange(len(spin.jolts)), _work_of_jolts(trajectory, spin.jolts)),
-        damping=work(-_form(fixed, matrices.damping, fixed) + across.damping_power(fixed, times)),
-        circulatory=work(-_form(fixed, skew, position) + across.circulatory_power(position, fixed, times)),
+        shaft=shaft,
+        unbalance=work(((fixed.conj() @ matrices.forcing) * push).real)
+        + at_events(np.arange(len(jolts)), _work_of_jolts(trajectory, jolts)),
+        damping=work(-_form(fixed, matrices.damping, fixed) - _form(fixed, damping, fixed.conj(), turning)),
+        circulatory=work(-_form(fixed, skew, position) - _form(fixed, circulates, position.conj(), turning)),
         forces=work(_power_of_forces(trajectory, times, fixed)),
         limits=work(_power_of_excess(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
         drive=drive,
-        wall_damping=wall_damping,
+        wall_loss=wall_loss,
         race_drag=work(drag),
-        parting=parting,
-        drive_left_out=work(spin.left_out),
         scales=trajectory.rotor.scales,
     )
 
@@ -225,10 +209,16 @@ def _power_of_excess(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     return power
 
 
-def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """``Re(aᴴAb)`` of vectors along the last axis."""
-    form: np.ndarray = np.einsum("...i,ij,...j->...", left.conj(), matrix, right, optimize=True).real
+def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray, turning: np.ndarray | float = 1.0) -> np.ndarray:
+    """``Re(aᴴAb)`` of vectors along the last axis; of conjugates ``b`` the form turns with the frame."""
+    form: np.ndarray = (np.einsum("...i,ij,...j->...", left.conj(), matrix, right, optimize=True) * turning).real
     return form
+
+
+def _on_conjugates(rotor: Rotor) -> np.ndarray:
+    """Matrices of the forces ``−D′Z̄˙ − K′Z̄`` of bearings that act differently in two directions, (2, n, n)."""
+    pair = rotor.acting_on_conjugates
+    return np.zeros((2, len(rotor.system.rest), len(rotor.system.rest))) if pair is None else np.stack(pair)
 
 
 def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int) -> tuple[np.ndarray, np.ndarray]:
@@ -238,18 +228,9 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
     return position, velocity + 1j * position
 
 
-def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Powers of friction on the contact point of a plane and of the drive."""
-    system = motion.rotor.system
-    amplitudes, phases = motion.amplitudes_at(times)
-    slip = slip_velocity(system, motion.plane, amplitudes)
-    _, grip = motion.forces_of(amplitudes, phases, times)
-    return grip * slip, -(float(system.arrays.surface_speed[motion.plane]) - 1.0) * grip
-
-
 def _walls(trajectory: Trajectory) -> np.ndarray:
-    """Walls that give way: energy of their springs, what was lost on parting and work of their dampers, at the times of the ledger."""
-    held, parting, damping = np.zeros((3, len(trajectory.segment_starts) + 1))
+    """Walls that give way: energy of their springs, and what they have taken, at the times of the ledger."""
+    held, lost = np.zeros((2, len(trajectory.segment_starts) + 1))
     works = contact_works(trajectory)
     for plane in range(trajectory.segment_phases.shape[1]):
         if not yields(trajectory.rotor.system, plane):
@@ -259,9 +240,9 @@ def _walls(trajectory: Trajectory) -> np.ndarray:
             stored(motion, motion.segment_amplitudes, motion.segment_phases[:, plane]),
             stored(motion, motion.last_amplitudes[None], motion.segment_phases[-1:, plane]),
         )
-        parting[1:-1] -= lost_on_parting(motion)
-        damping[works.segments + 1] -= works.found[:, plane, LOST]
-    return np.stack([held, np.cumsum(parting), np.cumsum(damping)])
+        lost[1:-1] -= lost_on_parting(motion)
+        lost[works.segments + 1] -= works.found[:, plane, LOST]
+    return np.stack([held, np.cumsum(lost)])
 
 
 def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -279,12 +260,58 @@ def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.nd
     return kinetic, power
 
 
-def _stored(trajectory: Trajectory, matrices: Matrices, across: Across) -> tuple[np.ndarray, np.ndarray]:
+def _stored(trajectory: Trajectory, matrices: Matrices) -> tuple[np.ndarray, np.ndarray]:
     """Kinetic and spring energy at the start of each segment and at the end."""
     position, velocity = trajectory.rotor.system.state(trajectory.segment_amplitudes)
     position = np.concatenate([position, np.asarray(trajectory.final.position)[None]])
     velocity = np.concatenate([velocity, np.asarray(trajectory.final.velocity)[None]])
     position, fixed = _in_fixed_frame(position, velocity, len(matrices.mass))
     spring = 0.5 * _form(position, matrices.stiffness, position)
-    spring += across.energy(position, np.append(trajectory.segment_starts, trajectory.time))
+    _, stiffness = _on_conjugates(trajectory.rotor)
+    turning = np.exp(TURN * (trajectory.begins + np.append(trajectory.segment_starts, trajectory.time)))
+    spring += 0.5 * _form(position, 0.5 * (stiffness + stiffness.T), position.conj(), turning)
     return 0.5 * _form(fixed, matrices.mass, fixed), spring
+
+
+def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+    """Edges of the stretches to integrate, and the number of stretches in each segment: one where a Taylor series is followed."""
+    bounds = np.append(trajectory.segment_starts, trajectory.time)
+    lengths = np.diff(bounds)
+    fastest = np.abs(trajectory.rotor.system.arrays["exponents"]).max()
+    flying = (trajectory.segment_phases == Phase.FLIGHT).all(axis=1)
+    counts = np.where(flying, np.ceil(lengths * fastest / LONGEST_PIECE), 1).astype(int)
+    counts = np.maximum(counts, 1)
+    owner = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.append(bounds[owner] + lengths[owner] * place / counts[owner], trajectory.time), counts
+
+
+def _spin(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """What a shaft whose speed changes does at times (k, 16): energy, push of the unbalance, power of the drive, jolts.
+
+    The energy ``Jσ²/2`` is that at the start of each segment and at the end.  With the direction ``p`` of the unbalance and the friction forces
+    ``F_q`` at the radii ``s_q`` the unbalance pushes with ``F(σ² − iβ)p``, ``Jβ = Σ_q s_q F_q`` (:mod:`carom.core.shaft`).  At an impact the
+    speed jumps by ``Δσ`` and the unbalance gives the impulse ``−iFpΔσ``, which works with the mean of the velocities before and after.  At
+    constant speed the unbalance pushes with ``F``, and the rest is zero.
+    """
+    system = trajectory.rotor.system
+    if system.shaft is None:
+        still = np.zeros(times.shape)
+        events = len(trajectory.segment_starts) - 1
+        return (np.zeros(events + 2), np.ones(times.shape, complex), still, np.zeros(events, complex))
+    shaft, place = system.shaft.shaft, int(system.arrays.shaft[0])
+    amplitudes, phases = trajectory.amplitudes_at(times)
+    speed, direction = shaft_speed(system, amplitudes), amplitudes[..., place]
+    braking = np.zeros(times.shape)
+    for plane, radius in enumerate(system.arrays.surface_speed - 1.0):
+        braking += radius / shaft.inertia * trajectory.seen_at(plane).forces_of(amplitudes, phases, times)[1]
+    held = presses(phases).any(axis=-1)
+    torque = shaft.torque * speed
+    turns = shaft_speed(system, np.concatenate([trajectory.segment_amplitudes, trajectory.last_amplitudes[None]]))
+    jumps = turns[1:-1] - shaft_speed(system, trajectory.arrivals)
+    return (
+        0.5 * shaft.inertia * turns**2,
+        (speed**2 - 1j * braking) * direction,
+        np.where(held, torque, 0.0),
+        -1j * jumps * trajectory.arrivals[:, place],
+    )

@@ -1,8 +1,9 @@
-"""Sums of what a motion asks of its touchdown bearings, piece by piece: of a piece that has been added nothing is kept but its last turns."""
+"""Sums of what a motion asks of its touchdown bearings, piece by piece: of a piece that has been added nothing is kept but its contacts and last turns."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -13,21 +14,23 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.hertz import ball_pressure
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
-from carom.motions.bearing_loads import Braking, DropLoads, FirstContact, PlaneLoads
 from carom.motions.contacts import ContactLog, presses, race_speed, yields
-from carom.motions.last_whirl import LAST_TURNS, last_whirl
-from carom.motions.ledger import contact_power
-from carom.motions.loads import TouchdownLoads
-from carom.motions.magnets import MagnetReach, reach_with
-from carom.motions.simulation import stretches
+from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads
+from carom.motions.magnets import reach_with
+from carom.motions.settling import PATIENCE
+from carom.motions.simulation import Following, stretches
 from carom.motions.starts import Beginning, State, Until
-from carom.motions.touches import ContactWorks, contact_works, touches_of
+from carom.motions.touches import ContactWorks, TouchLog, contact_works, touches_of
 from carom.motions.trajectories import Trajectory, joined
 from carom.outcome import Outcome, Phase
-from carom.progress import ShowProgress, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 
-RECENT, MOST_RECENT = 10, 4096
-"""Impacts over which the power of bouncing is averaged: so many at least, and at most."""
+RECENT = 10
+"""Impacts over which the power of bouncing is averaged, at least."""
+LAST_TURNS = 8.0
+"""Turns of the shaft at the end over which the whirl is averaged."""
+PER_RADIAN = 2.0
+"""Instants for each radian of the fastest mode at which the angle is looked at; it must not go half round in between."""
 MOST_KEPT = 16_384
 """Most segments that are kept for the last turns; where these have more the whirl is that of fewer turns."""
 
@@ -59,13 +62,11 @@ def follow_loads(
     >>> import carom as cm
     >>> machine = cm.load("examples/touchdown-balls.toml")
     >>> (plane,) = cm.motions.follow_loads(machine, cm.drop(), "100 ms").planes
-    >>> print(f"{plane.loads.si()['force']:.0f} N")
+    >>> print(f"{plane.si()['force']:.0f} N")
     1318 N
     """
-    sums = LoadSums()
-    for piece in stretches(machine, start, until, settle=settle, max_events=max_events, progress=progress):
-        sums.add(piece)
-    return sums.loads()
+    following = Following(settle, False, PATIENCE, max_events, Reporter.of(progress, "simulating"))
+    return _added(stretches(machine, start, until, following))
 
 
 @checked
@@ -92,13 +93,10 @@ def drop_loads(motion: Trajectory) -> DropLoads:
     >>> machine = cm.load("examples/touchdown-balls.toml")
     >>> loads = cm.motions.drop_loads(cm.simulate(machine, cm.drop(), "100 ms"))
     >>> (plane,) = loads.planes
-    >>> print(f"{plane.loads.si()['force']:.0f} N after {1e3 * plane.force_at * machine.parameters.scales.time:.1f} ms")
+    >>> print(f"{plane.si()['force']:.0f} N after {1e3 * plane.force_at * machine.parameters.scales.time:.1f} ms")
     1318 N after 6.0 ms
     """
-    sums = LoadSums()
-    for part in motion.parts:
-        sums.add(part)
-    return sums.loads()
+    return _added(motion.parts)
 
 
 @checked
@@ -108,63 +106,47 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     Friction does the work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``; in an impact the work is that of the
     impulse on the mean of the slip velocities before and after.  Loads on a wall that gives way are those of :attr:`Trajectory.touches`.
     """
-    sums = _AtPlane()
-    sums.add(trajectory, contact_works(trajectory))
-    return sums.loads(trajectory)
+    return _added([trajectory]).planes[trajectory.plane]
 
 
-class LoadSums:
-    """Loads of the pieces of a motion that have been added, in their order."""
-
-    def __init__(self) -> None:
-        self._planes: list[_AtPlane] = []
-        self._kept: list[Trajectory] = []
-        self._left_out = 0.0
-        self._magnets: MagnetReach | None = None
-
-    def add(self, piece: Trajectory) -> None:
-        """Add a piece, or a whole stage."""
-        if not self._planes:
-            self._planes = [_AtPlane() for _ in piece.rotor.system.contacts]
-        if self._kept and self._kept[-1].begins != piece.begins:
-            self._kept.clear()
-        self._kept.append(piece)
-        self._magnets = reach_with(self._magnets, piece)
+def _added(pieces: Iterable[Trajectory]) -> DropLoads:
+    """Loads of pieces of a motion, or of whole stages, in their order."""
+    planes: list[_AtPlane] = []
+    kept: list[Trajectory] = []
+    left_out, magnets = 0.0, None
+    for piece in pieces:
+        system = piece.rotor.system
+        planes = planes or [_AtPlane() for _ in system.contacts]
+        if kept and kept[-1].begins != piece.begins:
+            kept.clear()
+        kept.append(piece)
+        magnets = reach_with(magnets, piece)
         works = contact_works(piece)
-        for plane, sums in enumerate(self._planes):
+        for plane, sums in enumerate(planes):
             # What a motion keeps of itself at each plane refers to it: only the garbage collector would free a piece.
             sums.add(replace(piece, plane=plane), works)
-        if (shaft := piece.rotor.system.shaft) is not None:
+        if system.shaft is not None:
             flown = piece.durations[~presses(piece.segment_phases).any(axis=1)]
-            self._left_out += float(flown.sum()) * shaft.drive
+            left_out += float(flown.sum()) * system.shaft.drive
         begins = piece.time - LAST_TURNS * 2.0 * math.pi
-        while len(self._kept) > 1 and (self._kept[0].time < begins or self._size() > MOST_KEPT):
-            del self._kept[0]
-
-    def _size(self) -> int:
-        return sum(len(piece.segment_starts) for piece in self._kept)
-
-    def loads(self) -> DropLoads:
-        """Loads of all that has been added."""
-        last = joined(self._kept)
-        rotor, shaft = last.rotor, None
-        if rotor.system.shaft is not None:
-            shaft = Braking(last.final.shaft[0], self._left_out, rotor.scales)
-        planes = (sums.found(seen) for sums, seen in zip(self._planes, last.at_each, strict=True))
-        return DropLoads(
-            rotor=rotor,
-            outcome=last.outcome,
-            multiplicity=last.multiplicity,
-            time=last.begins + last.time,
-            planes=tuple(planes),
-            shaft=shaft,
-            magnets=self._magnets,
-            scales=rotor.scales,
-        )
+        while len(kept) > 1 and (kept[0].time < begins or sum(len(each.segment_starts) for each in kept) > MOST_KEPT):
+            del kept[0]
+    last = joined(kept)
+    rotor = last.rotor
+    return DropLoads(
+        rotor=rotor,
+        outcome=last.outcome,
+        multiplicity=last.multiplicity,
+        time=last.begins + last.time,
+        planes=tuple(sums.found(seen) for sums, seen in zip(planes, last.at_each, strict=True)),
+        shaft=None if rotor.system.shaft is None else Braking(last.final.shaft[0], left_out, rotor.scales),
+        magnets=magnets,
+        scales=rotor.scales,
+    )
 
 
 class _Contacts(NamedTuple):
-    """Contacts of a piece, or impacts on a rigid wall; arrays of shape (n,), times from the beginning of the motion."""
+    """Contacts, or impacts on a rigid wall; arrays of shape (n,), times from the beginning of the motion."""
 
     starts: np.ndarray
     peak_times: np.ndarray
@@ -175,25 +157,56 @@ class _Contacts(NamedTuple):
     heat: np.ndarray
     entered: np.ndarray
     left: np.ndarray
+    stages: np.ndarray
+    """Times at which the stages begin in which they end."""
+
+    @classmethod
+    def of(cls, pieces: list[tuple[np.ndarray, ...]]) -> _Contacts:
+        """Contacts of all pieces; one that lasts at the end of a piece goes on with the first of the next, if that is not entered."""
+        each = cls(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
+        begun = np.ones(len(each.starts), bool)
+        begun[1:] = each.entered[1:] | each.left[:-1]
+        first, last = np.flatnonzero(begun), np.flatnonzero(np.append(begun[1:], True))
+        if not len(first):
+            return each
+        peaks = np.maximum.reduceat(each.peaks, first)
+        hardest = each.peaks == np.repeat(peaks, last - first + 1)
+        return cls(
+            starts=each.starts[first],
+            peak_times=np.minimum.reduceat(np.where(hardest, each.peak_times, np.inf), first),
+            peaks=peaks,
+            impulses=np.add.reduceat(each.impulses, first),
+            speeds=each.speeds[first],
+            after=each.after[last],
+            heat=np.add.reduceat(each.heat, first),
+            entered=each.entered[first],
+            left=each.left[last],
+            stages=each.stages[last],
+        )
+
+    def largest(self, values: np.ndarray) -> int | None:
+        """Which of them has the largest value above zero, the first of several; ``None`` if there is none."""
+        return int(values.argmax()) if values.max(initial=0.0) > 0.0 else None
+
+    @property
+    def first(self) -> FirstContact | None:
+        """The first one that has a force."""
+        pressing = np.flatnonzero(self.peaks > 0.0)
+        if not len(pressing):
+            return None
+        peak, start, time, left = (each[pressing[0]] for each in (self.peaks, self.starts, self.peak_times, self.left))
+        return FirstContact(float(peak), float(start), float(time), bool(left))
 
 
 @dataclass
 class _AtPlane:
     """Sums of a plane."""
 
-    begins: float = 0.0
     contact_time: float = 0.0
     heat: float = 0.0
     restitution_loss: float = 0.0
     largest: np.ndarray = field(default_factory=lambda: np.zeros(9))
-    contacts: int = 0
-    bounces: int = 0
-    force: tuple[float, float | None] = (-1.0, None)
-    impulse: tuple[float, float | None] = (0.0, None)
-    fastest: tuple[float, float | None] = (0.0, None)
-    first: FirstContact | None = None
-    open: _Contacts | None = None
-    recent: np.ndarray = field(default_factory=lambda: np.zeros((2, 0)))
+    pieces: list[tuple[np.ndarray, ...]] = field(default_factory=list)
     race: float = 0.0
     since: float | None = None
     turned_back: dict[int, float] = field(default_factory=lambda: {1: 0.0, -1: 0.0})
@@ -201,80 +214,28 @@ class _AtPlane:
     def add(self, seen: Trajectory, works: ContactWorks) -> None:
         """Add a piece, seen at the plane."""
         system, plane, begins = seen.rotor.system, seen.plane, seen.begins
-        if self.begins != begins:
-            self.begins, self.recent = begins, np.zeros((2, 0))
         self.contact_time += float(seen.durations[presses(seen.segment_phases[:, plane])].sum())
         steps = works.found[:, plane]
         self.heat += float(steps[:, HEAT].sum())
         self.largest = np.maximum(self.largest, steps.max(axis=0, initial=0.0))
+        log: ContactLog | TouchLog
         if yields(system, plane):
-            touches = touches_of(seen, works)
-            self.restitution_loss += float(touches.normal_loss.sum())
-            self._count(
-                _Contacts(
-                    begins + touches.start,
-                    begins + touches.peak_time,
-                    touches.peak_force,
-                    touches.normal_impulse,
-                    touches.radial_speed,
-                    touches.radial_speed_after,
-                    touches.heat,
-                    touches.entered,
-                    ~touches.lasts,
-                )
-            )
+            log = touches_of(seen, works)
+            starts, peak_times, peaks, heat = log.start, log.peak_time, log.peak_force, log.heat
+            entered, left = log.entered, ~log.lasts
+            self.restitution_loss += float(log.normal_loss.sum())
         else:
-            self._strike(seen)
+            log = seen.contacts
+            # A landing stands for the last bounces of a chatter.
+            landings = seen.log_of(seen.is_landing & (seen.event_planes == plane))
+            starts, peak_times, peaks, heat = log.time, log.time, np.zeros(len(log)), _friction_work(log)
+            entered, left = np.ones(len(log), bool), log.radial_speed_after < 0.0
+            self.heat += float(heat.sum() + _friction_work(landings).sum())
+            self.restitution_loss += float(_normal_work(log).sum() + _normal_work(landings).sum())
+        speeds, stages = (log.radial_speed, log.radial_speed_after), np.full(len(log), begins)
+        times = begins + starts, begins + peak_times
+        self.pieces.append((*times, peaks, log.normal_impulse, *speeds, heat, entered, left, stages))
         self._move(seen)
-
-    def _strike(self, seen: Trajectory) -> None:
-        """Add the impacts on a rigid wall."""
-        log = seen.contacts
-        # A landing stands for the last bounces of a chatter.
-        landings = seen.log_of(seen.is_landing & (seen.event_planes == seen.plane))
-        works, times = _friction_work(log), seen.begins + log.time
-        self.heat += float(works.sum() + _friction_work(landings).sum())
-        self.restitution_loss += float(_normal_work(log).sum() + _normal_work(landings).sum())
-        after, none = log.radial_speed_after, np.zeros(len(log))
-        entered = np.ones(len(log), bool)
-        self._count(
-            _Contacts(times, times, none, log.normal_impulse, log.radial_speed, after, works, entered, after < 0.0)
-        )
-
-    def _count(self, each: _Contacts) -> None:
-        """Count contacts; the first of them may go on from before, and the last may last."""
-        if not len(each.starts):
-            self.open = None
-            return
-        goes_on = not each.entered[0]
-        self.contacts += int(each.entered.sum()) + int(goes_on and self.open is None)
-        if goes_on and self.open is not None:
-            each = _with_earlier(each, self.open)
-            self.recent = self.recent[:, :-1]
-        self.bounces += int(each.left.sum())
-        hardest = int(each.peaks.argmax())
-        if each.peaks[hardest] > self.force[0]:
-            self.force = float(each.peaks[hardest]), float(each.peak_times[hardest])
-        whole = np.where(each.left | (each.peaks == 0.0), each.impulses, 0.0)
-        place = int(whole.argmax())
-        if whole[place] > self.impulse[0]:
-            self.impulse = float(whole[place]), float(each.peak_times[place])
-        speeds = np.where(each.entered & each.left, each.speeds, 0.0)
-        place = int(speeds.argmax())
-        if speeds[place] > self.fastest[0]:
-            self.fastest = float(speeds[place]), float(-each.after[place] / speeds[place])
-        self._note_first(each)
-        self.recent = np.hstack([self.recent, [each.starts, each.heat]])[:, -MOST_RECENT:]
-        self.open = None if each.left[-1] else _Contacts(*(column[-1:] for column in each))
-
-    def _note_first(self, each: _Contacts) -> None:
-        """Note the first contact that has a force, until it is over."""
-        pressing = np.flatnonzero(each.peaks > 0.0)
-        if len(pressing) and (self.first is None or not self.first.over):
-            at = int(pressing[0])
-            self.first = FirstContact(
-                float(each.peaks[at]), float(each.starts[at]), float(each.peak_times[at]), bool(each.left[at])
-            )
 
     def _move(self, seen: Trajectory) -> None:
         """Note how fast the race turns, since when the plane is at the wall, and when it last turned back."""
@@ -294,72 +255,55 @@ class _AtPlane:
             if len(other):
                 self.turned_back[sense] = float(bounds[other[-1] + 1])
 
-    def loads(self, last: Trajectory) -> TouchdownLoads:
-        """Loads up to the end of a piece."""
+    def found(self, last: Trajectory) -> TouchdownLoads:
+        """All that is told of the plane at the end of a piece, which reaches back over the last turns."""
         rotor, scales, plane = last.rotor, last.scales, last.plane
-        soft = yields(rotor.system, plane)
+        soft, race, contacts = yields(rotor.system, plane), rotor.races[plane], _Contacts.of(self.pieces)
         force, bearing = float(self.largest[FORCE]), rotor.definition.bearing_at(plane)
         if not soft and last.outcome is Outcome.ROLLING:
             force = max(force, exact_results(rotor).rolling_force)
+        # The impulse of a contact that lasts grows on.
+        hardest = contacts.largest(np.where(contacts.left | (contacts.peaks == 0.0), contacts.impulses, 0.0))
+        strongest = contacts.largest(contacts.peaks)
+        fastest = contacts.largest(np.where(contacts.entered & contacts.left, contacts.speeds, 0.0))
+        at_end = race_speed(rotor.system, plane, last.last_amplitudes)
         return TouchdownLoads(
+            plane=plane,
+            gives_way=soft,
             outcome=last.outcome,
-            impacts=self.contacts,
-            impulse=self.impulse[0],
+            contacts=len(contacts.starts),
+            bounces=int(contacts.left.sum()),
+            impulse=0.0 if hardest is None else float(contacts.impulses[hardest]),
+            impulse_at=None if hardest is None else float(contacts.peak_times[hardest]),
             force=force,
+            force_at=None if strongest is None else float(contacts.peak_times[strongest]),
             depth=float(self.largest[DEPTH]),
             power=float(self.largest[POWER]),
             heat=self.heat,
             restitution_loss=self.restitution_loss,
             contact_time=self.contact_time,
-            lasting_power=self._lasting_power(last),
-            scales=scales,
-            pressure=None if bearing is None or scales is None else ball_pressure(bearing, force * scales.force),
-        )
-
-    def _lasting_power(self, last: Trajectory) -> float:
-        """Power of friction with which a settled motion goes on."""
-        phase = last.segment_phases[-1, last.plane]
-        if not last.outcome.settled or last.outcome is Outcome.LEVITATED or phase == Phase.ROLLING:
-            return 0.0
-        if presses(phase):
-            return float(-contact_power(last, np.array([last.time]))[0][0])
-        times, works = self.recent[:, -max(RECENT, 2 * last.multiplicity) - 1 :]
-        return float(works[1:].sum() / (times[-1] - times[0])) if len(times) > 1 else 0.0
-
-    def found(self, last: Trajectory) -> PlaneLoads:
-        """All that is told of the plane at the end of a piece, which reaches back over the last turns."""
-        soft, race = yields(last.rotor.system, last.plane), last.rotor.races[last.plane]
-        at_end = race_speed(last.rotor.system, last.plane, last.last_amplitudes)
-        return PlaneLoads(
-            plane=last.plane,
-            gives_way=soft,
-            loads=self.loads(last),
-            force_at=self.force[1] if soft else None,
-            impulse_at=self.impulse[1],
-            contacts=self.contacts,
-            bounces=self.bounces,
-            restitution=self.fastest[1],
+            lasting_power=_lasting_power(last, contacts),
+            restitution=None if fastest is None else float(-contacts.after[fastest] / contacts.speeds[fastest]),
             race_at_end=None if race is None else float(at_end / race.radius),
             fastest_race=None if race is None else self.race / race.radius,
             in_contact_since=self.since,
-            whirl=last_whirl(last, self.turned_back, self.since),
-            first=self.first,
-            scales=last.scales,
+            whirl=_last_whirl(last, self.turned_back, self.since),
+            first=contacts.first,
+            pressure=None if bearing is None or scales is None else ball_pressure(bearing, force * scales.force),
+            scales=scales,
         )
 
 
-def _with_earlier(each: _Contacts, earlier: _Contacts) -> _Contacts:
-    """Contacts of which the first goes on from an earlier piece."""
-    each = _Contacts(*(column.copy() for column in each))
-    if earlier.peaks[0] >= each.peaks[0]:
-        each.peaks[0], each.peak_times[0] = earlier.peaks[0], earlier.peak_times[0]
-    for column, before in ((each.impulses, earlier.impulses), (each.heat, earlier.heat)):
-        column[0] += before[0]
-    for column, before in zip(
-        (each.starts, each.speeds, each.entered), (earlier.starts, earlier.speeds, earlier.entered), strict=True
-    ):
-        column[0] = before[0]
-    return each
+def _lasting_power(last: Trajectory, contacts: _Contacts) -> float:
+    """Power of friction with which a settled motion goes on."""
+    phase = last.segment_phases[-1, last.plane]
+    if not last.outcome.settled or last.outcome is Outcome.LEVITATED or phase == Phase.ROLLING:
+        return 0.0
+    if presses(phase):
+        return float(-last.history([last.time]).friction_power[0])
+    recent = np.flatnonzero(contacts.stages == last.begins)[-max(RECENT, 2 * last.multiplicity) - 1 :]
+    times, works = contacts.starts[recent], contacts.heat[recent]
+    return float(works[1:].sum() / (times[-1] - times[0])) if len(times) > 1 else 0.0
 
 
 def _friction_work(log: ContactLog) -> np.ndarray:
@@ -372,3 +316,33 @@ def _normal_work(log: ContactLog) -> np.ndarray:
     """Work lost along the normal in impacts, shape (n,)."""
     work: np.ndarray = 0.5 * log.normal_impulse * (log.radial_speed + log.radial_speed_after)
     return work
+
+
+def _last_whirl(last: Trajectory, turned_back: dict[int, float], held_since: float | None) -> LastWhirl | None:
+    """How the plane of a motion goes round at its end; ``None`` if it does not touch in the last turns of the shaft.
+
+    Of what was before the motion it is known when the plane last went round against each sense, and since when it has not left the wall.
+    """
+    begins = max(float(last.segment_starts[0]), last.time - LAST_TURNS * 2.0 * math.pi)
+    touching = last.segment_phases[:, last.plane] != Phase.FLIGHT
+    ends = np.append(last.segment_starts[1:], last.time)
+    struck = last.event_planes[last.is_impact] == last.plane
+    recent = last.segment_starts[1:][last.is_impact][struck] > begins
+    if last.time == 0.0 or not (recent.any() or (ends[touching] > begins).any()):
+        return None
+    # What fades without turning, such as the state of a filter, may be faster by far and moves nothing round.
+    fastest, lasted = float(np.abs(last.rotor.system.arrays["exponents"].imag).max()), last.time - begins
+    count = 2 + math.ceil(lasted * fastest * PER_RADIAN)
+    times = np.unique(np.append(np.linspace(begins, last.time, count), last.segment_starts.clip(begins)))
+    # From one time to the next it goes less than half round.
+    angles = np.unwrap(np.angle(last.at_plane(times)[0]) + times)
+    turned, goes_on = float(angles[-1] - angles[0]), last.outcome in GOING_ROUND
+    seen = held_since if goes_on and held_since is not None else last.begins + begins
+    return LastWhirl(
+        angular_speed=turned / lasted if lasted > 0.0 else 0.0,
+        turned=turned,
+        lasted=lasted,
+        since=max(seen, turned_back[1 if turned > 0.0 else -1]),
+        goes_on=goes_on,
+        scales=last.rotor.scales,
+    )

@@ -1,34 +1,98 @@
-"""Load of a touchdown on its bearing: impacts, forces, and the heat of friction."""
+"""What a motion asks of a touchdown bearing: its loads, when they come, and how the rotor stays there, over all stages."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from carom.models import Rotor
+from carom.motions.magnets import MagnetReach
 from carom.outcome import Outcome
 from carom.parameters import Scales
 from carom.results import KINDS, Result
 
 MEASURED = ("impulse", "force", "depth", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
 """Loads that have a unit."""
+GOING_ROUND = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
+"""Ends of a motion that goes round the wall in contact."""
+
+
+@dataclass(frozen=True, repr=False)
+class LastWhirl(Result):
+    """How a plane went round at the end of a motion, in the fixed frame.
+
+    Attributes
+    ----------
+    angular_speed : float
+        Mean over the last turns of the shaft, in ``Ω``; negative for backward whirl.
+    turned : float
+        Angle over which it went round in these, in rad, with its sign.
+    lasted : float
+        Time over which that was seen, in ``1/Ω``: eight turns, or less of a motion that is shorter.
+    since : float
+        Time since which it has not turned back, in ``1/Ω``, to within a step of the motion.  If it does not go on, no earlier time is looked at
+        than these turns.
+    goes_on : bool
+        Whether the motion has settled to going round in contact; otherwise this is what was seen, and no more.
+    scales : Scales or None
+    """
+
+    angular_speed: float
+    turned: float
+    lasted: float
+    since: float
+    goes_on: bool
+    scales: Scales | None = None
+
+    @property
+    def direction(self) -> str | None:
+        """``"forward"`` or ``"backward"``; ``None`` if it went less than half round."""
+        return None if abs(self.turned) < math.pi else "forward" if self.turned > 0.0 else "backward"
+
+    @property
+    def frequency_si(self) -> float | None:
+        """Size of the mean, in Hz; ``None`` without scales."""
+        return None if self.scales is None else abs(self.angular_speed) * self.scales.speed / (2.0 * math.pi)
+
+
+class FirstContact(NamedTuple):
+    """The first contact with a force, in ``m c_r Ω²``; times from the release in ``1/Ω``."""
+
+    force: float
+    start: float
+    peak_time: float
+    over: bool
+    """Whether the plane has left it."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TouchdownLoads(Result):
-    """Loads of a motion at its contact plane, in units of the equations; ``si`` gives them in SI units.
+    """What the touchdown bearing at a plane bears in a motion, in units of the equations; ``si`` gives its loads in SI units.
 
-    On a wall that gives way a contact, from entering the wall until leaving it, counts as an impact too.
+    Loads are the largest over all stages, or their sum; times count from the release.  An impact on a rigid wall has an impulse, and no force
+    that could be told: there ``force`` is that of lasting contact alone.
 
     Attributes
     ----------
+    plane : int
+    gives_way : bool
+        Whether its wall gives way.
     outcome : Outcome
         Where the motion settled, or why it was stopped.
-    impacts : int
-        Number of impacts.
+    contacts : int
+        Contacts from entering the wall on, or impacts on a rigid wall.
+    bounces : int
+        Those which the plane has left again.
     impulse : float
-        Largest normal impulse of an impact, ``m c_r Ω``; of a contact that lasts at the end, whose impulse grows on, it is left out.
+        Largest normal impulse of a contact, ``m c_r Ω``; of one that lasts at the end, whose impulse grows on, it is left out.
+    impulse_at : float or None
+        When it came, ``1/Ω``: the time of its largest force, or of the impact.
     force : float
         Largest normal force in lasting contact, ``m c_r Ω²``.  If the motion goes on rolling, that of the planar rotor over a
         whole turn.
+    force_at : float or None
+        When it came, ``1/Ω``; ``None`` on a rigid wall.
     depth : float
         Largest depth in the wall, ``c_r``; 0 if the wall is rigid.
     power : float
@@ -42,24 +106,45 @@ class TouchdownLoads(Result):
     lasting_power : float
         Power of friction with which the motion goes on, ``m c_r² Ω³``: at its end in lasting contact, or averaged over the last
         impacts; 0 if it does not go on in contact.
-    scales : Scales or None
+    restitution : float or None
+        Radial speed after the contact that was entered fastest over that before it, as it was seen.
+    race_at_end, fastest_race : float or None
+        Speed of the race at the end, and the largest at the end of a step, in ``Ω``; ``None`` if it does not turn.
+    in_contact_since : float or None
+        Time since which the plane has not left the wall, to the end, ``1/Ω``; ``None`` if it is not there at the end.
+    whirl : LastWhirl or None
+        ``None`` if it did not touch in the last turns.
+    first : FirstContact or None
+        ``None`` without one, or of a rigid wall, whose impacts have no force.
     pressure : float or None
         Largest pressure of the most loaded ball on the race, in Pa (:func:`carom.closed_forms.ball_pressure`), if the touchdown bearing
         states its balls.
+    scales : Scales or None
     """
 
+    plane: int
+    gives_way: bool
     outcome: Outcome
-    impacts: int
+    contacts: int
+    bounces: int
     impulse: float
+    impulse_at: float | None
     force: float
+    force_at: float | None
     depth: float
     power: float
     heat: float
     restitution_loss: float
     contact_time: float
     lasting_power: float
+    restitution: float | None
+    race_at_end: float | None
+    fastest_race: float | None
+    in_contact_since: float | None
+    whirl: LastWhirl | None
+    first: FirstContact | None
+    pressure: float | None
     scales: Scales | None = None
-    pressure: float | None = None
 
     @property
     def goes_on(self) -> bool:
@@ -77,3 +162,65 @@ class TouchdownLoads(Result):
             return None
         si = {name: getattr(self, name) * getattr(self.scales, KINDS[name]) for name in MEASURED}
         return si if self.pressure is None else {**si, "pressure": self.pressure}
+
+
+@dataclass(frozen=True, repr=False)
+class Braking(Result):
+    """What a drop does to the speed of a shaft that is braked.
+
+    Attributes
+    ----------
+    speed_at_end : float
+        In ``Ω``.
+    left_out : float
+        Change of the speed by which the torque of the drive would add to this in flight, where it is left out, in ``Ω``.
+    scales : Scales or None
+    """
+
+    speed_at_end: float
+    left_out: float
+    scales: Scales | None = None
+
+
+@dataclass(frozen=True, repr=False)
+class DropLoads(Result):
+    """What a drop asks of the touchdown bearing; nothing is claimed beyond the time up to which it was followed.
+
+    Attributes
+    ----------
+    rotor : Model
+        That of the last stage.
+    outcome : Outcome
+        Where the motion settled, or why it was stopped.
+    multiplicity : int
+        Impacts per period if it settled to periodic bouncing.
+    time : float
+        Time from the release up to which it was followed, ``1/Ω``.
+    planes : tuple of TouchdownLoads
+        One for each contact plane.
+    shaft : Braking or None
+        ``None`` of a shaft at constant speed.
+    magnets : MagnetReach or None
+        How near it comes to its magnets; ``None`` where no air gap is known.
+    scales : Scales or None
+    """
+
+    rotor: Rotor
+    outcome: Outcome
+    multiplicity: int
+    time: float
+    planes: tuple[TouchdownLoads, ...]
+    shaft: Braking | None = None
+    magnets: MagnetReach | None = None
+    scales: Scales | None = None
+
+    @property
+    def settled_at(self) -> float | None:
+        """Time from the release since which the rotor rests on the bearing, or goes round it in contact; ``None`` if it does neither."""
+        if self.outcome is not Outcome.AT_REST and self.outcome not in GOING_ROUND:
+            return None
+        held = [each for each in self.planes if each.in_contact_since is not None]
+        times = [each.in_contact_since or 0.0 for each in held]
+        if self.outcome in GOING_ROUND:
+            times += [each.whirl.since for each in held if each.whirl]
+        return max(times, default=None)

@@ -23,6 +23,7 @@ from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of
 from carom.outcome import Outcome, Phase
 from carom.parameters import own_time
+from carom.progress import Reporter
 
 PORTION = 16_384
 """Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
@@ -41,11 +42,13 @@ LOGGED = 256
 
 
 class Limits(NamedTuple):
-    """Until when, or after how many impacts and events, motions are given up; see :func:`~carom.motions.ensembles.settle`."""
+    """Until when, or after how many impacts and events, motions are given up, and how: see :func:`~carom.motions.ensembles.settle`."""
 
     until: float | str | None
     patience: int
     max_events: int
+    threads: int
+    tell: Reporter
 
 
 def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarray) -> np.recarray:
@@ -89,15 +92,15 @@ def parts_of(
     return parts
 
 
-def settle_parts(parts: list[Part], limits: Limits, threads: int) -> Iterator[int]:
+def settle_parts(parts: list[Part], limits: Limits) -> Iterator[int]:
     """Follow all parts, in this thread if one suffices; yield now and then the number of motions followed since.
 
     When the caller stops iterating or is interrupted, no thread takes up another motion.
     """
-    if min(threads, len(parts)) == 1 and all(len(part.motions) <= FEW for part in parts):
+    if min(limits.threads, len(parts)) == 1 and all(len(part.motions) <= FEW for part in parts):
         yield from (_settle_part(part, limits) for part in parts)
         return
-    with ThreadPoolExecutor(threads) as pool:
+    with ThreadPoolExecutor(limits.threads) as pool:
         try:
             working = {pool.submit(_settle_part, part, limits) for part in parts}
             while working:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.models import Rotor
-from carom.motions.bearing_loads import DropLoads, FirstContact
 from carom.motions.load_sums import follow_loads
+from carom.motions.loads import DropLoads, FirstContact
 from carom.parameters.told import number
 from carom.results import Result
 from carom.rotors import ReducedMachine

@@ -94,17 +94,9 @@ def simulate(
     """
     stages: list[list[Trajectory]] = []
     question = present_question()
-    pieces = stretches(
-        machine,
-        start,
-        until,
-        settle=settle,
-        stop_at_chatter=stop_at_chatter,
-        patience=patience,
-        max_events=min(max_events, question.longest),
-        progress=progress,
-    )
-    for piece in pieces:
+    longest = min(max_events, question.longest)
+    following = Following(settle, stop_at_chatter, patience, longest, Reporter.of(progress, "simulating"))
+    for piece in stretches(machine, start, until, following):
         if not stages or stages[-1][-1].outcome is Outcome.TRIGGERED:
             stages.append([])
         stages[-1].append(piece)
@@ -113,29 +105,31 @@ def simulate(
     return dataclasses.replace(last, earlier=tuple(earlier)) if earlier else last
 
 
+class Following(NamedTuple):
+    """How a motion is followed; see :func:`simulate`."""
+
+    settle: bool | None
+    stop_at_chatter: bool
+    patience: int
+    max_events: int
+    tell: Reporter
+
+
 def stretches(
-    machine: Subject,
-    start: State | Beginning,
-    until: Until | None = None,
-    *,
-    settle: bool | None = None,
-    stop_at_chatter: bool = False,
-    patience: int = PATIENCE,
-    max_events: int = 1_000_000,
-    progress: ShowProgress = None,
+    machine: Subject, start: State | Beginning, until: Until | None, following: Following
 ) -> Iterator[Trajectory]:
     """Follow a start as :func:`simulate` does, in pieces of at most :data:`CHUNK` events.
 
     Times of a piece count from the beginning of its stage; that of its first segment is where the piece before ends, with the event there.
     """
     model, state = (rotor_of(machine), start) if isinstance(start, State) else start.stages(machine)
-    settle = until is None if settle is None else settle
-    end = None if until is None and settle else own_time("until", until, model.scales)
-    options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
+    if following.settle is None:
+        following = following._replace(settle=until is None)
+    end = None if until is None and following.settle else own_time("until", until, model.scales)
     passed = 0.0
     for stage in stages_of(model):
         longest = time_limit(stage.rotor, stage.trigger) if end is None else end - passed
-        for piece in _follow_stage(stage.rotor, state, longest, stage.trigger, options):
+        for piece in _follow_stage(stage.rotor, state, longest, stage.trigger, following):
             yield piece
         if piece.outcome is not Outcome.TRIGGERED:
             return
@@ -144,22 +138,14 @@ def stretches(
         state = State.of(*stage.carried(ended.position, ended.velocity), ended.races, ended.shaft, begins)
 
 
-class _Options(NamedTuple):
-    settle: bool
-    stop_at_chatter: bool
-    patience: int
-    max_events: int
-    tell: Reporter
-
-
 def _follow_stage(
-    rotor: Rotor, start: State, longest: float, trigger: Trigger, options: _Options
+    rotor: Rotor, start: State, longest: float, trigger: Trigger, following: Following
 ) -> Iterator[Trajectory]:
     """Follow a start through one stage, for so long at most, or until its trigger ends it."""
-    settle, stop_at_chatter, patience, max_events, tell = options
+    settle, stop_at_chatter, patience, max_events, tell = following
     begins = start.time
     # What has settled may still be ended by a time.
-    settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
+    settle, until = bool(settle) and trigger.time == np.inf, min(longest, trigger.time)
     amplitudes, contact = amplitudes_of(rotor, start)
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     limited = begin_limits(rotor.system, amplitudes, begins, recollection)

@@ -13,7 +13,7 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Rotor, Subject, System, rotor_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import own_size
@@ -185,9 +185,15 @@ def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:
         raise InputError("start time", state.time, f"a real number, up to {FARTHEST:g} in 1/Omega")
     amplitudes = system.amplitudes(state.position, state.velocity, state.time)
     if state.races:
-        _set_races(system, state.races, amplitudes)
+        places = np.zeros(0, int) if system.races is None else system.arrays["race"][system.races.planes]
+        _check_speeds("races", state.races, len(places), "one for each race that turns")
+        amplitudes[places] = state.races
     if state.shaft:
-        _set_shaft(system, state.shaft, amplitudes)
+        place = system.arrays["shaft"][0]
+        _check_speeds(
+            "shaft", state.shaft, 0 if system.shaft is None else 2, "speed and angle of a shaft whose speed changes"
+        )
+        amplitudes[place], amplitudes[place + 1] = cmath.rect(1.0, state.shaft[1]), state.shaft[0]
     contact = np.full(len(system.arrays["rows"]), AWAY)
     for plane in range(len(contact)):
         # The given position of the planar rotor is used, free of the rounding of the amplitudes.
@@ -211,18 +217,6 @@ def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:
     return amplitudes, contact
 
 
-def _set_races(system: System, speeds: tuple[float, ...], amplitudes: np.ndarray) -> None:
-    """Set the speeds of the surfaces of the races that turn."""
-    places = () if system.races is None else system.arrays["race"][system.races.planes]
-    if np.shape(speeds) != (len(places),) or kind_of_numbers(speeds) not in _REALS:
-        raise InputError("start races", speeds, f"{len(places)} finite number(s), one for each race that turns")
-    amplitudes[np.array(places, int)] = speeds
-
-
-def _set_shaft(system: System, turn: tuple[float, ...], amplitudes: np.ndarray) -> None:
-    """Set speed and angle of a shaft whose speed changes."""
-    count = 0 if system.shaft is None else 2
-    if np.shape(turn) != (count,) or kind_of_numbers(turn) not in _REALS:
-        raise InputError("start shaft", turn, f"{count} finite numbers: speed and angle of a shaft whose speed changes")
-    place = system.arrays["shaft"][0]
-    amplitudes[place], amplitudes[place + 1] = cmath.rect(1.0, turn[1]), turn[0]
+def _check_speeds(name: str, given: tuple[float, ...], count: int, words: str) -> None:
+    if np.shape(given) != (count,) or kind_of_numbers(given) not in _REALS:
+        raise InputError(f"start {name}", given, f"{count} finite number(s): {words}")

@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.files import netcdf
 from carom.models import rotor_from
-from carom.motions.contacts import in_units, phase_flags
+from carom.motions.contacts import phase_flags
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Outcome, Phase
@@ -21,7 +21,17 @@ if TYPE_CHECKING:
     import xarray
 
 COMPLEX = ("segment_amplitudes", "arrivals")
-SEGMENTS = ("segment_starts", "segment_phases", "segment_limits", "event_planes", *COMPLEX)
+SEGMENTS = {
+    "segment_starts": "segment",
+    "segment_phases": "segment plane",
+    "segment_limits": "segment axis",
+    "event_planes": "event",
+    "segment_amplitudes": "segment mode",
+    "arrivals": "event mode",
+}
+"""Arrays of a stage, with their dimensions."""
+ATTRIBUTES = {"segment_starts": {"units": "1/Omega"}, "segment_phases": phase_flags(Phase)}
+NUMBERS = {"time": float, "multiplicity": int, "plane": int, "begins": float}
 
 
 def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> xarray.Dataset:
@@ -32,15 +42,6 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
     """
     times = motion.sample() if times is None else np.asarray(times, float)
     dataset = motion.history(times).to_dataset()
-    position, velocity = motion.at_plane(times)
-    for name, values, quantity, what in (
-        ("x", position.real, "length", "position"),
-        ("y", position.imag, "length", "position"),
-        ("velocity_x", velocity.real, "velocity", "velocity"),
-        ("velocity_y", velocity.imag, "velocity", "velocity"),
-    ):
-        words = f"{what} along {name[-1]}, co-rotating frame"
-        dataset[name] = in_units("time", values, quantity, words, motion.scales)
     return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion), begins=motion.begins)
 
 
@@ -55,24 +56,13 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
     attributes: dict[str, Any] = {"parts": len(motion.parts)}
     for number, part in enumerate(motion.parts):
         mark = _mark(number)
-        segment, event, mode, axis, plane = (f"{name}{mark}" for name in ("segment", "event", "mode", "axis", "plane"))
-        own: dict[str, Any] = {
-            "segment_starts": (segment, part.segment_starts, {"units": "1/Omega"}),
-            "segment_phases": ((segment, plane), part.segment_phases, phase_flags(Phase)),
-            "event_planes": (event, part.event_planes),
-            "segment_amplitudes": ((segment, mode, "part"), _parts(part.segment_amplitudes)),
-            "arrivals": ((event, mode, "part"), _parts(part.arrivals)),
-            "segment_limits": ((segment, axis), part.segment_limits),
-        }
-        told = _provenance(part) | {
-            "start": json.dumps(_numbers(part.start)),
-            "final": json.dumps(_numbers(part.final)),
-            "begins": part.begins,
-            "end_time": part.time,
-            "multiplicity": part.multiplicity,
-            "plane": part.plane,
-        }
-        columns |= {f"{name}{mark}": values for name, values in own.items()}
+        for name, dimensions in SEGMENTS.items():
+            values, own = getattr(part, name), [f"{each}{mark}" for each in dimensions.split()]
+            if name in COMPLEX:  # netCDF has no complex numbers
+                values, own = np.stack([values.real, values.imag], axis=-1), [*own, "part"]
+            columns[f"{name}{mark}"] = own, values, ATTRIBUTES.get(name, {})
+        told = _provenance(part) | {name: getattr(part, name) for name in NUMBERS}
+        told |= {name: json.dumps(_numbers(getattr(part, name))) for name in ("start", "final")}
         attributes |= {f"{name}{mark}": value for name, value in told.items()}
     netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
 
@@ -84,7 +74,7 @@ def _mark(number: int) -> str:
 
 def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     """Read a motion that :func:`save_trajectory` has written; refuse a file that is damaged or holds no motion."""
-    dataset = netcdf.load(path, SEGMENTS)
+    dataset = netcdf.load(path, tuple(SEGMENTS))
     try:
         parts = tuple(_stage(dataset, _mark(number)) for number in range(int(dataset.attrs["parts"])))
     except (KeyError, TypeError, ValueError) as problem:
@@ -98,16 +88,9 @@ def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
     columns: dict[str, Any] = {name: dataset[f"{name}{mark}"].values for name in SEGMENTS}
     columns |= {name: columns[name][..., 0] + 1j * columns[name][..., 1] for name in COMPLEX}
     start, final = (_state(json.loads(told[name])) for name in ("start", "final"))
+    numbers: dict[str, Any] = {name: kind(told[name]) for name, kind in NUMBERS.items()}
     return Trajectory(
-        rotor=rotor_from(told),
-        start=start,
-        outcome=Outcome[told["outcome"]],
-        time=float(told["end_time"]),
-        final=final,
-        multiplicity=int(told["multiplicity"]),
-        plane=int(told["plane"]),
-        begins=float(told["begins"]),
-        **columns,
+        rotor=rotor_from(told), start=start, outcome=Outcome[told["outcome"]], final=final, **numbers, **columns
     )
 
 
@@ -120,11 +103,6 @@ def _provenance(motion: Trajectory) -> dict[str, Any]:
         "comment": motion.outcome.meaning,
         **motion.rotor.attributes(),
     }
-
-
-def _parts(values: np.ndarray) -> np.ndarray:
-    """Real and imaginary parts along a last axis: netCDF has no complex numbers."""
-    return np.stack([values.real, values.imag], axis=-1)
 
 
 def _numbers(state: State) -> list[Any]:

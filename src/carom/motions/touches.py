@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
@@ -18,7 +18,6 @@ from carom.core.wall_work import (
     HEAT,
     LOST,
     NORMAL,
-    POWER,
     contact_works_all,
     stored_energies_all,
 )
@@ -48,30 +47,25 @@ class TouchLog(Table):
     the work of its damper, and what its spring holds where plane and wall part.
     """
 
-    touchdown_bearing: np.ndarray = field(metadata=column("1", NUMBERED))
-    start: np.ndarray = field(metadata=column("time", "time of entering the wall, or the beginning of the motion"))
-    end: np.ndarray = field(metadata=column("time", "time of leaving the wall, or the end of the motion"))
-    duration: np.ndarray = field(metadata=column("time", "time from beginning to end"))
-    entered: np.ndarray = field(metadata=column("1", "whether the wall was entered: a motion may begin in it"))
-    lasts: np.ndarray = field(metadata=column("1", "whether it lasts beyond the end of the motion"))
-    phase: np.ndarray = field(metadata=column("1", "kind of contact that takes most of it"))
-    angle: np.ndarray = field(metadata=column("rad", "angle at its beginning, in the co-rotating frame"))
-    angular_speed: np.ndarray = field(metadata=column("speed", "angular speed at its beginning, co-rotating frame"))
-    radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed on entering, or at the beginning"))
-    radial_speed_after: np.ndarray = field(metadata=column("velocity", "radial speed on leaving, or at the end"))
-    normal_impulse: np.ndarray = field(metadata=column("impulse", "integral of the normal force, inward"))
-    friction_impulse: np.ndarray = field(
-        metadata=column("impulse", "integral of the friction force, along growing angle")
-    )
-    peak_force: np.ndarray = field(metadata=column("force", "largest normal force"))
-    peak_time: np.ndarray = field(metadata=column("time", "time of the largest normal force"))
-    deepest: np.ndarray = field(metadata=column("length", "largest depth in the wall"))
-    peak_power: np.ndarray = field(metadata=column("power", "largest power lost to friction"))
-    heat: np.ndarray = field(metadata=column("energy", "work lost to friction, never negative"))
-    normal_loss: np.ndarray = field(
-        metadata=column("energy", "work lost along the normal: in the wall's damper, and on parting")
-    )
-    drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction"))
+    touchdown_bearing: np.ndarray = column("1", NUMBERED)
+    start: np.ndarray = column("time", "time of entering the wall, or the beginning of the motion")
+    end: np.ndarray = column("time", "time of leaving the wall, or the end of the motion")
+    duration: np.ndarray = column("time", "time from beginning to end")
+    entered: np.ndarray = column("1", "whether the wall was entered: a motion may begin in it")
+    lasts: np.ndarray = column("1", "whether it lasts beyond the end of the motion")
+    phase: np.ndarray = column("1", "kind of contact that takes most of it")
+    angle: np.ndarray = column("rad", "angle at its beginning, in the co-rotating frame")
+    angular_speed: np.ndarray = column("speed", "angular speed at its beginning, co-rotating frame")
+    radial_speed: np.ndarray = column("velocity", "radial speed on entering, or at the beginning")
+    radial_speed_after: np.ndarray = column("velocity", "radial speed on leaving, or at the end")
+    normal_impulse: np.ndarray = column("impulse", "integral of the normal force, inward")
+    friction_impulse: np.ndarray = column("impulse", "integral of the friction force, along growing angle")
+    peak_force: np.ndarray = column("force", "largest normal force")
+    peak_time: np.ndarray = column("time", "time of the largest normal force")
+    deepest: np.ndarray = column("length", "largest depth in the wall")
+    heat: np.ndarray = column("energy", "work lost to friction, never negative")
+    normal_loss: np.ndarray = column("energy", "work lost along the normal: in the wall's damper, and on parting")
+    drive_work: np.ndarray = column("energy", "work of the shaft's drive through friction")
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "touch"
@@ -93,11 +87,6 @@ class ContactWorks(NamedTuple):
     """Numbers of these segments, shape (k,)."""
     found: np.ndarray
     """For each of them and each plane, shape (k, P, 9)."""
-
-    def at(self, plane: int, segments: np.ndarray) -> np.ndarray:
-        """Columns at a plane, shape (9, n), of some of these segments."""
-        columns: np.ndarray = self.found[np.searchsorted(self.segments, segments), plane].T
-        return columns
 
 
 def contact_works(motion: Trajectory) -> ContactWorks:
@@ -142,7 +131,8 @@ def touches_of(motion: Trajectory, works: ContactWorks | None = None) -> TouchLo
     inside = (phases != Phase.FLIGHT) & yields(system, plane)
     first, after = np.flatnonzero(np.diff(np.concatenate([[0], inside, [0]]))).reshape(-1, 2).T
     bounds, segments = np.append(motion.segment_starts, motion.time), np.flatnonzero(inside)
-    at = (works or contact_works(motion)).at(plane, segments)
+    known = works or contact_works(motion)
+    at = known.found[np.searchsorted(known.segments, segments), plane].T
     begins = np.searchsorted(segments, first)
     edges = np.append(begins, len(segments))
 
@@ -172,7 +162,6 @@ def touches_of(motion: Trajectory, works: ContactWorks | None = None) -> TouchLo
         peak_force=at[FORCE, hardest],
         peak_time=bounds[segments[hardest]] + at[FORCE_TIME, hardest],
         deepest=np.maximum.reduceat(at[DEPTH], begins),
-        peak_power=np.maximum.reduceat(at[POWER], begins),
         heat=total(HEAT),
         normal_loss=total(LOST) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
         drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(DRIVEN),

@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -16,8 +16,7 @@ from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Rotor
-from carom.motions.blows import Blows, blows_of
-from carom.motions.contacts import ContactHistory, ContactLog, LastingContact, presses, yields
+from carom.motions.contacts import Blows, ContactHistory, ContactLog, LastingContact, blows_of, presses, yields
 from carom.motions.starts import State
 from carom.outcome import InputError, Outcome, Phase
 from carom.results import Result
@@ -32,6 +31,10 @@ TOGETHER = 4096
 """Times for which the amplitudes of all modes are known at once, where less is asked for."""
 ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
+
+
+PER_SEGMENT = ("segment_starts", "segment_phases", "segment_amplitudes", "segment_limits")
+PER_EVENT = ("event_planes", "arrivals")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -132,21 +135,12 @@ class Trajectory(Result):
     def since(self, segment: int) -> Trajectory:
         """Return the motion from the start of one of its segments on; its stages before are left out."""
         system, begun = self.rotor.system, float(self.segment_starts[segment])
-        amplitudes = self.segment_amplitudes[segment]
-        position, velocity = system.state(amplitudes)
-        begins = self.begins + begun
-        return dataclasses.replace(
-            self,
-            start=State.of(position, velocity, system.race_speeds(amplitudes), system.shaft_turn(amplitudes), begins),
-            time=self.time - begun,
-            segment_starts=self.segment_starts[segment:] - begun,
-            segment_phases=self.segment_phases[segment:],
-            event_planes=self.event_planes[segment:],
-            segment_amplitudes=self.segment_amplitudes[segment:],
-            arrivals=self.arrivals[segment:],
-            begins=begins,
-            earlier=(),
-        )
+        amplitudes, begins = self.segment_amplitudes[segment], self.begins + begun
+        state = *system.state(amplitudes), system.race_speeds(amplitudes), system.shaft_turn(amplitudes)
+        columns: dict[str, Any] = {name: getattr(self, name)[segment:] for name in (*PER_SEGMENT, *PER_EVENT)}
+        columns["segment_starts"] = columns["segment_starts"] - begun
+        start, time = State.of(*state, begins), self.time - begun
+        return dataclasses.replace(self, start=start, time=time, begins=begins, earlier=(), **columns)
 
     @property
     def durations(self) -> np.ndarray:
@@ -171,7 +165,7 @@ class Trajectory(Result):
     @cached_property
     def contacts(self) -> ContactLog:
         """Log of the impacts at the contact plane; a wall that gives way has none, but :attr:`touches`."""
-        return self._log(self.blows(self.is_impact).at(self.plane))
+        return ContactLog.of(self, self.blows(self.is_impact).at(self.plane))
 
     @cached_property
     def touches(self) -> TouchLog:
@@ -187,22 +181,11 @@ class Trajectory(Result):
 
     def blows(self, events: np.ndarray) -> Blows:
         """Impulses at all planes in chosen events, bool, shape (n,), in chronological order and that of the planes."""
-        return blows_of(
-            self.rotor.system,
-            np.flatnonzero(events),
-            self.event_planes[events],
-            self.segment_phases[:-1][events] != Phase.FLIGHT,
-            self.arrivals[events],
-            self.segment_amplitudes[1:][events],
-        )
+        return blows_of(self, np.flatnonzero(events))
 
     def log_of(self, events: np.ndarray) -> ContactLog:
         """Log of chosen events, bool, shape (n,); of impacts at several planes in one instant each plane has an entry."""
-        return self._log(self.blows(events))
-
-    def _log(self, blows: Blows) -> ContactLog:
-        times, after = self.segment_starts[1:][blows.events], self.segment_amplitudes[1:][blows.events]
-        return ContactLog.from_states(self.rotor, times, blows, self.arrivals[blows.events], after, self.scales)
+        return ContactLog.of(self, self.blows(events))
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:
@@ -327,9 +310,7 @@ class Trajectory(Result):
     def history(self, times: Reals | None = None) -> ContactHistory:
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
         times = self.sample() if times is None else np.asarray(times, float)
-        amplitudes, phases = self.amplitudes_at(times)
-        forces = self.forces_of(amplitudes, phases, times)
-        return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], amplitudes, forces)
+        return ContactHistory.of(self, times)
 
     @checked
     def to_dataset(self, times: Reals | None = None) -> xarray.Dataset:
@@ -389,18 +370,10 @@ class Trajectory(Result):
 
 def joined(pieces: list[Trajectory]) -> Trajectory:
     """Join pieces of one stage, each of which ends where the next begins, with a segment that has no duration yet."""
-
-    def per_segment(name: str) -> np.ndarray:
+    columns: dict[str, Any] = {}
+    for name in PER_SEGMENT:
         *before, last = (getattr(piece, name) for piece in pieces)
-        return np.concatenate([*(each[:-1] for each in before), last])
-
-    return dataclasses.replace(
-        pieces[-1],
-        start=pieces[0].start,
-        segment_starts=per_segment("segment_starts"),
-        segment_phases=per_segment("segment_phases"),
-        event_planes=np.concatenate([piece.event_planes for piece in pieces]),
-        segment_amplitudes=per_segment("segment_amplitudes"),
-        arrivals=np.concatenate([piece.arrivals for piece in pieces]),
-        segment_limits=per_segment("segment_limits"),
-    )
+        columns[name] = np.concatenate([*(each[:-1] for each in before), last])
+    for name in PER_EVENT:
+        columns[name] = np.concatenate([getattr(piece, name) for piece in pieces])
+    return dataclasses.replace(pieces[-1], start=pieces[0].start, **columns)

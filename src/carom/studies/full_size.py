@@ -15,8 +15,8 @@ from carom.disturbances import BaseShock, BladeLoss, Disturbance, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.models import Rotor
 from carom.motions import State, Trajectory, drop_loads, simulate
-from carom.motions.bearing_loads import DropLoads, PlaneLoads
 from carom.motions.budget import present_question
+from carom.motions.loads import DropLoads, TouchdownLoads
 from carom.motions.magnets import MagnetReach, magnet_reach
 from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.outcome import Outcome
@@ -147,7 +147,7 @@ class _Followed(NamedTuple):
     def size(self) -> tuple[float, float]:
         """By what motions are compared: force or impulse; without contact the width of the orbit."""
         planes = self.loads.planes
-        blow = max(each.loads.force if each.gives_way else each.loads.impulse for each in planes)
+        blow = max(each.force if each.gives_way else each.impulse for each in planes)
         return blow, 0.0 if blow else max(_reach(self.motion, each) for each in planes)
 
 
@@ -176,7 +176,7 @@ def _of_kind(rotor: Rotor, kind: Kind, size: float, model: Disturbance, limits: 
         tuple(sorted(whirls)),
         worst.motion,
         error,
-        worst_of(check_loads(plane.loads, limits) for each in tried for plane in each.loads.planes),
+        worst_of(check_loads(plane, limits) for each in tried for plane in each.loads.planes),
     )
 
 
@@ -211,19 +211,19 @@ def _worst_at(tried: list[_Followed], place: int) -> AtBearing:
     return AtBearing(
         touchdown_bearing=place + 1,
         radius=max(_reach(each.motion, plane) for each, plane in zip(tried, seen, strict=True)),
-        force=max(plane.loads.force for plane in seen),
-        impulse=max(plane.loads.impulse for plane in seen),
-        contact_time=max(plane.loads.contact_time for plane in seen),
+        force=max(plane.force for plane in seen),
+        impulse=max(plane.impulse for plane in seen),
+        contact_time=max(plane.contact_time for plane in seen),
         contacts=max(plane.contacts for plane in seen),
         is_compliant=seen[0].gives_way,
         scales=seen[0].scales,
     )
 
 
-def _reach(motion: Trajectory, plane: PlaneLoads) -> float:
+def _reach(motion: Trajectory, plane: TouchdownLoads) -> float:
     """Largest distance from the centre, in clearances of the plane: by the depth in the bearing, or as sampled of a motion without contact."""
-    if plane.loads.depth > 0.0:
-        return 1.0 + plane.loads.depth
+    if plane.depth > 0.0:
+        return 1.0 + plane.depth
     if plane.contacts:
         return 1.0
     parts = [part.seen_at(plane.plane) for part in motion.parts]

@@ -79,7 +79,7 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
         return ()
     if limits.pressure is not None and loads.pressure is None:
         raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
-    values = {**si, "impacts": float(loads.impacts)}
+    values = {**si, "impacts": float(loads.contacts)}
     found = []
     for name, limit in limits.given.items():
         grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.goes_on_bouncing}
@@ -99,7 +99,7 @@ def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     return tuple(
         replace(check, touchdown_bearing=place if several else None)
         for place, plane in enumerate(loads.planes, start=1)
-        for check in check_loads(plane.loads, limits)
+        for check in check_loads(plane, limits)
     )
 
 

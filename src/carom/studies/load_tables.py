@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from carom.motions import Braking, DropLoads, LastWhirl, PlaneLoads
+from carom.motions import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.loads import MEASURED
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
@@ -15,7 +15,7 @@ from carom.studies.load_checks import check_loads
 from carom.studies.wording import Wording, counted
 
 PLANE = "gives_way contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
-LOADS = f"impacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
+LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 
 
@@ -46,14 +46,14 @@ def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
     return [_entry(plane, limits) for plane in loads.planes]
 
 
-def _rows(plane: PlaneLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
-    say, loads = Wording(plane.scales), plane.loads
+def _rows(plane: TouchdownLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
+    say = Wording(plane.scales)
     rows = [*_hits(plane, say, since), ("contacts", _contacts(plane, say))]
     if plane.restitution is not None:
         rows.append(("restitution seen", f"{number(plane.restitution, 4)} in the fastest hit"))
-    goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power * _unit(say) > 0.1 else ""
-    rows.append(("slip energy (heat)", f"{say.energy(loads.heat)}{goes_on}"))
-    rows.append(("friction power", f"up to {say.power(loads.power)}"))
+    goes_on = f"; it goes on with {say.power(plane.lasting_power)}" if plane.lasting_power * _unit(say) > 0.1 else ""
+    rows.append(("slip energy (heat)", f"{say.energy(plane.heat)}{goes_on}"))
+    rows.append(("friction power", f"up to {say.power(plane.power)}"))
     if plane.race_at_end is not None and plane.fastest_race is not None:
         end, fastest = (_speed(each, plane.scales) for each in (plane.race_at_end, plane.fastest_race))
         rows.append(("race", f"{end} at the end, at most {fastest} (shaft {_speed(1.0, plane.scales)})"))
@@ -64,19 +64,19 @@ def _rows(plane: PlaneLoads, outcome: Outcome, since: str) -> list[tuple[str, st
     return rows
 
 
-def _entry(plane: PlaneLoads, limits: LoadLimits) -> dict[str, Any]:
-    loads, whirl = plane.loads, plane.whirl
+def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
+    whirl = plane.whirl
     entry = {"touchdown_bearing": plane.plane + 1, **record(plane, PLANE, plane.scales)}
-    entry["loads"] = record(loads, LOADS, loads.scales)
-    if loads.pressure is not None:
-        entry["loads"]["pressure_si"] = loads.pressure
+    entry["loads"] = record(plane, LOADS, plane.scales)
+    if plane.pressure is not None:
+        entry["loads"]["pressure_si"] = plane.pressure
     if not plane.gives_way:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
         entry["loads"]["force_is_of_lasting_contact"] = True
     entry["whirl"] = whirl and record(whirl, WHIRL, whirl.scales)
     if whirl is not None and whirl.frequency_si is not None:
         entry["whirl"]["frequency_si"] = whirl.frequency_si
-    entry["limits"] = [check.document() for check in check_loads(loads, limits)]
+    entry["limits"] = [check.document() for check in check_loads(plane, limits)]
     return entry
 
 
@@ -85,31 +85,31 @@ def _unit(say: Wording) -> float:
     return 1.0 if say.scales is None else say.scales.power
 
 
-def _hits(plane: PlaneLoads, say: Wording, since: str) -> list[tuple[str, str]]:
+def _hits(plane: TouchdownLoads, say: Wording, since: str) -> list[tuple[str, str]]:
     """The largest force with its depth and pressure, and the largest impulse; on a rigid wall the impulse stands for the force."""
-    loads, when = plane.loads, f"after {since}"
-    impulse = f"{say.impulse(loads.impulse)}"
+    when = f"after {since}"
+    impulse = f"{say.impulse(plane.impulse)}"
     if plane.impulse_at is not None:
         impulse = f"{impulse}, {say.time(plane.impulse_at)} {when}"
     if not plane.gives_way:
         rows = [("hardest impact", f"impulse {impulse}; a rigid wall has no peak force")]
-        return [*rows, ("lasting contact", f"force up to {say.force(loads.force)}")] if loads.force > 0.0 else rows
+        return [*rows, ("lasting contact", f"force up to {say.force(plane.force)}")] if plane.force > 0.0 else rows
     if plane.force_at is None:
         return [("peak force", "none: it did not touch")]
     rows = [
-        ("peak force", f"{say.force(loads.force)}, {say.time(plane.force_at)} {when}"),
-        ("depth", say.length(loads.depth)),
+        ("peak force", f"{say.force(plane.force)}, {say.time(plane.force_at)} {when}"),
+        ("depth", say.length(plane.depth)),
     ]
-    if loads.pressure is not None:
-        rows.append(("pressure of balls", f"{number(1e-9 * loads.pressure, 3)} GPa on the most loaded one"))
-    return [*rows, ("largest impulse", f"{impulse} (that of one contact)")] if loads.impulse > 0.0 else rows
+    if plane.pressure is not None:
+        rows.append(("pressure of balls", f"{number(1e-9 * plane.pressure, 3)} GPa on the most loaded one"))
+    return [*rows, ("largest impulse", f"{impulse} (that of one contact)")] if plane.impulse > 0.0 else rows
 
 
-def _contacts(plane: PlaneLoads, say: Wording) -> str:
+def _contacts(plane: TouchdownLoads, say: Wording) -> str:
     kind = "contact" if plane.gives_way else "impact"
     text = f"{counted(plane.contacts, kind)}, {counted(plane.bounces, 'bounce')}"
     lasting = "" if plane.gives_way else "lasting "
-    return f"{text}; {say.time(plane.loads.contact_time)} in {lasting}contact"
+    return f"{text}; {say.time(plane.contact_time)} in {lasting}contact"
 
 
 def _speed(own: float, scales: Scales | None) -> str:
