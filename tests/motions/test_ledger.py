@@ -54,7 +54,7 @@ def test_energy_closes_through_chatter_sliding_and_rolling(gamma, start, phases)
 def test_a_missing_account_would_show():
     motion = carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0)
     ledger = energy_ledger(motion)
-    without_drive = np.abs(ledger.energy - ledger.energy[0] - ledger.supplied + ledger.drive).max()
+    without_drive = np.abs(ledger.energy - ledger.energy[0] - np.sum(ledger.works, axis=0) + ledger.drive).max()
     assert without_drive > 1e-2 * np.abs(ledger.drive).max()
 
 

@@ -97,6 +97,9 @@ class Table(Result):
             entries.append(f"{name} : ndarray\n    {one['words'][0].upper()}{one['words'][1:]}{unit}.")
         cls.__doc__ = "\n".join([cleandoc(cls.__doc__ or ""), "", "Attributes", "----------", *entries])
 
+    def __len__(self) -> int:
+        return len(getattr(self, next(iter(self.columns))))
+
     def kind_of(self, name: str) -> str:
         """What the metadata say."""
         quantity = self.columns[name]["quantity"] if name in self.columns else ""
@@ -190,9 +193,6 @@ class ContactLog(Table):
             drive_work=-radius * (0.5 * (spin + spin_after)) * tangential,
             scales=motion.scales,
         )
-
-    def __len__(self) -> int:
-        return len(self.time)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -55,9 +55,7 @@ class Whirl:
             raise InputError("whirl radius", self.radius, "must be from 0 to the clearance")
         place = cmath.rect(radius, own_size("whirl angle", self.angle, "angle", rotor.scales))
         turning = 1j * (own_size("whirl speed", self.speed, "speed", rotor.scales) - 1.0) * place
-        moved = rotor.system.translated
-        position, velocity = (part * moved if len(moved) > 1 else part * moved[0] for part in (place, turning))
-        return State.of(position, velocity)
+        return State.of(place * rotor.system.translated, turning * rotor.system.translated)
 
 
 @checked
@@ -125,8 +123,9 @@ class Drop:
         return math.remainder(rotor.direction_of_fall + ahead, 2.0 * math.pi)
 
     def _start(self, rotor: Rotor) -> State:
-        """State at the release."""
-        state = self._moving(rotor)
+        """State at the release; by default with the races as the model has them."""
+        at = self.at
+        state = State.of(*levitation_of(rotor)) if at is None else at if isinstance(at, State) else at.state(rotor)
         if self.race_speed is None:
             return state
         radii = [race.radius for race in rotor.races if race is not None]
@@ -134,13 +133,6 @@ class Drop:
             raise InputError("race_speed", self.race_speed, "a touchdown bearing with a race that turns: race_inertia")
         speed = own_size("race_speed", self.race_speed, "speed", rotor.scales)
         return State(state.position, state.velocity, tuple(radius * speed for radius in radii))
-
-    def _moving(self, rotor: Rotor) -> State:
-        """State at the release, with the races as the model has them."""
-        if self.at is not None:
-            return self.at if isinstance(self.at, State) else self.at.state(rotor)
-        position, velocity = (values if len(values) > 1 else values[0] for values in levitation_of(rotor))
-        return State.of(position, velocity)
 
 
 @checked

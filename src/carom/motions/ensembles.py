@@ -18,9 +18,9 @@ from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
     REPEATING,
-    low_interval,
     may_be_low,
 )
+from carom.motions.simulation import Following, stretches
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until
 from carom.outcome import InputError, Outcome
 from carom.parameters import own_time
@@ -228,15 +228,13 @@ def _in_stage(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits
     endings, rotors = _settled(stages, which, starts, limits), [stage.rotor for stage in stages]
     may = np.array([may_be_low(rotor, limits.patience) for rotor in rotors], bool)
     doubtful = np.flatnonzero(np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0) & may[which])
-    if not len(doubtful):
-        return endings
-    here, which = endings[doubtful], which[doubtful]
-    look = limits._replace(until=None, patience=LOW_FOR, tell=Reporter.of(None, ""))
-    states = here.positions, here.velocities, here.begins, starts[3][doubtful] + here.times
-    ends = _settled(list(map(Stage, rotors)), which, states, look)
-    intervals = np.array([low_interval(rotor) for rotor in rotors])[which]
-    low = np.isin(ends.outcomes, REPEATING) & (ends.multiplicities == 0) & (ends.times < intervals * ends.impacts)
-    endings.outcomes[doubtful[low]] = Outcome.LOW_BOUNCES
+    look, times = Following(True, False, LOW_FOR, limits.max_events, Reporter.of(None, "")), starts[2] + starts[3]
+    for place in doubtful.tolist():
+        state = endings.positions[place], endings.velocities[place]
+        start = State.of(*state, time=float(times[place] + endings.times[place]))
+        *_, last = stretches(rotors[which[place]], start, None, look)
+        if last.outcome is Outcome.LOW_BOUNCES:
+            endings.outcomes[place] = last.outcome
     return endings
 
 

@@ -79,15 +79,9 @@ class EnergyLedger(Table):
         return self.unbalance, self.damping, self.circulatory, self.forces, self.limits, *contact
 
     @property
-    def supplied(self) -> np.ndarray:
-        """Sum of all works since the start."""
-        total: np.ndarray = np.sum(self.works, axis=0)
-        return total
-
-    @property
     def imbalance(self) -> float:
         """Largest error of the balance, relative to the largest energy or work that occurs; 0 at rest."""
-        missing = np.abs(self.energy - self.energy[0] - self.supplied).max()
+        missing = np.abs(self.energy - self.energy[0] - np.sum(self.works, axis=0)).max()
         passed = max(self.energy.max(), *(np.abs(work).max() for work in self.works))
         return float(missing / passed) if passed > 0.0 else 0.0
 
@@ -218,7 +212,7 @@ def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray, turning: np.n
 def _on_conjugates(rotor: Rotor) -> np.ndarray:
     """Matrices of the forces ``−D′Z̄˙ − K′Z̄`` of bearings that act differently in two directions, (2, n, n)."""
     pair = rotor.acting_on_conjugates
-    return np.zeros((2, len(rotor.system.rest), len(rotor.system.rest))) if pair is None else np.stack(pair)
+    return np.zeros((2, len(rotor.system.rest), len(rotor.system.rest))) if pair is None else pair
 
 
 def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int) -> tuple[np.ndarray, np.ndarray]:

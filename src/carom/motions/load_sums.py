@@ -300,7 +300,7 @@ def _lasting_power(last: Trajectory, contacts: _Contacts) -> float:
     if not last.outcome.settled or last.outcome is Outcome.LEVITATED or phase == Phase.ROLLING:
         return 0.0
     if presses(phase):
-        return float(-last.history([last.time]).friction_power[0])
+        return float(-last.history(np.array([last.time])).friction_power[0])
     recent = np.flatnonzero(contacts.stages == last.begins)[-max(RECENT, 2 * last.multiplicity) - 1 :]
     times, works = contacts.starts[recent], contacts.heat[recent]
     return float(works[1:].sum() / (times[-1] - times[0])) if len(times) > 1 else 0.0

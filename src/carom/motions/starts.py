@@ -89,9 +89,9 @@ class State:
         time: float = 0.0,
     ) -> State:
         """State of plain numbers, or of arrays if there are several coordinates."""
-        if np.ndim(position) or np.ndim(velocity):
+        if np.size(position) > 1 or np.size(velocity) > 1:
             return cls(position, velocity, races, shaft, time)
-        return cls(complex(position), complex(velocity), races, shaft, time)
+        return cls(complex(np.squeeze(position)), complex(np.squeeze(velocity)), races, shaft, time)
 
 
 @checked
@@ -133,9 +133,7 @@ class Kick:
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
         instant = own_size("instant", self.instant, "angle", rotor.scales) if rotor.depends_on_instant else 0.0
-        kicked = rotor.system.kicked(push, instant)
-        position, velocity = (values if len(values) > 1 else values[0] for values in kicked)
-        return State.of(position, velocity, time=instant)
+        return State.of(*rotor.system.kicked(push, instant), time=instant)
 
 
 @checked

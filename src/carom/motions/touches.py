@@ -70,15 +70,6 @@ class TouchLog(Table):
 
     dimension: ClassVar[str] = "touch"
 
-    @property
-    def restitution(self) -> np.ndarray:
-        """Radial speed on leaving over that on entering, inward positive; nan of a contact that was not entered, or that lasts."""
-        whole = self.entered & ~self.lasts & (self.radial_speed > 0.0)
-        return np.divide(-self.radial_speed_after, self.radial_speed, out=np.full(len(self), np.nan), where=whole)
-
-    def __len__(self) -> int:
-        return len(self.start)
-
 
 class ContactWorks(NamedTuple):
     """What contact does in the segments of a motion in which a plane is at its wall, by the columns of :mod:`carom.core.wall_work`."""
