@@ -11,7 +11,7 @@ from carom.disturbances.echo import echo_of_drop
 from carom.models import rotor_of
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
-from carom.motions.magnets import excess_pull, magnet_reach
+from carom.motions.magnets import excess_pull
 from carom.outcome import InputError, Outcome
 from carom.rotors import Support
 from carom.studies import DropStudy
@@ -100,11 +100,11 @@ def test_a_motion_stops_at_a_magnet(tmp_path):
     assert motion.outcome is Outcome.BEYOND_MODEL
     radii = motion.radius(motion.segment_starts)
     assert radii[-1] > 1.5 >= radii[:-1].max()
-    reach = magnet_reach(motion)
+    reach = drop_loads(motion).magnets
     assert reach.struck
     assert reach.words.startswith("The rotor strikes a magnet")
     kicked = cm.simulate(case, cm.kick("150 mm/s"), 100.0)
-    found, farthest = magnet_reach(kicked), kicked.radius(np.linspace(0.0, kicked.time, 5000)).max()
+    found, farthest = drop_loads(kicked).magnets, kicked.radius(np.linspace(0.0, kicked.time, 5000)).max()
     assert found.share == pytest.approx(farthest / 1.5, rel=1e-3)
     assert not found.struck
     assert f"{100.0 * found.share:.2g} % of an air gap" in found.words
@@ -122,13 +122,13 @@ def test_magnets_of_a_flexible_machine(tmp_path):
     )
     size = machine.scales.length * np.sqrt(machine.scales.mass)
     places = size * motion.at(times)[0][:, : machine.vectors] @ shapes.T  # m
-    share = magnet_reach(motion).share
+    share = drop_loads(motion).magnets.share
     assert share == pytest.approx(np.abs(places).max() / 4e-4, rel=1e-3)
     at_events = np.abs(size * motion.at(motion.segment_starts)[0][:, : machine.vectors] @ shapes.T).max(axis=1)
     near = munich(longest_element=0.2, bearings=bearings(0.99 * at_events.max())).with_modes(3)
     stopped = cm.simulate(near.model, cm.kick("495 mm/s", "30 deg"), "12 ms")
     assert stopped.outcome is Outcome.BEYOND_MODEL
-    assert magnet_reach(stopped).struck
+    assert drop_loads(stopped).magnets.struck
     assert stopped.time == pytest.approx(motion.segment_starts[at_events > 0.99 * at_events.max()][0], rel=1e-9)
 
 

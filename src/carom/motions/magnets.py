@@ -66,16 +66,8 @@ class MagnetReach(Result):
         return {"share_of_air_gap": self.share, "struck": self.struck, "excess_pull": wrong}
 
 
-def magnet_reach(motion: Trajectory) -> MagnetReach | None:
-    """How near a motion comes to the magnets; ``None`` where no air gap is known."""
-    known = None
-    for part in motion.parts:
-        known = reach_with(known, part)
-    return known
-
-
 def reach_with(known: MagnetReach | None, part: Trajectory) -> MagnetReach | None:
-    """What is known of a motion with one more stage, or piece of one."""
+    """What is known of a motion with one more stage, or piece of one; ``None`` where no air gap is known."""
     gaps, system = part.rotor.system.magnets, part.rotor.system
     if gaps is None:
         return known

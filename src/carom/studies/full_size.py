@@ -17,7 +17,7 @@ from carom.models import Rotor
 from carom.motions import State, Trajectory, drop_loads, simulate
 from carom.motions.budget import present_question
 from carom.motions.loads import DropLoads, TouchdownLoads
-from carom.motions.magnets import MagnetReach, magnet_reach
+from carom.motions.magnets import MagnetReach
 from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.outcome import Outcome
 from carom.parameters import LoadLimits, Required, Scales
@@ -109,7 +109,7 @@ class FullSize(Result):
     @cached_property
     def magnets(self) -> MagnetReach | None:
         """How near the rotor comes to its magnets along the worst, where their air gaps are known."""
-        return magnet_reach(self.worst)
+        return drop_loads(self.worst).magnets
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
