@@ -10,7 +10,7 @@ import carom as cm
 from carom.models import jeffcott
 from carom.motions import settle, simulate
 from carom.parameters import Case, Machine, Zones, in_terms_of
-from carom.studies.actuator import Centre, asked_by, largest_along, slew_limit_of
+from carom.studies.actuator import asked_by, largest_along, slew_limit_of
 from carom.studies.advice import with_setting
 from carom.studies.facts import about
 from carom.studies.survives import required_disturbances
@@ -116,7 +116,7 @@ def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():
     asked = asked_by(case, required_disturbances(required, 100))
     rotor, limit = jeffcott(case.parameters), slew_limit_of(case)
     radius = abs(rotor.equilibrium)
-    whirl = limit.asked(Centre(radius, 1j * radius, -radius)) / limit.most
+    whirl = limit.asked(1j * radius, -radius) / limit.most
     assert asked >= whirl
     largest = 0.0
     for angle in np.linspace(0.1, 6.2, 12):

@@ -19,8 +19,6 @@ def test_no_change_beyond_what_a_controller_can_give_is_advised():
     """Damping of 3,600 N s/m brings all back (``tests/studies/test_advice.py``), 4.8 times the present one."""
     result = with_kick("examples/keogh-cole.toml", "166 mm/s", ["damping=750 N s/m"])
     assert all(1.0 / GAIN_FACTOR <= change.ratio <= GAIN_FACTOR for change in result.recommendation.changes)
-    told = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Not by this gain"]
-    assert any("damping from" in text and "hardly give more than 4 times" in text for text in told)
 
 
 def test_a_study_that_follows_too_few_says_neither_back_nor_lost(tmp_path, monkeypatch):

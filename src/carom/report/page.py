@@ -109,14 +109,17 @@ def _holding(study: Study) -> list[MotionRow]:
 
 def _whirls(found: Levitating) -> list[tuple[str, str, str]]:
     """Frequency, sense and damping ratio of the slowest whirls."""
-    return [(frequency_words(found, each), each.sense, number(each.damping_ratio, 3)) for each in found.whirls]
+    return [
+        (frequency_words(each, dimensionless=found.dimensionless), each.sense, number(each.damping_ratio, 3))
+        for each in found.whirls
+    ]
 
 
 def _mark(study: Study) -> str:
     """Colour of the headline: that of levitation only where nothing is lost and nothing is asked that cannot be given."""
     if study.verdict.level == "no-contact-free-motion":
         return "var(--bad)"
-    doubtful = study.bearing_demand is not None and study.bearing_demand.doubtful
+    doubtful = study.bearing_demand is not None and study.bearing_demand.is_exceeded
     good = study.recommendation.kind == "no-change-needed" and not doubtful
     return plots.OUTCOMES["levitated"].colour if good else "var(--warn)"
 

@@ -23,7 +23,7 @@ import cmath
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Case, ControlLimit
 from carom.parameters.told import number
-from carom.results import fields_of
+from carom.results import record
 from carom.studies.trials import coordinates_at_largest
 
 STEP = 0.05
@@ -48,37 +48,6 @@ SHORTEST = 1e-6
 """Time for which a disturbance is followed whose end is known at once."""
 LARGEST = 24
 """Number of disturbances of each kind that are followed to see what a change asks of the bearings."""
-
-
-class Centre(NamedTuple):
-    """Motion of the rotor centre in the fixed frame, along axes that turn with the rotor; shapes (n,) or ().
-
-    In ``c_r``, ``c_rΩ`` and ``c_rΩ²``.
-    """
-
-    position: Any
-    velocity: Any
-    acceleration: Any
-
-    @classmethod
-    def along(cls, motion: Trajectory, times: np.ndarray) -> Centre:
-        """At given times of a motion of the planar rotor; at an impact just after it."""
-        numbers: Any = motion.rotor.definition.planar
-        position, turning = motion.at(times)
-        velocity = turning + 1j * position
-        normal, friction = motion.forces(times)
-        outward = np.where(normal != 0.0, position, 0.0)  # on the wall |U| = 1
-        acceleration = (
-            cmath.rect(numbers.rho, numbers.phi)
-            - numbers.omega**2 * position
-            - numbers.gamma * velocity
-            + (1j * friction - normal) * outward
-        )
-        system = motion.rotor.system
-        if system.limits:
-            excess = saturation_of(system, motion.amplitudes_at(times)[0], motion.begins + times)
-            acceleration = acceleration + excess @ saturation_accelerations(system)[0]
-        return cls(position, velocity, acceleration)
 
 
 @dataclass(frozen=True)
@@ -97,9 +66,9 @@ class SlewLimit:
     per_velocity: float
     per_acceleration: float
 
-    def asked(self, motion: Centre) -> Any:
-        """What a motion of the rotor centre asks of the bearing, in A/s: the size of a vector of two axes."""
-        return np.abs(self.per_velocity * motion.velocity + self.per_acceleration * motion.acceleration)
+    def asked(self, velocity: Any, acceleration: Any) -> Any:
+        """What a motion of the rotor centre in the fixed frame asks of the bearing, in A/s: the size of a vector of two axes."""
+        return np.abs(self.per_velocity * velocity + self.per_acceleration * acceleration)
 
 
 @dataclass(frozen=True)
@@ -112,44 +81,54 @@ class BearingDemand:
         Largest control force, which acts in the motions.
     slew : SlewLimit or None
         Largest rate of the current, which does not.
-    shares : ndarray
-        The multiple of the largest rate that each disturbance asks for at most, until its end is known; shape (n,), zeros without one.
-    at_limit : ndarray of bool, shape (n,)
-        Which disturbances come to the largest control force.
-    came_back : ndarray of bool, shape (n,)
-        Which disturbances came back to levitation.
+    demand : float or None
+        What is asked for at most of that rate, in multiples of it (:func:`asked_by`).
+    at_limit, came_back_at_limit, total : int
+        Numbers of the disturbances that come to the largest control force, of those among them that come back, and of all.
     """
 
     control: ControlLimit | None
     slew: SlewLimit | None
-    shares: np.ndarray
-    at_limit: np.ndarray
-    came_back: np.ndarray
+    demand: float | None
+    at_limit: int
+    came_back_at_limit: int
+    total: int
 
     @property
-    def doubtful(self) -> int:
-        """Number of disturbances that came back, in the model, and asked for a larger rate than the bearings have on their way."""
-        return int(((self.shares > 1.0) & self.came_back).sum())
+    def is_exceeded(self) -> bool:
+        """Whether a larger rate is asked for than the bearings have."""
+        return self.demand is not None and self.demand > 1.0
+
+    @property
+    def words(self) -> str:
+        """What the limits do in the motions, and what is asked for of the rate of the current."""
+        sentences = []
+        if self.control is not None:
+            back = f", and {self.came_back_at_limit} of these came back" if self.at_limit else ""
+            sentences.append(
+                f"The magnetic bearings give {self.control.words}: in every motion that was followed they do no more than that. "
+                f"{self.at_limit or 'None'} of {self.total} disturbances bring them to this limit{back}."
+            )
+        if self.slew is not None and self.demand is not None:
+            sentences.append(
+                f"The current of one magnetic bearing changes by at most {number(self.slew.most)} A/s, which the motions leave out: "
+                f"what must be survived asks for up to {number(self.demand, 3)} times that."
+            )
+        return " ".join(sentences)
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
         return {
-            "control": None if self.control is None else fields_of(self.control, force_si="force", pull_si="pull"),
-            "slew_rate": None if self.slew is None else fields_of(self.slew, limit_si="most"),
-            "disturbances": {
-                "at_limit": int(self.at_limit.sum()),
-                "came_back_at_limit": int((self.at_limit & self.came_back).sum()),
-                "largest_share": float(self.shares.max(initial=0.0)),
-                "beyond": int((self.shares > 1.0).sum()),
-            },
-            "came_back_beyond": self.doubtful,
+            "control": self.control and record(self.control, "force_si=force pull_si=pull"),
+            "slew_rate": self.slew and {"limit_si": self.slew.most, "demand": self.demand},
+            "disturbances": record(self, "at_limit came_back_at_limit"),
         }
 
 
 def slew_limit_of(case: Case) -> SlewLimit | None:
-    """Largest rate of the current of one magnetic bearing of a machine; ``None`` if it is not stated."""
+    """Largest rate of the current of one magnetic bearing of a machine; ``None`` if it is not stated, or under weight."""
     machine, scales = case.machine, case.parameters.scales
-    if machine is None or scales is None or machine.slew_rate_limit is None:
+    if machine is None or scales is None or machine.slew_rate_limit is None or rotor_of(case).system.forced is not None:
         return None
     gains = machine.controller_gains
     return SlewLimit(
@@ -159,24 +138,19 @@ def slew_limit_of(case: Case) -> SlewLimit | None:
     )
 
 
-def bearing_demand(case: Case, found: AttractorSet) -> BearingDemand | None:
-    """What the disturbances of a study have to do with the limits of the magnetic bearings; ``None`` if these have none."""
-    rotor = rotor_of(case)
-    control = rotor.limits if isinstance(rotor.limits, ControlLimit) else None
-    # Under weight nothing here says what levitation asks for.
-    slew = None if rotor.system.forced is not None else slew_limit_of(case)
+def bearing_demand(case: Case, found: AttractorSet, required: Iterable[Sample]) -> BearingDemand | None:
+    """What motions have to do with the limits of the magnetic bearings; ``None`` if these have none."""
+    limits, slew = rotor_of(case).limits, slew_limit_of(case)
+    control = limits if isinstance(limits, ControlLimit) else None
     if control is None and slew is None:
         return None
-    tried = found.disturbances
-    motions = [
-        simulate(ending.rotor, ending.start.state, max(ending.time, SHORTEST)) for ending in tried
-    ]  # until their ends are known
-    came_back = np.array([ending.recovered for ending in tried], bool)
-    at_limit = np.array([bool((motion.segment_limits > WITHIN).any()) for motion in motions], bool)
-    shares = np.zeros(len(motions))
-    if slew is not None:
-        shares = np.array([largest_along(motion, slew) for motion in motions]) / slew.most
-    return BearingDemand(control, slew, shares, at_limit, came_back)
+    tried = found.disturbances if control else ()
+    at_limit = [
+        ending.recovered
+        for ending in tried  # until their ends are known
+        if (simulate(ending.rotor, ending.start.state, max(ending.time, SHORTEST)).segment_limits > WITHIN).any()
+    ]
+    return BearingDemand(control, slew, asked_by(case, required), len(at_limit), sum(at_limit), len(tried))
 
 
 def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
@@ -189,7 +163,7 @@ def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
         return None
     rotor = rotor_of(case)
     radius = rotor.system.rest_radius
-    reached = [float(limit.asked(Centre(radius, 1j * radius, -radius)))]
+    reached = [float(limit.asked(1j * radius, -radius))]
     for sample in disturbances:
         starts = sample.model.starts_on(rotor, *coordinates_at_largest(rotor, sample, LARGEST))
         machines = [rotor] * len(starts.positions) if starts.after is None else starts.after
@@ -204,28 +178,27 @@ def largest_along(motion: Trajectory, limit: SlewLimit) -> float:
     """Largest rate of the current along a motion of the planar rotor, in A/s, but for jumps."""
     fastest = 1.0 + float(np.abs(motion.rotor.system.arrays["exponents"]).max(initial=0.0))
     count = min(math.ceil(motion.time * fastest / STEP) + 2, MOST_INSTANTS)
-    return float(limit.asked(Centre.along(motion, motion.sample(count))).max())
+    return float(limit.asked(*centre_along(motion, motion.sample(count))).max())
 
 
-def actuator_words(demand: BearingDemand) -> str:
-    """Say what the limits of the magnetic bearings do in the motions, and which motions ask for a larger rate of the current."""
-    total, count, back = (
-        len(demand.at_limit),
-        int(demand.at_limit.sum()),
-        int((demand.at_limit & demand.came_back).sum()),
+def centre_along(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Velocity and acceleration of the rotor centre in the fixed frame, along axes that turn with the rotor, at times of a motion of the planar rotor.
+
+    In ``c_rΩ`` and ``c_rΩ²``, shapes (n,); at an impact just after it.
+    """
+    numbers: Any = motion.rotor.definition.planar
+    position, turning = motion.at(times)
+    velocity = turning + 1j * position
+    normal, friction = motion.forces(times)
+    outward = np.where(normal != 0.0, position, 0.0)  # on the wall |U| = 1
+    acceleration = (
+        cmath.rect(numbers.rho, numbers.phi)
+        - numbers.omega**2 * position
+        - numbers.gamma * velocity
+        + (1j * friction - normal) * outward
     )
-    sentences = []
-    if demand.control is not None:
-        sentences.append(
-            f"The magnetic bearings give {demand.control.words}: in every motion that was followed they do no more than that. "
-            f"{count or 'None'} of {total} disturbances bring them to this limit{f', and {back} of these came back' if count else ''}."
-        )
-    if demand.slew is not None:
-        beyond = int((demand.shares > 1.0).sum())
-        sentences.append(
-            f"The current of one magnetic bearing changes by at most {number(demand.slew.most)} A/s, which the motions leave out. "
-            f"{beyond or 'None'} of {total} disturbances ask for a larger rate; the most is {number(demand.shares.max(initial=0.0), 3)} times the limit."
-        )
-    if demand.doubtful:
-        sentences.append(f"That the real machine comes back from {demand.doubtful} of these is not shown.")
-    return " ".join(sentences)
+    system = motion.rotor.system
+    if system.limits:
+        excess = saturation_of(system, motion.amplitudes_at(times)[0], motion.begins + times)
+        acceleration = acceleration + excess @ saturation_accelerations(system)[0]
+    return velocity, acceleration

@@ -14,7 +14,6 @@ from carom.studies.advice import GAIN_FACTOR, Change, evidence_of
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import event_words
-from carom.studies.recovery import Recovery, power_of
 from carom.studies.study_data import StudyData
 from carom.studies.verdict import judged
 from carom.studies.wording import Wording, counted, entry_words, present_values
@@ -26,6 +25,7 @@ BEYOND = "Beyond the limits"
 _NO_CHANGE = {
     "no-change-needed": "none needed for what the machine must survive",
     "not-decided": "not decided: too few of the disturbances that the machine must survive could be followed",
+    "no-change-found": f"none found that brings all back that must be survived and changes no gain by more than {number(GAIN_FACTOR)} times",
     "nothing-buildable": "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
     "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed",
 }
@@ -52,8 +52,13 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
     levitates = f"{verb} {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
     yield _fact(levitates if study.levitates else judged(study)[1].lower(), "Now", "closed form")
     kind = recommended.kind
-    if kind in _NO_CHANGE or kind == "no-change-found":
-        yield _fact(_NO_CHANGE.get(kind) or _none_found(study), "Change", "sampled")
+    if kind in _NO_CHANGE:
+        unfinished = kind == "no-change-found" and not all(
+            entry.complete and entry.searched for entry in study.recoveries
+        )
+        yield _fact(
+            f"{_NO_CHANGE[kind]}{', but the search was not finished' if unfinished else ''}", "Change", "sampled"
+        )
     for place, change in enumerate(recommended.changes):
         label = BEYOND if kind == "nothing-buildable" else "Or" if place else "Change"
         yield _fact(_change(study, change), label, values=change.document(say))
@@ -65,9 +70,6 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         text = f"{say.name(name)} {say.value(name, own)} is {number(100.0 * margin.share, 2)} % {side} {say.value(name, end)}, {_where(margin.edge)}"
         values = say.in_both(name, present=own) | margin.document(say)
         yield _fact(text, "Margin", evidence_of(margin.edge), values, detail=True)
-    for recovery in () if kind in ("no-change-needed", "not-decided") else study.recoveries:
-        if recovery.searched and recovery.complete and not recovery.spans:
-            yield _fact(_not_by(study, recovery), "Not by this gain", "sampled")
     kicks, *others = say.required(study.required)
     tried = "; ".join([f"velocity {kicks} out of levitation", *others])
     yield _fact(f"{tried}; faster or other disturbances were not tested", "Disturbances")
@@ -147,22 +149,3 @@ def _where(edge: Edge) -> str:
     if edge.motion is not None:
         return f"beyond which disturbances ended in {motion_words(edge.motion)}"
     return f"where {event_words(edge)}"
-
-
-def _none_found(study: StudyData) -> str:
-    """Whether a change was looked for to the end."""
-    if not all(entry.complete for entry in study.recoveries):
-        return "none found, but the search for one was not finished"
-    if not any(entry.searched for entry in study.recoveries):
-        return "none found: no range of damping or stiffness could be searched"
-    return "none found that brings all back that must be survived"
-
-
-def _not_by(study: StudyData, found: Recovery) -> str:
-    """In which range of a gain no value brings all back."""
-    say, along, present = study.wording, found.along, found.along.value(found.rotor)
-    low, high = found.searched[0].low.value, found.searched[-1].high.value
-    times = (high / present) ** power_of(along) if present > 0.0 else math.inf
-    most = f"; a controller can hardly give more than {number(GAIN_FACTOR)} times of it"
-    ends = f"from {say.value(along.name, low)} to {say.value(along.name, high)}"
-    return f"no {say.name(along.name)} {ends} brings back all that must be survived{most if times >= GAIN_FACTOR * 0.999 else ''}"

@@ -14,7 +14,6 @@ from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number
-from carom.studies.actuator import actuator_words
 from carom.studies.advice_facts import advice_facts
 from carom.studies.coverage import not_covered
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, touching
@@ -49,7 +48,7 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     yield from proofs_of(study)
     yield from bearing_facts(study.levitating)
     if study.bearing_demand is not None:
-        yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
+        yield Fact("Magnetic bearings", study.bearing_demand.words, values=study.bearing_demand.document())
     yield from load_facts(study)
     yield from drop_facts(study)
     yield from accuracy_facts(study)

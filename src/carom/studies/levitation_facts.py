@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from carom.closed_forms import SynchronousResponse
 from carom.parameters.told import number
 from carom.rotors import Campbell, Whirl
@@ -41,19 +39,15 @@ def whirl_words(speed: float, whirls: Sequence[Whirl], *, dimensionless: bool = 
     """The least damped of the whirls at a speed, rad/s; without dimensions in units of the speed."""
     worst = min(whirls, key=lambda each: each.damping_ratio)
     kind = f"the {len(whirls)} slowest whirls" if worst.damping_ratio >= 0.0 else "all whirls"
-    often = _often(worst, dimensionless)
+    often = frequency_words(worst, dimensionless=dimensionless)
     return (
         f"At {'its speed Ω' if dimensionless else rpm(speed)} the least damped of {kind} is one of {often}, {worst.sense}, with a "
         f"damping ratio of {number(worst.damping_ratio, 2)}."
     )
 
 
-def frequency_words(found: Levitating, whirl: Whirl) -> str:
+def frequency_words(whirl: Whirl, *, dimensionless: bool) -> str:
     """How often it goes round: in Hz, or in units of the speed of the shaft."""
-    return _often(whirl, found.dimensionless)
-
-
-def _often(whirl: Whirl, dimensionless: bool) -> str:
     return f"{number(abs(whirl.exponent.imag), 3)} Ω" if dimensionless else f"{number(whirl.frequency, 3)} Hz"
 
 
@@ -62,12 +56,8 @@ def other_speeds_words(found: Campbell) -> str:
     looked = f"{len(found.speeds)} speeds from {rpm(found.speeds[0])} to {rpm(found.speeds[-1])}"
     if found.levitates.all():
         return f"No free motion of the machine grows at any of {looked}."
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], ~found.levitates, [False]]).astype(int)))
-    parts = [
-        f"{'at' if last == first else 'from'} {rpm(found.speeds[first])}{'' if last == first else f' to {rpm(found.speeds[last])}'}"
-        for first, last in zip(ends[::2].tolist(), (ends[1::2] - 1).tolist(), strict=True)
-    ]
-    return f"Of {looked}, a free motion grows {listed(parts)}: the rotor does not levitate there."
+    grows = found.speeds[~found.levitates]
+    return f"Of {looked}, a free motion grows at {len(grows)} between {rpm(grows[0])} and {rpm(grows[-1])}: the rotor does not levitate there."
 
 
 def response_words(at_speed: SynchronousResponse) -> str:
@@ -85,28 +75,19 @@ def response_words(at_speed: SynchronousResponse) -> str:
     return f"Its unbalance makes it whirl with {sizes} of {reached}."
 
 
-def zone_words(share: float, zone: str) -> str:
-    """The share of the clearance that sag and whirl take together, and its zone."""
-    say = f"{number(100.0 * share, 3)} % of the clearance at the worst touchdown bearing"
-    return f"With the static sag that is {say}: zone {zone} of ISO 14839-2."
-
-
 def critical_speed_facts(found: Levitating) -> Iterator[Fact]:
     """Peaks of the response to unbalance, with their separation from the speed of the machine."""
     if found.machine is not None and found.response is None:
         yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
-        return
-    searched = ""
-    if found.response is not None:
-        low, high = (rpm(found.response.speeds[end]) for end in (0, -1))
-        searched = f" Searched from {low} to {high}."
-        if not found.criticals:
-            yield Fact("Critical speeds", f"The response has no peak between {low} and {high}.")
     for each in found.criticals:
         text = critical_words(each, (found.speed, found.speed), found.measured_at)
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
-    if searched or found.criticals:
-        yield Fact("Critical speeds", f"{RULE}{searched}")
+    if found.response is not None:
+        low, high = (rpm(found.response.speeds[end]) for end in (0, -1))
+        none = "" if found.criticals else "The response has no peak. "
+        yield Fact("Critical speeds", f"{none}Searched from {low} to {high}.")
+    if found.criticals:
+        yield Fact("Critical speeds", RULE)
 
 
 def bearing_facts(found: Levitating) -> Iterator[Fact]:
@@ -115,28 +96,19 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
         text = "No sensitivity is told of a loop that is unstable: it measures how far a stable one is from that."
         yield Fact("Magnetic bearings", text, "Sensitivity")
     elif found.loops:
-        several = found.machine is not None
-        told = [
-            f"{_peak(each)}, zone {each.zone}{f', of bearing {each.bearing}' if several else ''}"
-            for each in found.loops
-        ]
-        yield Fact("Magnetic bearings", f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS}).", "Sensitivity")
-    for each in found.collocations:
+        told = listed([f"{_peak(each)}, zone {each.zone}, of bearing {each.bearing}" for each in found.loops])
+        yield Fact("Magnetic bearings", f"Largest sensitivity: {told} ({SENSITIVITY_LIMITS}).", "Sensitivity")
+    doubtful = [each for each in found.collocations if each.opposed or each.hardly]
+    for each in doubtful:
         name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"
+        what = "sensors hardly see" if abs(each.sensor) <= abs(each.magnet) else "magnet hardly moves"
+        text = f"Bearing {each.bearing}: its {what} {name}, for a node lies there."
         if each.opposed:
             text = f"A node of {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
-        elif each.hardly:
-            what = "sensors hardly see" if abs(each.sensor) <= abs(each.magnet) else "magnet hardly moves"
-            text = f"Bearing {each.bearing}: its {what} {name}, for a node lies there."
-        else:
-            continue
         yield Fact("Magnetic bearings", text, "Non-collocation")
-    if found.collocations and not any(each.opposed or each.hardly for each in found.collocations):
-        yield Fact(
-            "Magnetic bearings",
-            f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet.",
-            "Non-collocation",
-        )
+    if found.collocations and not doubtful:
+        text = f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet."
+        yield Fact("Magnetic bearings", text, "Non-collocation")
 
 
 def _peak(loop: LoopPeak) -> str:

@@ -25,7 +25,7 @@ from carom.studies.kinds import Kind
 from carom.studies.levitating import Levitating
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.survives import Survives, lost_kinds
+from carom.studies.survives import Survives, lost_kinds, required_disturbances
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
@@ -181,4 +181,4 @@ class StudyData(Result):
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
         """What the motions have to do with the limits of the magnetic bearings; ``None`` if the machine has none of these."""
-        return bearing_demand(self.case, self.attractors)
+        return bearing_demand(self.case, self.attractors, required_disturbances(self.required, 1))

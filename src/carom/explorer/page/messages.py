@@ -7,13 +7,13 @@ from typing import Any
 
 from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock
+from carom.closed_forms import SynchronousResponse, harmless_blade_loss, harmless_kick, harmless_shock
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.diagrams import Picture, Point
 from carom.explorer.computing.judgement import Loss
 from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
-from carom.explorer.computing.levitation import ResponseCurves, levitation_of
+from carom.explorer.computing.levitation import levitation_of
 from carom.explorer.computing.motions import MotionTable
 from carom.explorer.computing.planes import Plane
 from carom.models import Rotor
@@ -152,23 +152,23 @@ def motion_message(motion: KickedMotion, rotor: Rotor) -> Message:
 def levitation_message(case: Case) -> Message:
     """How a machine levitates; speeds in rpm."""
     scales = case.parameters.scales
-    return {**asdict(levitation_of(case)), "speed": scales.speed / RPM if scales else 1.0}
+    return {**levitation_of(case), "speed": scales.speed / RPM if scales else 1.0}
 
 
-def response_message(found: ResponseCurves, rotor: Rotor) -> Message:
+def response_message(found: SynchronousResponse, words: dict[str, tuple[str, ...]], rotor: Rotor) -> Message:
     """Amplitudes 0-to-peak in µm over speeds in rpm, and what is said of them."""
     walls = sorted({1e6 * each for each in found.clearances.tolist()})
-    most = 1e6 * float(found.touchdowns.max())
+    most = 1e6 * float(found.touchdowns.major.max())
     # With the clearances, unless the whirl is much smaller.
     top = 1.15 * most or 1.0 if most < LITTLE * walls[0] else 1.1 * max(walls[-1], min(most, 1.6 * walls[-1]))
     return {
         "speeds": (found.speeds / RPM).tolist(),
-        "touchdowns": (1e6 * found.touchdowns.T).tolist(),
-        "sensors": (1e6 * found.sensors.T).tolist(),
+        "touchdowns": (1e6 * found.touchdowns.major.T).tolist(),
+        "sensors": (1e6 * found.sensors.major.T).tolist(),
         "walls": walls,
         "speed": rotor.scales.speed / RPM if rotor.scales else 0.0,
         "top": top,
-        "told": found.told,
+        "told": words,
     }
 
 

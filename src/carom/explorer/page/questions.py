@@ -262,7 +262,7 @@ class Questions:
         return {**messages.basin_message(found, rotor, coarse), "opening": opening}
 
     def _response(self, shown: Shown, tell: ShowProgress) -> Message:
-        return messages.response_message(response_of(shown.subject.case, tell), shown.subject.rotor)
+        return messages.response_message(*response_of(shown.subject.case, tell), shown.subject.rotor)
 
     def _loss(self, shown: Shown, tell: ShowProgress) -> Message:
         rotor, plane = shown.subject.rotor, self._plane(shown)
