@@ -13,7 +13,8 @@ from carom.motions.budget import Budget
 from carom.outcome import Outcome
 from carom.parameters import Parameters, Required, Shock
 from carom.progress import Reporter
-from carom.studies.survives import loses, required_disturbances, survives
+from carom.studies.kinds import required_disturbances
+from carom.studies.survives import loses, survives
 
 SOURCE = Parameters(gamma=0.2, omega=0.76, rho=0.2, phi=0.21, mu=0.15, d=0.7, radius_ratio=400 / 7)
 REQUIRED = Required(kick=1.0, shock=Shock(peak=2.0, duration=2.0), blade_loss=0.4)

@@ -34,6 +34,7 @@ from carom.studies.drops import drop_of
 from carom.studies.facts import Fact
 from carom.studies.findings import facts_of
 from carom.studies.full_size import FullSize, at_full_size
+from carom.studies.kinds import required_disturbances
 from carom.studies.levitating import levitating
 from carom.studies.questions import (
     ALONG,
@@ -46,7 +47,7 @@ from carom.studies.questions import (
 )
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.study_data import StudyData
-from carom.studies.survives import Survives, comes_to_rest, decides, lost_kinds, required_disturbances, survives
+from carom.studies.survives import Survives, comes_to_rest, decides, lost_kinds, survives
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording

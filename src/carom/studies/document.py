@@ -17,7 +17,7 @@ from carom.basins import share_of_kicks
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
-from carom.models import Rotor, Span, jeffcott
+from carom.models import Rotor, Span, Subject, rotor_of
 from carom.orbits.exponents import LyapunovExponents
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
@@ -48,15 +48,10 @@ SHARE = "tried=total came_back=count"
 
 @checked
 def orbits_document(
-    parameters: Parameters, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
+    subject: Subject, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
 ) -> dict[str, Any]:
-    """Return the document of equilibria and periodic orbits."""
-    return _orbits_of(jeffcott(parameters), equilibria, orbits, machine)
-
-
-def _orbits_of(
-    rotor: Rotor, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None
-) -> dict[str, Any]:
+    """Return the document of equilibria and periodic orbits of a rotor, with the machine that states it."""
+    rotor = rotor_of(subject)
     return {
         **rotor.document(),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
@@ -106,7 +101,7 @@ def attractors_document(
 ) -> dict[str, Any]:
     """Return the document of attractors, with the Lyapunov exponents of each member of ``found`` where they are given."""
     total, share = len(found.disturbances), share_of_kicks(found)
-    entries = [_attractor(entry, total) for entry in found]
+    entries = [_seen(entry, total) for entry in found]
     for entry, known in zip(entries, exponents or (), strict=False):
         entry["exponents"] = None if known is None else record(known, EXPONENTS)
     return {
@@ -125,7 +120,7 @@ def attractors_document(
 EXPONENTS = "per_time=values per_impact error_per_time=errors error_per_impact lost"
 
 
-def _attractor(entry: Attractor, total: int) -> dict[str, Any]:
+def _seen(entry: Attractor, total: int) -> dict[str, Any]:
     orbit, lasts = entry.orbit, entry.survival
     return {
         **record(entry, "outcome=name.outcome.label name count known_starts=known"),
@@ -149,7 +144,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
     return {
         "name": case.name,
         "carom": version("carom"),
-        **_orbits_of(rotor, study.equilibria, study.orbits, case.machine),
+        **orbits_document(rotor, study.equilibria, study.orbits, case.machine),
         "scales_si": record(scales, SCALES) if scales else None,
         "levitating": study.levitating.document(),
         "reduction": record(study.reduced, "vectors modes error") | {"error_is": "an estimate, no bound"}

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.basins import Share
 from carom.basins.losses import GOLDEN
-from carom.disturbances import BaseShock, BladeLoss, Disturbance, VelocityKick
+from carom.disturbances import Disturbance
 from carom.disturbances.coordinates import TURN
 from carom.models import Rotor
 from carom.motions import State, Trajectory, drop_loads, simulate
@@ -22,7 +22,7 @@ from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.outcome import Outcome
 from carom.parameters import LoadLimits, Required, Scales
 from carom.results import Result, record
-from carom.studies.kinds import Kind, required_kinds
+from carom.studies.kinds import Kind, required_disturbances, required_kinds
 from carom.studies.load_checks import LoadCheck, check_loads, worst_of
 
 DIRECTIONS = 12
@@ -126,12 +126,8 @@ class FullSize(Result):
 
 def at_full_size(rotor: Rotor, required: Required, limits: LoadLimits = NO_LIMITS) -> tuple[FullSize, ...]:
     """Follow each kind that must be survived at its full size in all directions."""
-    kinds: dict[Kind, Disturbance] = {"kick": VelocityKick(required.kick)}
-    if required.shock is not None:
-        kinds["shock"] = BaseShock(required.shock.peak, required.shock.duration)
-    if required.blade_loss is not None:
-        kinds["blade_loss"] = BladeLoss(required.blade_loss, required.blade_loss_node)
-    return tuple(_of_kind(rotor, kind, size, kinds[kind], limits) for kind, size in required_kinds(required))
+    each = zip(required_kinds(required), required_disturbances(required, 1), strict=True)
+    return tuple(_of_kind(rotor, kind, size, sample.model, limits) for (kind, size), sample in each)
 
 
 class _Followed(NamedTuple):
@@ -208,15 +204,14 @@ def _followed(rotor: Rotor, start: Any, pair: tuple[float, float]) -> _Followed:
 def _worst_at(tried: list[_Followed], place: int) -> AtBearing:
     """The largest of each load at a touchdown bearing, from 0."""
     seen = [each.loads.planes[place] for each in tried]
+    largest = {name: max(getattr(plane, name) for plane in seen) for name in ("force", "impulse", "contact_time")}
     return AtBearing(
         touchdown_bearing=place + 1,
         radius=max(_reach(each.motion, plane) for each, plane in zip(tried, seen, strict=True)),
-        force=max(plane.force for plane in seen),
-        impulse=max(plane.impulse for plane in seen),
-        contact_time=max(plane.contact_time for plane in seen),
         contacts=max(plane.contacts for plane in seen),
         is_compliant=seen[0].gives_way,
         scales=seen[0].scales,
+        **largest,
     )
 
 

@@ -21,11 +21,11 @@ from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
 from carom.studies.drops import DropStudy
 from carom.studies.full_size import FullSize
-from carom.studies.kinds import Kind
+from carom.studies.kinds import Kind, required_disturbances
 from carom.studies.levitating import Levitating
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.survives import Survives, lost_kinds, required_disturbances
+from carom.studies.survives import Survives, lost_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 

@@ -273,4 +273,5 @@ def range_rows(study: StudyData) -> list[tuple[str, ...]]:
         return []
     told = [dict(rows) for rows in tables]
     rows = [(name, *(each.get(name, "not searched") for each in told)) for name in (*MOTIONS.values(), BACK)]
-    return [("motion", *(f"{name} (this machine: {value})" for (name, value), *_ in tables)), *rows]
+    known = [row for row in rows if set(row[1:]) != {"not searched"}]
+    return [("motion", *(f"{name} (this machine: {value})" for (name, value), *_ in tables)), *known]

@@ -18,7 +18,7 @@ from carom.attractors import AttractorSet
 from carom.basins import Share, SmallestLoss, smallest_loss
 from carom.basins.families import family_of
 from carom.closed_forms.harmless import shift_by_unbalance
-from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
+from carom.disturbances import BaseShock, BladeLoss, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Rotor
 from carom.motions.budget import Budget
@@ -35,8 +35,6 @@ REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
 """Largest unbalance after a loss of a blade, relative to that with which levitation would fill the clearance."""
-OF_ANOTHER_KIND = 0.2
-"""Number of shocks, and of losses of a blade, relative to that of kicks, where such are required."""
 SURVIVED = (
     "harmless_up_to=harmless:{kind} all_up_to=all_back:{kind} smallest_lost=size:{kind} searched_up_to=largest:{kind} "
     "tried fresh angle instant neighbours neighbours_lost complete"
@@ -186,17 +184,3 @@ def lost_kinds(
         if seen or (entry is not None and loses(entry, size)):
             lost.append((kind, drawn if drawn.total else None))
     return lost
-
-
-def required_disturbances(required: Required, count: int, seed: int = 0) -> tuple[Sample, ...]:
-    """Kinds of disturbances that a machine must survive, with the number of each; ``count`` is that of kicks.
-
-    Kicks out of levitation, uniform over the disc of their velocities; shocks and losses of a blade where they are required.
-    """
-    models: list[tuple[Disturbance, int]] = [(VelocityKick(required.kick), count)]
-    more = max(1, round(OF_ANOTHER_KIND * count))
-    if required.shock:
-        models.append((BaseShock(required.shock.peak, required.shock.duration), more))
-    if required.blade_loss:
-        models.append((BladeLoss(required.blade_loss, required.blade_loss_node), more))
-    return tuple(Sample(model, number, seed) for model, number in models)

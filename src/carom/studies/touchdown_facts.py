@@ -9,7 +9,6 @@ from carom.rotors import ReducedMachine
 from carom.studies.facts import Fact
 from carom.studies.full_size import AtBearing
 from carom.studies.kinds import LABELS
-from carom.studies.load_tables import load_tables
 from carom.studies.study_data import StudyData
 from carom.studies.wording import Wording, counted, listed
 
@@ -19,7 +18,7 @@ REDUCTION = (
 )
 DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
 ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
-HEADLINE, WHIRL = ("peak force", "depth", "hardest impact", "lasting contact"), "whirl at the end"
+HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
 NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
 
 
@@ -53,16 +52,12 @@ def drop_headline(study: StudyData) -> Iterator[Fact]:
 
 
 def drop_facts(study: StudyData) -> Iterator[Fact]:
-    """How the drop ends, what each bearing bears in it, and limits."""
+    """How the drop ends, and its loads against limits; the verdict has what each bearing bears."""
     drop = study.drop
     if drop is None:
         yield Fact("Drop", NO_DROP if study.levitates else "It does not levitate, so there is no drop.")
         return
     yield Fact("Drop", f"{drop.echo.words}. {drop.headline}")
-    for title, rows in load_tables(drop.loads, "the release"):
-        told = dict(rows)
-        chosen = [told["contacts"], *(f"{label} {told[label]}" for label in (*HEADLINE, WHIRL) if label in told)]
-        yield Fact("Drop", f"{title and f'{title}: '}{'; '.join(chosen)}.")
     for check in drop.checks:
         yield Fact("Drop", f"{check.words}.")
 

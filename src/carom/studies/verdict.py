@@ -76,7 +76,8 @@ class Verdict:
 def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:
     """Write the verdict of a study from its facts."""
     facts = {fact.label: fact.text for fact in about(found, "Verdict")}
-    lead = {"Certain": "Proven: ", "Drop": "In a drop: ", **{label: f"{label}: " for label in LABELS.values()}}
+    lead = {"Certain": "Proven: ", "Drop": "In a drop: "}
+    lead |= {label: f"{label}{' ' if condition_of(study, kind) else ': '}" for kind, label in LABELS.items()}
     if "Share" in facts:
         lead["Share"] = f"It must survive {facts['Must survive']}; "
     order = (*LABELS.values(), "Share", "Certain", "Drop")
@@ -139,7 +140,7 @@ def condition_of(study: StudyData, name: Kind) -> str:
     if name == "shock" and study.survives is not None:
         parts.append(f"of {study.wording.time(study.survives.duration)}")
     if name == "blade_loss":
-        parts.append("change of the unbalance at the worst phase")
+        parts.append("by a change of the unbalance at the worst phase")
     return ", ".join([*parts, ANY_INSTANT] if study.rotor.depends_on_instant else parts)
 
 

@@ -194,8 +194,8 @@ class StudyTask:
 
     def _damping(self, rotor: Rotor, required: Required, seed: int) -> dict[str, Any]:
         from carom.closed_forms.exact_results import exact_results
+        from carom.studies.kinds import required_disturbances
         from carom.studies.recovery import find_recovery
-        from carom.studies.survives import required_disturbances
 
         unit, field = max(1.0, rotor.value("omega")), DIMENSIONLESS_FIELDS["gamma"]
         within = LOWEST * unit, min(HIGHEST * max(unit, rotor.value("gamma")), field.highest)
