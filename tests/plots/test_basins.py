@@ -127,12 +127,10 @@ def test_kicks_by_size_and_direction(rotor):
     assert 16 * parts >= 120
     assert shown.sum() == parts * basin.recovered.sum()
     round_, beside = figure.axes
-    assert round_.name == "polar"
     (mark,) = [line for line in round_.get_lines() if line.get_gid() == "smallest"]
-    assert mark.get_ydata()[0] == pytest.approx(1e3 * smallest.size * SCALES.velocity)
-    assert mark.get_xdata()[0] == pytest.approx(smallest.angle)
+    place = 1e3 * smallest.size * SCALES.velocity * np.exp(1j * smallest.angle)
+    assert complex(mark.get_xdata()[0], mark.get_ydata()[0]) == pytest.approx(place)
     assert "(mm/s)" in round_.get_xlabel()
-    assert max(round_.get_yticks()) < 0.99 * round_.get_ylim()[1]
     assert beside.get_xlabel() == "size of the kick (mm/s)"
     assert any(text.startswith("levitation, ") for text in words(figure))
     assert "smallest kick found that is lost" in words(figure)
@@ -153,7 +151,7 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
         (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
         (Grid(StateSlice(), (12, 12)), ("Re $U$ (mm)", "Im $U$ (mm)")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
-        (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("phase of the change of unbalance", "12,500 g mm")),
+        (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("change of unbalance, 12,500 g mm",)),
         (
             Sample(AnyState(1.0), 100),
             ("share of 100 positions with velocities up to 129 mm/s (%), with 95 % confidence",),
@@ -163,6 +161,7 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
 def test_each_disturbance_has_its_picture(rotor, plan, labels):
     figure = plots.basin(map_basins(rotor, plan), title="a title")
     said = [text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel(), axes.get_title())]
+    said += [" ".join(text.get_text().split()) for text in figure.axes[0].texts]
     for label in labels:
         assert any(label in text for text in said), label
     assert figure.get_suptitle() == "a title"
@@ -190,7 +189,7 @@ def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
     assert {hatch for entry in hatched for hatch in entry.hatches} == looks
     (mesh,) = [entry for entry in axes.collections if isinstance(entry, QuadMesh)]
     corners = np.vstack([path.vertices for entry in hatched for path in entry.get_paths()])
-    np.testing.assert_allclose(corners[:, 1].max(), mesh.get_coordinates()[..., 1].max(), rtol=1e-3)
+    np.testing.assert_allclose(np.hypot(*corners.T).max(), np.hypot(*mesh.get_coordinates().T).max(), rtol=1e-2)
 
 
 def test_without_scales_units_are_those_of_the_equations():

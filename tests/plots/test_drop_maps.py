@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.path import Path
 
 import carom as cm
 from carom import plots
@@ -52,11 +53,16 @@ def test_what_exceeds_a_limit_is_outlined(found):
     assert 0 < over.sum() < over.size
     figure = plots.drop_map(limited)
     assert "above the limit 1.3 kN" in words(figure)
-    lines = [each for each in figure.axes[1].collections if each.get_gid() is None and len(each.get_segments())]
-    # Each side between a cell that exceeds it and another one, or the border, is drawn once.
-    padded = np.pad(over.astype(int), 1)
-    sides = np.abs(np.diff(padded, axis=0)).sum() + np.abs(np.diff(padded, axis=1)).sum()
-    assert sum(len(each.get_segments()) for each in lines) == sides
+    (patch,) = [each for each in figure.axes[1].patches if each.get_gid() == "beyond"]
+    corners = mesh(figure.axes[1]).get_coordinates()
+    middles = 0.25 * (corners[1:, 1:] + corners[1:, :-1] + corners[:-1, 1:] + corners[:-1, :-1])
+    hatched = [any(part.contains_point(place) for part in _rectangles(patch)) for place in middles.reshape(-1, 2)]
+    assert np.array_equal(np.reshape(hatched, over.T.shape), over.T)
+
+
+def _rectangles(patch):
+    """The rectangles of a compound path, which is inside where one of them is."""
+    return [Path(corners) for corners in patch.get_path().vertices.reshape(-1, 5, 2)]
 
 
 def test_other_measures(found):

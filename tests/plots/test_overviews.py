@@ -47,21 +47,6 @@ def test_words(damped, read):
     assert figure.axes[0].get_xlabel() == "position Re $U$ (mm)"
 
 
-def test_every_orbit_is_named_once_small_ones_in_a_panel(damped):
-    figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria)
-    whole, left, right = figure.axes
-    assert _texts(whole) == {r"$B_{\mathrm{1,d}}$", "(b)", "(c)"}
-    assert _texts(left) == {r"$B_{\mathrm{1,a}}$", r"$B_{\mathrm{1,b}}$"}
-    assert _texts(right) == {r"$B_{\mathrm{1,c}}$"}
-    assert whole.get_title() == "(a) co-rotating frame"
-    for panel, names in ((left, ("B1,a", "B1,b")), (right, ("B1,c",))):
-        assert (panel.get_xlabel(), panel.get_ylabel()) == ("Re $U$ (mm)", "Im $U$ (mm)")
-        for name in names:
-            position = damped.mm * damped.orbits[name].position
-            assert panel.get_xlim()[0] < position.real < panel.get_xlim()[1]
-            assert panel.get_ylim()[0] < position.imag < panel.get_ylim()[1]
-
-
 def test_virtual_orbits_are_hidden_unless_asked_for(weak, read):
     figure = plots.equilibria_and_orbits(weak.orbits, weak.equilibria)
     (axes, *_) = figure.axes
@@ -82,24 +67,6 @@ def test_virtual_orbits_are_faint(weak, read):
     assert len(strong) == 1
     assert strong[0].get_color() == plots.LOOKS["unstable"].colour
     assert "levitation: virtual, not physical" in read.legend(figure)
-
-
-def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
-    rotor = carom.models.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
-    orbits = carom.find_orbits(rotor)
-    virtual = sum(not orbit.admissible for orbit in orbits)
-    figure = plots.equilibria_and_orbits(orbits, carom.find_equilibria(rotor), virtual=True)
-    whole = figure.axes[0]
-    assert len(read.lines(whole, "path")) == len(orbits) - virtual
-    assert sum(len(line.get_xdata()) for line in read.lines(whole, "virtual")) == virtual
-    assert f"periodic orbit: virtual, not physical ({virtual}, impacts only)" in read.legend(figure)
-
-
-def test_without_orbits_one_panel(quiet, read):
-    figure = plots.equilibria_and_orbits(quiet.orbits, quiet.equilibria)
-    (axes,) = figure.axes
-    assert len(read.lines(axes, "contact-free")) == 1
-    assert len(read.lines(axes, "rub")) == 2
 
 
 def test_own_axes_hold_everything(damped):

@@ -65,7 +65,7 @@ def test_both_have_the_same_range_and_colours(before, after):
     assert (now.get_xlabel(), now.get_ylabel()) == ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")
     assert then.get_ylabel() == ""
     for axes in figure.axes:
-        (ring,) = [line for line in axes.get_lines() if line.get_gid() == "required"]
+        (ring,) = [line for line in axes.get_lines() if line.get_gid() == "circle"]
         assert np.hypot(*ring.get_data()) == pytest.approx(0.8e3 * MACHINE.scales.velocity)
     assert fits(figure)
 

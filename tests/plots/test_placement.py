@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from carom.plots.closeups import closeups
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.plots.closeups import closeups
 from carom.plots.placement import spread, spread_angles
 
 places = st.lists(st.floats(-100.0, 100.0), min_size=1, max_size=12)

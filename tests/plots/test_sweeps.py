@@ -12,7 +12,7 @@ from carom import plots
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Zones
 from carom.parameters.told import shown_from_si
-from carom.plots.sweeps import cell_edges
+from carom.plots.maps import cell_edges
 from carom.sweeps import GridAxis, open_sweep, run_sweep
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.studies import StudyTask

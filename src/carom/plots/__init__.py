@@ -10,16 +10,16 @@ Long motions are thinned: the band of the radius, the last turns of the shaft, t
 are drawn where the argument `virtual` asks for them.
 
 Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``shapes`` and ``conditions``; along
-parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs``,
-``rings`` and ``kick_proofs``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
-``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
-``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
+parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
+``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+``figure`` (a figure that keeps it), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells`` (the looks of motions), ``maps`` (a number over two
+parameters), ``placement``, ``parameter_axes`` and ``words``.
 """
 
 from __future__ import annotations
 
 from carom.plots.attractor_shares import attractors
-from carom.plots.basins import basin
+from carom.plots.basins import basin, basin_pair
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.drop_maps import drop_map
@@ -32,7 +32,6 @@ from carom.plots.kick_proofs import proven_kicks
 from carom.plots.levitation import campbell, sensitivity
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
-from carom.plots.pairs import basin_pair
 from carom.plots.regions import region_map
 from carom.plots.responses import unbalance_response
 from carom.plots.shapes import mode_shapes

@@ -1,33 +1,39 @@
-"""Basins of attraction: which disturbances lead to which motion."""
+"""Basins of attraction: which disturbances lead to which motion, of one machine or of several side by side."""
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
-from matplotlib.projections.polar import PolarAxes
-from matplotlib.ticker import MaxNLocator
 
 from carom.arguments import checked
 from carom.disturbances import outward_from
 from carom.outcome import InputError
-from carom.plots.cells import CHORDS, MotionLook, finish, motion_looks, paint
+from carom.plots.cells import MotionLook, around, finish, looks_of, motion_looks, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
-from carom.plots.rings import dial, ring
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import clearance, formula, number, told_in
 
 if TYPE_CHECKING:
-    from carom.basins import Basin, SmallestLoss
+    from carom.attractors import MotionName
+    from carom.basins import Basin, Cells, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
+
+_CHORDS = 120
+"""Least number of straight edges in a ring of cells."""
+_RING = (0.82, 0.98)
+"""Inner and outer radius of the ring that shows what varies by one angle."""
+_LINE = 22
+"""Letters of a line of words in place of a picture."""
+_REACH = 1.04
+"""Half-width of the axes, relative to the largest disturbance."""
 
 
 @checked
@@ -35,71 +41,163 @@ if TYPE_CHECKING:
 def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None = None) -> Figure:
     """Draw where disturbances end, as a picture that depends on their coordinates.
 
-    By size and direction: a polar picture, and beside it the shares at each size.  By two other coordinates, such as the
+    By size and direction: a disc, and beside it the shares at each size.  By two other coordinates, such as the
     components of a kick: a plane.  Releases from the wall and losses of a blade: a ring.  Samples: a bar for each motion with
-    its confidence interval.  The figure is 180 mm wide, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
+    its confidence interval.  The figure is 180 mm wide, 112 mm for a plane, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
     it is marked in a picture of kicks or shocks.
     """
-    motions = motion_looks(basin)
-    kind, grid = basin.plan.model.kind, basin.dataset["outcome"].dims != ("start",)
-    if not grid:
+    motions, along, kind = motion_looks(basin), basin.coordinates, basin.plan.model.kind
+    if basin.dataset["outcome"].dims == ("start",):
         return _bars(basin, motions, title)
-    if kind == "release":
-        return ring(basin, motions, title)
-    if len(basin.coordinates) == 1 and basin.coordinates[0].periodic:
-        return dial(basin, motions, title)
-    if len(basin.coordinates) != 2:
+    if not (len(along) == 2 or (len(along) == 1 and along[0].periodic)):
         raise InputError("basin", f"a grid of {kind}", "a grid over two coordinates, of releases, or a sample")
-    size, direction = basin.coordinates
-    if size.low == 0.0 and direction.periodic:
-        return _polar(basin, motions, smallest, title)
-    return _plane(basin, motions, smallest, title)
+    round_ = len(along) == 2 and along[1].periodic
+    width, height = (1.0, 0.62) if round_ else (0.62, 0.69) if len(along) == 2 else (0.49, 0.55)
+    figure = StyledFigure(figsize=(width * TWO_COLUMNS, height * TWO_COLUMNS))
+    axes, *beside = figure.subplots(1, 1 + round_, squeeze=False, width_ratios=(1.25, 1.0)[: 1 + round_])[0]
+    draw_cells(axes, basin.cells, motions)
+    if kind == "slice":
+        velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
+        factor, unit = told_in("velocity", basin.scales)
+        said = "at rest" if velocity == 0 else f"at {factor * velocity:.3g} {unit}"
+        axes.set_title(f"starts {said} in the fixed frame")
+        levitation = complex(basin.rotor.system.arrays.offsets[0])
+        point(axes, clearance(basin.scales) * levitation, "contact-free", colour="#ffffff")
+    # The size of a step of the unbalance is a change of the eccentricity: no radius of a picture.
+    if smallest is not None and len(along) == 2 and (kind in (smallest.kind, "kick-plane")):
+        _mark_smallest(axes, basin, smallest)
+    for panel in beside:
+        axes.set_title("(a)", loc="left", y=1.0)
+        panel.set_title("(b)", loc="left", y=1.0)
+        _stacked(panel, basin, motions)
+    return finish(figure, motions, title, columns=1 if len(along) == 1 else 3 if round_ else 2)
 
 
-def _polar(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | None, title: str | None) -> Figure:
-    size, direction = basin.coordinates
-    factor, label = _axis(size, basin.scales)
-    dataset = basin.dataset
-    cells = dataset["outcome"].shape
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
-    grid = figure.add_gridspec(1, 2, width_ratios=(1.25, 1.0))
-    round_, beside = figure.add_subplot(grid[0], projection="polar"), figure.add_subplot(grid[1])
-    parts = -(-CHORDS // cells[1])  # cells have straight edges: divide wide ones so that rings look round
-    index = np.repeat(dataset["motion"].values.T, parts, axis=0)
-    paint(round_, direction.edges(parts * cells[1]), factor * size.edges(cells[0]), index, motions)
-    round_.set_title("(a)", loc="left", y=1.0)
-    _rule(round_, factor * size.high)
-    round_.set_xlabel(f"radius: {label}\nangle: {direction.words}, co-rotating frame")
-    handles: list[Artist] = []
-    # The size of a step of the unbalance is a change of the eccentricity: no radius of this picture.
-    if smallest is not None and basin.plan.model.kind == smallest.kind:
-        handles = _mark_smallest(round_, smallest, factor)
-    _stacked(beside, basin, motions)
-    beside.set_title("(b)", loc="left", y=1.0)
-    return finish(figure, motions, title, handles, columns=3)
+@checked
+@styled
+def basin_pair(panels: Sequence[tuple[str, Basin | Cells | str]], required: float | None = None) -> Figure:
+    """Draw basins of the same disturbances beside each other, such as those before and after a change of the machine.
+
+    They share axes, legend and colours.  The figure is 88 mm wide.
+
+    Parameters
+    ----------
+    panels : sequence of (str, Basin, Cells or str)
+        Title and basin from left to right: of kicks by components, of shocks by peak and direction or of losses of a blade by
+        phase. A text instead of a basin is written in its place.
+    required : float, optional
+        Size of kicks or shocks, in units of the equations, at which a circle is drawn: what must be survived.
+
+    Raises
+    ------
+    InputError
+        None of the panels has a basin, or these are no grids of such disturbances, all of one kind.
+    """
+    # A basin has cells; cells and words are what they are.
+    given: Sequence[tuple[str, Any]] = panels
+    shown: list[tuple[str, Cells | str]] = [(title, getattr(entry, "cells", entry)) for title, entry in given]
+    basins = [entry for _, entry in shown if not isinstance(entry, str)]
+    kinds = sorted({basin.plan.model.kind for basin in basins})
+    if len(kinds) != 1:
+        raise InputError("panels", " and ".join(kinds) or None, "basins of one kind of disturbance, at least one")
+    if any(basin.index.ndim != len(basin.plan.model.coordinates) for basin in basins) or not _by_place(basins[0]):
+        raise InputError("panels", f"a plan of {kinds[0]}", "grids of kicks, shocks or losses of a blade")
+    names = list(dict.fromkeys(name for basin in basins for name in basin.motions))
+    motions = looks_of(names, [sum(_share(basin, name) for basin in basins) for name in names])
+    figure = StyledFigure(figsize=(ONE_COLUMN, (0.7 + 0.045 * len(motions)) * ONE_COLUMN))
+    drawn = figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0]
+    size = basins[0].plan.model.coordinates[0]
+    factor, unit = size.shown_in(basins[0].scales)
+    for axes, (title, entry) in zip(drawn, shown, strict=True):
+        axes.set_title(title)
+        if isinstance(entry, str):
+            axes.set_aspect("equal")
+            axes.set_axis_off()
+            axes.text(0.5, 0.5, textwrap.fill(entry, _LINE), ha="center", va="center", transform=axes.transAxes)
+            continue
+        draw_cells(axes, entry, motions)
+        axes.label_outer()
+        if required is not None:
+            _circle(axes, factor * required, f"must survive: up to {number(factor * required, 3)} {formula(unit)}")
+    reach = _REACH * max(
+        1.25
+        if size.periodic
+        else basin.plan.model.coordinates[0].shown_in(basin.scales)[0] * float(basin.plan.model.coordinates[0].high)
+        for basin in basins
+    )
+    drawn[0].set(xlim=(-reach, reach), ylim=(-reach, reach))  # and so the others
+    return finish(figure, motions, None, columns=2, shares=False)
 
 
-def _rule(axes: Axes, high: float) -> None:
-    """Draw rings and rays of a polar picture, white on top of the colours."""
-    axes.set_ylim(0.0, high)
-    axes.grid(visible=True, color="#ffffff", lw=0.3, alpha=0.7)
-    axes.set_axisbelow(False)
-    axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
-    axes.tick_params(axis="x", pad=1)
-    if isinstance(axes, PolarAxes):
-        axes.set_rlabel_position(22.5)
-    # A label on the outermost ring would overlap the frame.
-    axes.yaxis.set_major_locator(MaxNLocator(4, prune="both"))
-    for tick in axes.yaxis.get_ticklabels():
-        tick.set_bbox({"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
+def _by_place(basin: Cells) -> bool:
+    """Whether disturbances vary by an angle, by size and angle, or by two parts of a size: each has a place in a plane."""
+    along = basin.plan.model.coordinates
+    if len(along) == 1:
+        return along[0].periodic
+    return len(along) == 2 and not along[0].periodic and (along[1].periodic or along[0].scale == along[1].scale)
+
+
+def _share(basin: Cells, name: MotionName) -> float:
+    """Share of the cells that end in a motion."""
+    return float((basin.index == basin.motions.index(name)).mean()) if name in basin.motions else 0.0
+
+
+def draw_cells(axes: Axes, basin: Cells, motions: Sequence[MotionLook]) -> None:
+    """Paint where disturbances end, by one angle, by size and angle, or by two sizes, in the looks of motions."""
+    places = {entry.name: entry.index for entry in motions}
+    index = np.array([*(places[name] for name in basin.motions), -1])[basin.index]
+    along, scales = basin.plan.model.coordinates, basin.scales
+    if along[-1].periodic:  # cells have straight edges: divide wide ones so that rings look round
+        axes.set_aspect("equal")
+        parts = -(-_CHORDS // index.shape[-1])
+        turns = along[-1].edges(parts * index.shape[-1])
+        index = np.repeat(index, parts, axis=-1)
+    if len(along) == 1:
+        paint(axes, turns, np.array(_RING), index[:, None], motions, around)
+        _dial(axes, basin)
+        return
+    (factor, label), (across, label_across) = (_axis(each, scales) for each in along)
+    sizes = factor * along[0].edges(index.shape[0])
+    if along[1].periodic:
+        paint(axes, turns, sizes, index.T, motions, around)
+        axes.set(xlabel=f"{label}, 0° to the right", ylabel=label)
+        return
+    paint(axes, sizes, across * along[1].edges(index.shape[1]), index, motions)
+    axes.set(xlabel=label, ylabel=label_across)
+    if along[0].scale == along[1].scale:
+        axes.set_aspect("equal")
+    if basin.plan.model.kind == "slice":
+        wall = clearance(scales)
+        for cells in axes.collections:  # those cut by the wall
+            cells.set_clip_path(Circle((0.0, 0.0), wall, transform=axes.transData))
+        clearance_circle(axes, reach=1.05, wall=wall)
+        label_frame(axes, "rotating", scales)
+
+
+def _dial(axes: Axes, basin: Cells) -> None:
+    """Write what varies by one angle around and into its ring."""
+    model, angle = basin.plan.model, basin.plan.model.coordinates[0]
+    axes.set_axis_off()
+    axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
+    for turned in (0, 90, 180, 270):
+        axes.text(*around(np.radians(turned), np.array(1.15)), f"{turned}°", ha="center", va="center")
+    words = angle.words
+    if model.kind == "release":
+        motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
+        words = f"released from the wall, {motion.get(str(model.describe()['motion']), 'rolling without slip')}"
+    elif model.kind == "blade-loss":
+        factor, unit = told_in("unbalance" if basin.scales else "length", basin.scales)
+        words = f"phase of the change of unbalance, {number(factor * float(str(model.describe()['change'])), 5)} {unit}"
+        axes.annotate("", (0.78, 0.0), (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "color": "#1a1a1a"})
+        words += ", from the unbalance before (arrow)"
+    axes.text(0.0, -0.08, textwrap.fill(words, _LINE), ha="center", va="top", fontsize=7)
 
 
 def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
     """Draw the share of each motion at each size, stacked."""
-    size = basin.coordinates[0]
-    factor, label = _axis(size, basin.scales)
-    index = basin.dataset["motion"].values
-    edges = factor * size.edges(index.shape[0])
+    factor, label = _axis(basin.coordinates[0], basin.scales)
+    index = basin.cells.index
+    edges = factor * basin.coordinates[0].edges(index.shape[0])
     starts = np.maximum((index >= 0).sum(axis=1), 1)
     below = np.zeros(index.shape[0])
     for entry in motions:
@@ -109,56 +207,25 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
     axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 100.0), xlabel=label, ylabel="share of the directions (%)")
 
 
-def _mark_smallest(axes: Axes, smallest: SmallestLoss, factor: float) -> list[Artist]:
+def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestLoss) -> None:
     """Mark the smallest kick or shock found that is lost and the circle of those that cannot reach the wall."""
-    ring = np.linspace(0.0, 2.0 * np.pi, 361)
-    look: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.7, "color": LOOKS["wall"].colour}
-    words = "below: proven never to touch"
-    handles: list[Artist] = [*axes.plot(ring, np.full(ring.shape, factor * smallest.harmless), **look, label=words)]
-    if smallest.size is not None:
-        handles += _mark_lost(axes, smallest, smallest.angle or 0.0, factor * smallest.size)
-    return handles
+    factor = basin.coordinates[0].shown_in(basin.scales)[0]
+    _circle(axes, factor * smallest.harmless, "below: proven never to touch")
+    if smallest.size is None:
+        return
+    place = smallest.size * np.exp(1j * (smallest.angle or 0.0))
+    if not basin.coordinates[1].periodic:
+        place *= np.conj(outward_from(basin.rotor))
+    look: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a", "ls": "none"}
+    words = f"smallest {smallest.kind} found that is lost"
+    axes.plot([factor * place.real], [factor * place.imag], **look, gid="smallest", label=words)
 
 
-def _mark_lost(axes: Axes, smallest: SmallestLoss, x: float, y: float) -> list[Line2D]:
-    """Mark the smallest disturbance found that is lost; return its legend entry."""
-    look: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a"}
-    return axes.plot([x], [y], ls="none", gid="smallest", label=f"smallest {smallest.kind} found that is lost", **look)
-
-
-def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | None, title: str | None) -> Figure:
-    x, y = basin.coordinates
-    dataset, kind = basin.dataset, basin.plan.model.kind
-    cells = dataset["outcome"].shape
-    figure = StyledFigure(figsize=(0.62 * TWO_COLUMNS, 0.69 * TWO_COLUMNS))
-    axes = figure.subplots()
-    handles: list[Artist] = []
-    if kind == "slice":
-        wall = clearance(basin.scales)
-        paint(axes, wall * x.edges(cells[0]), wall * y.edges(cells[1]), dataset["motion"].values, motions)
-        clearance_circle(axes, reach=1.05, wall=wall)
-        for cells_drawn in axes.collections:  # those cut by the wall
-            cells_drawn.set_clip_path(Circle((0.0, 0.0), wall, transform=axes.transData))
-        label_frame(axes, "rotating", basin.scales)
-        point(axes, wall * complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="", colour="#ffffff")
-        velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
-        factor, unit = told_in("velocity", basin.scales)
-        said = "at rest" if velocity == 0 else f"at {factor * velocity:.3g} {unit}"
-        axes.set_title(f"starts {said} in the fixed frame")
-        rest = LOOKS["contact-free"]
-        handles = [Line2D([], [], ls="none", marker=rest.marker, ms=5, mfc="white", mec="#1a1a1a", label=rest.words)]
-    else:
-        factor, label = _axis(x, basin.scales)
-        across, label_across = _axis(y, basin.scales)
-        paint(axes, factor * x.edges(cells[0]), across * y.edges(cells[1]), dataset["motion"].values, motions)
-        axes.set(xlabel=label, ylabel=label_across)
-        if kind == "kick-plane":
-            axes.set_aspect("equal")
-            axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
-        if smallest is not None and smallest.size is not None:
-            turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(outward_from(basin.rotor))
-            handles = [*_mark_lost(axes, smallest, factor * turned.real, factor * turned.imag)]
-    return finish(figure, motions, title, handles, columns=2)
+def _circle(axes: Axes, radius: float, words: str) -> None:
+    """Draw the circle of all disturbances of one size."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 361)
+    look: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour}
+    axes.plot(*around(turn, np.array(radius)), **look, label=words, gid="circle")
 
 
 def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
@@ -170,14 +237,11 @@ def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
         axes.barh(row, 100.0 * share.fraction, 0.62, **entry.filled, lw=0.3)
         axes.plot([100.0 * share.low, 100.0 * share.high], [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
         said = f"{number(100.0 * share.fraction, 3)} %"
-        axes.annotate(
-            said, (100.0 * share.high, row), xytext=(4.0, 0.0), textcoords="offset points", va="center", fontsize=7
-        )
+        axes.annotate(said, (100.0 * share.high, row), (4, 0), textcoords="offset points", va="center", fontsize=7)
     axes.set_yticks(range(len(motions)), [entry.words for entry in reversed(motions)])
     axes.tick_params(axis="y", length=0)
-    axes.set_xlim(0.0, 112.0)
-    axes.set_xticks(range(0, 101, 20))
-    axes.set_xlabel(f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence")
+    words = f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence"
+    axes.set(xlim=(0.0, 112.0), xticks=range(0, 101, 20), xlabel=words)
     if title:
         figure.suptitle(title)
     return figure

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, hsv_to_rgb, rgb_to_hsv, to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from carom.plots.plane import Floats
+from carom.plots.plane import Floats, unique_entries
 from carom.plots.style import OUTCOMES, Look
 
 if TYPE_CHECKING:
@@ -24,8 +23,6 @@ Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
 """Maps coordinates of cells to those of the axes."""
 
 
-CHORDS = 120
-"""Least number of straight edges in a ring of cells."""
 _TURNED = (0.0, -0.07, 0.07, 0.14)
 """Turns of the hue for the first, second, ... motion of one outcome."""
 _WEIGHTS = (0.299, 0.587, 0.114)
@@ -57,14 +54,9 @@ class MotionLook:
         """Words of the legend."""
         return self.name.words if self.name.outcome.settled else self.look.words
 
-    @property
-    def patch(self) -> Patch:
-        """Entry of the legend of a figure, with the share."""
-        return self.named(f"{self.words}, {100.0 * self.share:.3g} %")
-
-    def named(self, words: str) -> Patch:
-        """Entry of the legend with other words."""
-        return Patch(**self.filled, lw=0.4, label=words)
+    def patch(self, *, share: bool = True) -> Patch:
+        """Entry of the legend of a figure, by default with the share."""
+        return Patch(**self.filled, lw=0.4, label=f"{self.words}, {100.0 * self.share:.3g} %" if share else self.words)
 
     @property
     def filled(self) -> dict[str, Any]:
@@ -150,12 +142,17 @@ def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions:
             area.set_rasterized(True)
 
 
+def around(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
+    """Places in the plane at angles and distances."""
+    return radius * np.cos(angle), radius * np.sin(angle)
+
+
 def finish(
-    figure: Figure, motions: Sequence[MotionLook], title: str | None, more: Sequence[Artist], columns: int
+    figure: Figure, motions: Sequence[MotionLook], title: str | None, columns: int, *, shares: bool = True
 ) -> Figure:
-    """Add the title, and the legend below."""
+    """Add the title, and below a legend of motions, with their shares, and of all that is labelled in the axes."""
     if title:
         figure.suptitle(title)
-    handles: list[Any] = [*(entry.patch for entry in motions), *more]
+    handles: list[Any] = [*(entry.patch(share=shares) for entry in motions), *unique_entries(figure.axes)[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, len(handles)))
     return figure

@@ -50,57 +50,32 @@ def period_condition(orbits: OrbitSet, periods: Reals, values: Reals, *, axes: A
     if np.ndim(periods) != 1 or np.shape(periods) != np.shape(values):
         raise InputError("values", np.shape(values), f"one for each period, which have shape {np.shape(periods)}")
     figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
-    factor = told_in("time", orbits.rotor.scales)[0]
+    scales = orbits.rotor.scales
+    factor = told_in("time", scales)[0]
     times, condition = factor * np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
     words = r"period condition $F_1(T)$, zero for an orbit with one impact a period"
     drawn.plot(times, condition, color=_INK, lw=0.9, label=words, gid="condition")
     drawn.axhline(0.0, color="#1a1a1a", lw=0.5, gid="zero")
-    _limits(drawn, times, factor * orbits.longest_period)
-    _bound(drawn, orbits)
-    _roots(drawn, orbits)
-    drawn.set(xlabel=axis_label("period $T$", "time", orbits.rotor.scales), ylabel=_ordinate(drawn, condition))
-    return finish(figure, drawn, axes)
-
-
-def _ordinate(axes: Axes, condition: Floats) -> str:
-    """Choose the scale of F1 and return the axis label that states it.
-
-    F1 dips a little below zero, where the roots are, and peaks high above it at the resonances.
-    """
-    words = r"period condition $F_1$ (no unit)"
-    low, high = min(0.0, float(condition.min())), max(0.0, float(condition.max()))
-    if high <= 10.0 * max(-low, _LINEAR):
-        room = 0.08 * (high - low)
-        axes.set_ylim(low - room, high + room)
-        return words
-    axes.set_yscale("asinh", linear_width=_LINEAR)
-    axes.set_ylim(1.6 * min(low, -_LINEAR), 1.6 * high)
-    powers = [10.0**i for i in range(-1, int(np.log10(high)) + 1)]
-    axes.set_yticks([-power for power in powers if power < -1.6 * low] + [0.0, *powers])
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
-    axes.yaxis.set_minor_locator(NullLocator())
-    return f"{words},\nscale linear near 0, logarithmic beyond"
-
-
-def _limits(axes: Axes, times: Floats, bound: float) -> None:
-    """Set the limits to show the bound if the curve nearly reaches it; a distant bound is only named in the legend."""
-    right = float(times[-1])
-    if bound > right and bound < 1.3 * right:
-        right = bound
-    axes.set_xlim(0.0, 1.06 * right)
-
-
-def _bound(axes: Axes, orbits: OrbitSet) -> None:
-    factor = told_in("time", orbits.rotor.scales)[0]
-    bound = factor * orbits.longest_period
-    right = axes.get_xlim()[1]
+    bound, right = factor * orbits.longest_period, float(times[-1])
+    # A distant bound is only named in the legend.
+    drawn.set_xlim(0.0, 1.06 * (bound if right < bound < 1.3 * right else right))
     claim = "no root" if orbits.complete else "not searched"
-    words = rf"{claim} beyond $T_\mathrm{{max}}$ = {time_in_words(orbits.longest_period, orbits.rotor.scales)}"
-    if bound < right:
-        axes.axvspan(bound, right, color="#ebebeb", lw=0, zorder=0, label=words, gid="excluded")
-        axes.axvline(bound, color="#808080", lw=0.7, linestyle="--", gid="bound")
-    else:
-        axes.plot([], [], linestyle="none", label=words, gid="bound")
+    words = rf"{claim} beyond $T_\mathrm{{max}}$ = {time_in_words(orbits.longest_period, scales)}"
+    drawn.axvspan(bound, max(bound, drawn.get_xlim()[1]), color="#ebebeb", lw=0, zorder=0, label=words, gid="bound")
+    _roots(drawn, orbits)
+    drawn.set(xlabel=axis_label("period $T$", "time", scales), ylabel=r"period condition $F_1$ (no unit)")
+    low, high = min(0.0, float(condition.min())), max(0.0, float(condition.max()))
+    if high > 10.0 * max(
+        -low, _LINEAR
+    ):  # F1 dips a little below zero, where the roots are, and peaks high above it at the resonances
+        drawn.set_yscale("asinh", linear_width=_LINEAR)
+        drawn.yaxis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
+        powers, limits = 10.0 ** np.arange(-1.0, 1.0 + np.ceil(np.log10(high))), drawn.get_ylim()
+        drawn.set_yticks([*-powers, 0.0, *powers])
+        drawn.set_ylim(limits)
+        drawn.yaxis.set_minor_locator(NullLocator())
+        drawn.set_ylabel(f"{drawn.get_ylabel()},\nscale linear near 0, logarithmic beyond")
+    return finish(figure, drawn, axes)
 
 
 def _roots(axes: Axes, orbits: OrbitSet) -> None:

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from carom.arguments import checked
 from carom.outcome import InputError
 from carom.parameters.told import number as plain
 from carom.plots.cells import finish, looks_of, paint
 from carom.plots.figure import StyledFigure
-from carom.plots.style import TWO_COLUMNS, styled
-from carom.plots.sweeps import blank_cells, cell_edges, colour_bar, shaded_cells
+from carom.plots.maps import cell_edges, draw_map, mark_cells, mark_present
+from carom.plots.style import TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label
 
 if TYPE_CHECKING:
@@ -72,23 +70,25 @@ def drop_map(found: DropMap, measure: str | None = None, title: str | None = Non
     index = np.repeat(np.repeat(found.dataset["motion"].values, _PARTS, axis=0), _PARTS, axis=1)
     paint(left, _divided(edges[0]), _divided(edges[1]), index, looks)
     left.set_title("(a) how the drop ends", loc="left", y=1.0)
-    handles: list[Artist] = []
     factor, unit = _SHOWN[name]
     values = np.ma.masked_invalid(factor * found.dataset[name].values)
     words = str(found.dataset[name].attrs["long_name"])
-    colour_bar(figure, right, shaded_cells(right, edges, values), f"{words} ({unit})" if unit else words)
-    right.set_title(
-        "(b) how hard it strikes" if name in ("force", "impulse", "depth", "pressure") else "(b)", loc="left", y=1.0
-    )
+    grounded = {"no-levitation": ~found.exists}
+    draw_map(right, edges, values, f"{words} ({unit})" if unit else words, grounded)
+    struck = name in ("force", "impulse", "depth", "pressure")
+    right.set_title("(b) how hard it strikes" if struck else "(b)", loc="left", y=1.0)
     limit = found.limits.get(name)
     if limit is not None:
-        handles += _limit(right, edges, values, factor * limit, f"limit {plain(factor * limit)} {unit}")
+        beyond = Look("none", f"above the limit {plain(factor * limit)} {unit}", hatch="////")
+        mark_cells(right, edges, values.filled(0.0) > factor * limit, beyond, "beyond")
+    here = [value / varied.field.usual_size for value, varied in zip(found.present, found.axes, strict=True)]
+    inside = all(min(along) <= value <= max(along) for value, along in zip(here, edges, strict=True))
     for axes in (left, right):
-        handles += blank_cells(axes, edges, {"no-levitation": ~found.exists}, {})[: 1 if axes is left else 0]
         _axes(axes, first, second, edges)
+        if inside:
+            mark_present(axes, (here[0], here[1]), "present machine and release")
     right.set_ylabel("")
-    handles += _present(left, right, found)
-    return finish(figure, looks, title, handles, columns=3)
+    return finish(figure, looks, title, columns=3)
 
 
 def _edges(varied: Axis, found: DropMap) -> Floats:
@@ -113,31 +113,3 @@ def _axes(axes: Axes, first: Axis, second: Axis, edges: tuple[Floats, Floats]) -
 def _label(varied: Axis) -> str:
     """Words and unit of what has no symbol."""
     return f"{varied.field.words} ({varied.field.usual_unit})"
-
-
-def _limit(
-    axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, limit: float, words: str
-) -> list[Artist]:
-    """Outline the cells that exceed a limit; return the legend entry."""
-    beyond = np.where(values.filled(0.0) > limit, 1.0, 0.0)
-    look: dict[str, Any] = {"color": "#d55e00", "lw": 1.3}
-    if not beyond.any():
-        return []
-    for axis, lines in ((0, axes.vlines), (1, axes.hlines)):
-        sides = np.diff(np.pad(beyond, [(1, 1) if axis == place else (0, 0) for place in (0, 1)]), axis=axis) != 0.0
-        for x, y in zip(*np.nonzero(sides), strict=True):
-            along = edges[1][y : y + 2] if axis == 0 else edges[0][x : x + 2]
-            lines(edges[axis][x if axis == 0 else y], *along, **look)
-    return [Line2D([], [], label=f"above the {words}", **look)]
-
-
-def _present(left: Axes, right: Axes, found: DropMap) -> list[Artist]:
-    """Mark the present machine and release, if they lie in the map."""
-    here = [value / varied.field.usual_size for value, varied in zip(found.present, found.axes, strict=True)]
-    limits = left.get_xlim(), left.get_ylim()
-    if not all(low <= value <= high for value, (low, high) in zip(here, limits, strict=True)):
-        return []
-    star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
-    for axes in (left, right):
-        axes.plot(*here, **star, gid="present", clip_on=False, zorder=4)
-    return [Line2D([], [], label="present machine and release", **star)]

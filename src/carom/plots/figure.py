@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import codecs
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import cache, lru_cache
-from io import BytesIO, StringIO
+from io import BytesIO
 from typing import Any
 
-from matplotlib import rcParams
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_mixed import MixedModeRenderer
-from matplotlib.backends.backend_svg import RendererSVG
-from matplotlib.cbook import file_requires_unicode, open_file_cm
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontProperties, fontManager, get_font
+from matplotlib.layout_engine import PlaceHolderLayoutEngine
 from matplotlib.legend import Legend
-from matplotlib.mathtext import MathTextParser
 from matplotlib.text import Text
-from matplotlib.textpath import TextToPath
+from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import Bbox
 
 from carom.arguments import checked
@@ -61,10 +54,6 @@ def narrow() -> bool:
     return _narrow.get()
 
 
-POINTS = 72.0
-"""Dots per inch of an SVG file: its unit is the point."""
-
-
 class StyledFigure(Figure):
     """A figure that is drawn, saved and shown in carom's style, whatever the settings are at that time.
 
@@ -77,10 +66,10 @@ class StyledFigure(Figure):
         if self._narrow and figsize is not None:
             figsize = min(figsize[0], ONE_COLUMN), figsize[1]
         super().__init__(figsize, layout="constrained", **kwargs)
-        _Canvas(self)
+        FigureCanvasAgg(self)
         self._heading = _heading.get()
         if self._heading:
-            super().suptitle(self._wrapped(self._heading))
+            super().suptitle(self._heading, wrap=True)
 
     @property
     def heading(self) -> str:
@@ -88,31 +77,8 @@ class StyledFigure(Figure):
         return self._heading
 
     def suptitle(self, t: str, **kwargs: Any) -> Text:
-        """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading if there is one."""
-        return super().suptitle(self._wrapped(f"{self._heading}\n{t}" if self._heading else t), **kwargs)
-
-    def _wrapped(self, text: str) -> str:
-        """Break the lines of a title that are wider than the figure: after commas, and between words if that is not enough."""
-        lines: list[str] = []
-        for line in text.split("\n"):
-            lines += self._broken(line, ", ")
-        return "\n".join(lines)
-
-    def _broken(self, line: str, between: str) -> list[str]:
-        if self._room_for(line) or between not in line:
-            return [line]
-        first, *rest = line.split(between)
-        lines = [first]
-        for part in rest:
-            together = f"{lines[-1]}{between}{part}"
-            lines[-1:] = [together] if self._room_for(together) else [f"{lines[-1]}{between.rstrip()}", part]
-        return lines if between == " " else [piece for part in lines for piece in self._broken(part, " ")]
-
-    def _room_for(self, line: str) -> bool:
-        with applied():
-            font = FontProperties(size=rcParams["figure.titlesize"])
-            width = gauge().get_text_width_height_descent(line, font, "$" in line)[0]
-        return width <= POINTS * self.get_figwidth() - 2.0 * _MARGIN
+        """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading, its lines broken where the figure ends."""
+        return super().suptitle(f"{self._heading}\n{t}" if self._heading else t, **{"wrap": True} | kwargs)
 
     def legend(self, *args: Any, **kwargs: Any) -> Legend:
         """Add a legend as :meth:`matplotlib.figure.Figure.legend` does, in as many columns as the figure has room for."""
@@ -127,12 +93,8 @@ class StyledFigure(Figure):
             columns -= 1
 
     def _holds(self, legend: Legend) -> bool:
-        dpi, self.dpi = self.dpi, POINTS
-        try:
-            width = legend.get_window_extent(gauge()).width
-        finally:
-            self.dpi = dpi
-        return bool(width <= POINTS * self.get_figwidth() - 2.0 * _MARGIN)
+        width = legend.get_window_extent(self.canvas.get_renderer()).width  # type: ignore[attr-defined]
+        return bool(width <= self.bbox.width - 2.0 * _MARGIN * self.dpi / 72.0)
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw as :meth:`matplotlib.figure.Figure.draw` does, under carom's style sheet."""
@@ -162,120 +124,23 @@ class StyledFigure(Figure):
         return buffer.getvalue()
 
 
-class _Canvas(FigureCanvasAgg):
-    """Canvas that writes SVG with texts that are measured and parsed once for all figures."""
-
-    def print_svg(
-        self, filename: Any, *, bbox_inches_restore: Any = None, metadata: dict[str, Any] | None = None, **_: Any
-    ) -> None:
-        """Write as :class:`matplotlib.backends.backend_svg.FigureCanvasSVG` does."""
-        figure, dpi = self.figure, self.figure.dpi
-        with open_file_cm(filename, "w", encoding="utf-8") as file:
-            stream = file if file_requires_unicode(file) else codecs.getwriter("utf-8")(file)
-            figure.dpi = POINTS
-            width, height = figure.get_size_inches()
-            svg = _Svg(POINTS * width, POINTS * height, stream, image_dpi=dpi, metadata=metadata)
-            renderer: Any = MixedModeRenderer(  # type: ignore[no-untyped-call]
-                figure, width, height, dpi, svg, bbox_inches_restore=bbox_inches_restore
-            )
-            figure.draw(renderer)
-            renderer.finalize()
+def arrange(figure: Figure) -> None:
+    """Lay out axes, legends and titles of a complete figure, under the style sheet, and fix this layout; a figure laid out before stays as it is."""
+    if isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine):
+        return
+    write_plain_ticks(figure)
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        if any(axes.get_aspect() != "auto" for axes in figure.axes):  # they have shrunk to keep it
+            engine.execute(figure)
+    figure.set_layout_engine("none")
 
 
-class _Svg(RendererSVG):
-    """Renderer of SVG that shares its outlines of letters with all others."""
-
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)  # type: ignore[no-untyped-call]
-        self._text2path = _OUTLINES
-
-    def _get_font_height_metrics(self, prop: FontProperties) -> tuple[float, float, float]:
-        """Ascent, descent and gap between lines, which matplotlib asks for each time it places a text."""
-        return _OUTLINES.heights(prop.copy())
-
-
-class _Outlines(TextToPath):
-    """Sizes and outlines of texts; each font, size, formula and row of letters is kept."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.mathtext_parser = _Formulas("path")
-
-    @lru_cache(1024)  # noqa: B019  (there is one object)
-    def heights(self, prop: FontProperties) -> tuple[float, float, float]:
-        """Ascent, descent and gap between the lines of a font at POINTS dots per inch."""
-        font: Any = get_font(self._files(prop))
-        scale = prop.get_size_in_points() / font.get_sfnt_table("head")["unitsPerEm"]
-        table, names = font.get_sfnt_table("OS/2"), ("sTypoAscender", "sTypoDescender", "sTypoLineGap")
-        if table is None:
-            table, names = font.get_sfnt_table("hhea"), ("ascent", "descent", "lineGap")
-        ascent, descent, gap = (table[name] * scale for name in names)
-        return ascent, -descent, gap
-
-    @lru_cache(1024)  # noqa: B019  (there is one object)
-    def _files(self, prop: FontProperties) -> Any:
-        return fontManager._find_fonts_by_props(prop)
-
-    def _get_font(self, prop: FontProperties) -> Any:
-        font = get_font(self._files(prop.copy()))
-        font.set_size(self.FONT_SCALE, self.DPI)  # others draw with the same object
-        return font
-
-    def get_glyphs_with_font(
-        self, font: Any, s: str, glyph_map: Any = None, return_new_glyphs_only: bool = False, **options: Any
-    ) -> Any:
-        """Letters of a text, their places, and the outlines of those that are not known."""
-        if any(value is not None for value in options.values()):  # features and languages, which carom does not use
-            return super().get_glyphs_with_font(font, s, glyph_map, return_new_glyphs_only, **options)
-        return _unknown(self._letters(font, s), glyph_map, return_new_glyphs_only)
-
-    @lru_cache(8192)  # noqa: B019  (there is one object)
-    def _letters(self, font: Any, s: str) -> Any:
-        return super().get_glyphs_with_font(font, s)
-
-    def get_glyphs_mathtext(
-        self, prop: FontProperties, s: str, glyph_map: Any = None, return_new_glyphs_only: bool = False
-    ) -> Any:
-        """Letters of a formula, their places, and the outlines of those that are not known."""
-        return _unknown(self._symbols(prop.copy(), s), glyph_map, return_new_glyphs_only)
-
-    @lru_cache(1024)  # noqa: B019  (there is one object)
-    def _symbols(self, prop: FontProperties, s: str) -> Any:
-        return super().get_glyphs_mathtext(prop, s)
-
-    def get_text_width_height_descent(self, s: str, prop: FontProperties, ismath: Any) -> tuple[float, float, float]:
-        return self._size(s, prop.copy(), ismath)
-
-    @lru_cache(8192)  # noqa: B019  (there is one object)
-    def _size(self, s: str, prop: FontProperties, ismath: Any) -> tuple[float, float, float]:
-        return super().get_text_width_height_descent(s, prop, ismath)
-
-
-def _unknown(row: Any, glyph_map: Any, new_only: bool) -> Any:
-    """A row of letters with the outlines that a map lacks, or with the map after these have been added."""
-    places, outlines, rectangles = row
-    known = {} if glyph_map is None else glyph_map
-    new = {name: outline for name, outline in outlines.items() if name not in known}
-    if not new_only:
-        known.update(new)
-    return places, new if new_only else known, rectangles
-
-
-class _Formulas(MathTextParser):  # type: ignore[type-arg]
-    """Parser that keeps all formulas: matplotlib's keeps fifty, and a report has more."""
-
-    def parse(self, s: str, dpi: float = POINTS, prop: FontProperties | None = None, **options: Any) -> Any:
-        return self._parsed(s, dpi, None if prop is None else prop.copy(), **options)
-
-    @lru_cache(1024)  # noqa: B019  (there is one object)
-    def _parsed(self, s: str, dpi: float, prop: FontProperties | None, **options: Any) -> Any:
-        return super().parse(s, dpi, prop, **options)
-
-
-_OUTLINES = _Outlines()
-
-
-@cache
-def gauge() -> RendererBase:
-    """A renderer for measuring, at 72 dots per inch; matplotlib keeps the sizes of texts by renderer."""
-    return _Svg(1.0, 1.0, StringIO())
+def write_plain_ticks(figure: Figure) -> None:
+    """Write numbers at ticks as plain text unless they need a power of ten: mathematical text looks the same and takes much longer."""
+    for axes in [each for parent in figure.axes for each in (parent, *parent.child_axes)]:
+        for axis in (axes.xaxis, axes.yaxis):
+            formatter = axis.get_major_formatter()
+            if isinstance(formatter, ScalarFormatter) and 1e-3 <= abs(axis.get_view_interval()).max() < 1e6:
+                formatter.set_useMathText(False)

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
@@ -19,9 +17,9 @@ from carom.outcome import InputError
 from carom.parameters import in_terms_of
 from carom.parameters.in_terms import EXACT
 from carom.parameters.told import shown_in
-from carom.plots.plane import Floats, one_axes
+from carom.plots.maps import cell_edges, draw_map, mark_present
+from carom.plots.plane import Floats, key, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.sweeps import blank_cells, cell_edges, colour_bar, shaded_cells
 from carom.plots.words import number, parameter_label
 
 if TYPE_CHECKING:
@@ -36,8 +34,6 @@ _MEASURES = {
     "smallest_unrecovered_kick": ("smallest kick tried that does not come back", False),
 }
 """Measures that shades can show: their words, and whether they are shares."""
-_HALF = 50
-"""Number of characters of an entry of the legend that fit in half of the width."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 """What stiffness and damping are called; an entry of a machine's file that states them has its own name."""
 
@@ -87,39 +83,29 @@ def gain_map(
         values, bar = factor * values, f"{bar} ({unit})"
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
-    _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), bar, _MEASURES[measure][1])
     here = told[0].of(found.present[0]), told[1].of(found.present[1])
-    blank = {"no-levitation": grounded, "none": np.ma.getmaskarray(values) & ~grounded}
-    words = {"none": "every kick tried comes back"}
+    replaced = {"none": "every kick tried comes back"}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
-        words["no-levitation"] = "no levitation (in the middle of the cell)"
-    handles: list[Line2D | Patch] = [*blank_cells(drawn, edges, blank, words)]
-    handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
-    said = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
-    star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
-    handles += drawn.plot(*here, **star, gid="present", clip_on=False, label=said)
+        replaced["no-levitation"] = "no levitation (in the middle of the cell)"
+    blank, shown = np.ma.getmaskarray(values) & ~grounded, np.ma.masked_where(grounded, values)
+    highest = 1.0 if _MEASURES[measure][1] else max(float(shown.filled(0.0).max()), 1e-3)
+    reasons = {"no-levitation": grounded, "none": blank}
+    colours = draw_map(drawn, edges, shown, bar, reasons, replaced, vmin=0.0, vmax=highest)
+    if colours is not None and _MEASURES[measure][1]:
+        colours.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
+    _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
+    mark_present(drawn, here, f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back")
     if change is not None and change.size > 0.0:
         there = told[0].of(change.values[0]), told[1].of(change.values[1])
         parts = zip(told, change.told(found, told_by), strict=True)
         said = ", ".join(f"{each.name} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}") for each, part in parts)
-        handles.append(_arrow(drawn, here, there, f"least change found for {100 * change.wanted:g} %: {said}"))
+        _arrow(drawn, here, there, f"least change found for {100 * change.wanted:g} %: {said}")
     drawn.set(xlabel=told[0].label, ylabel=told[1].label, xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     if title:
         drawn.set_title(title)
-    wide = max(len(str(handle.get_label())) for handle in handles) > _HALF
-    figure.legend(handles=handles, loc="outside lower center", ncols=1 if wide else 2)
+    key(figure, [drawn], columns=2)  # one where they have no room
     return figure
-
-
-def _shades(
-    figure: Figure, axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, words: str, share: bool
-) -> None:
-    """Draw the shades of a measure, possibly a share, with their colour bar."""
-    highest = 1.0 if share else max(float(values.filled(0.0).max()), 1e-3)
-    bar = colour_bar(figure, axes, shaded_cells(axes, edges, values, vmin=0.0, vmax=highest), words)
-    if share:
-        bar.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
 
 
 def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.ndarray) -> bool:
@@ -128,25 +114,23 @@ def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.
     return 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1] and bool(cells[row, column])
 
 
-def _arrow(axes: Axes, here: tuple[float, float], there: tuple[float, float], label: str) -> Line2D:
-    """Draw an arrow from the present machine along the least change; return its legend entry."""
+def _arrow(axes: Axes, here: tuple[float, float], there: tuple[float, float], label: str) -> None:
+    """Draw an arrow from the present machine along the least change."""
     for colour, width in (("white", 1.6), ("#d55e00", 0.9)):
         axes.annotate("", there, here, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width, "shrinkA": 4})
-    return Line2D([], [], color="#d55e00", lw=1.2, marker=">", markevery=[1], ms=4, label=label)
+    axes.plot([], [], color="#d55e00", lw=1.2, marker=">", markevery=[1], ms=4, label=label)
 
 
-def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> list[Line2D]:
-    """Draw contours of the share, dark with a white outline, visible on every shade; return their legend entries."""
+def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> None:
+    """Draw contours of the share, dark with a white outline, visible on every shade."""
     levels = {level: line for level, line in _LEVELS.items() if share.min() < level <= share.max()}
     if not levels:
-        return []
+        return
     lines = axes.contour(x, y, share.T, levels=list(levels), colors="#1a1a1a", linestyles=list(levels.values()))
     lines.set_linewidth(0.9)
     lines.set_path_effects([withStroke(linewidth=2.2, foreground="white")])
-    return [
-        Line2D([], [], color="#1a1a1a", ls=line, lw=0.9, label=f"{100 * level:g} % come back")
-        for level, line in levels.items()
-    ]
+    for level, line in levels.items():
+        axes.plot([], [], color="#1a1a1a", ls=line, lw=0.9, label=f"{100 * level:g} % come back")
 
 
 class _Told(NamedTuple):

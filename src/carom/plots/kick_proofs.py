@@ -5,19 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Patch
+from matplotlib.patches import Circle
 
 from carom.arguments import checked
 from carom.outcome import InputError
 from carom.parameters.told import rounded_down, shown_in
-from carom.plots.cells import looks_of, paint
+from carom.plots.basins import draw_cells
+from carom.plots.cells import MotionLook, around, finish, looks_of
 from carom.plots.figure import StyledFigure, narrow
-from carom.plots.rings import around
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import counted, formula, number, told_in
 
@@ -69,17 +67,17 @@ def proven_kicks(kicks: ProvenKicks, basin: Basin | Cells | None = None, title: 
     if shown is not None and (shown.plan.model.kind != "kick-plane" or shown.index.ndim != 2):
         raise InputError("basin", f"a plan of {shown.plan.model.kind}", "a grid of kicks by components")
     figure, drawn = _panels(kicks, shown)
-    handles: list[Artist] = []
+    motions: list[MotionLook] = []
     if shown is not None:
-        handles += _sampled(drawn[0], kicks, shown)
+        names = shown.motions
+        motions = looks_of(names, [float((shown.index == place).mean()) for place in range(len(names))])
+        _sampled(drawn[0], kicks, shown, motions)
         drawn[0].set_title("(a) simulated; in full colour where proven")
         drawn[1].set_title("(b) proven, cell by cell")
-    handles += _proven(drawn[-1], kicks)
+    _proven(drawn[-1], kicks)
     for axes in drawn:
-        circles = _frame(axes, kicks)
-    figure.suptitle(title or _title(kicks))
-    figure.legend(handles=[*handles, *circles], loc="outside lower center", ncols=2)
-    return figure
+        _frame(axes, kicks)
+    return finish(figure, motions, title or _title(kicks), columns=2, shares=False)
 
 
 def _panels(kicks: ProvenKicks, basin: Cells | None) -> tuple[Figure, list[Axes]]:
@@ -98,14 +96,10 @@ def _title(kicks: ProvenKicks) -> str:
     return f"Proven: {kicks.words.replace(unit, formula(unit))}"
 
 
-def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells) -> list[Artist]:
-    """Paint where kicks end, pale where nothing is proven; return the legend entries."""
-    along = basin.plan.model.coordinates
-    factor = along[0].shown_in(basin.scales)[0]
-    motions = looks_of(basin.motions, [float((basin.index == place).mean()) for place in range(len(basin.motions))])
-    x, y = (factor * each.edges(cells) for each, cells in zip(along, basin.index.shape, strict=True))
-    paint(axes, x, y, basin.index, motions)
-    reach = factor * kicks.largest
+def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells, motions: list[MotionLook]) -> None:
+    """Paint where kicks end, pale where nothing is proven."""
+    draw_cells(axes, basin, motions)
+    reach = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
     for cells in axes.collections:  # those on the rim
         cells.set_clip_path(Circle((0.0, 0.0), reach, transform=axes.transData))
     line = np.linspace(-kicks.largest, kicks.largest, PIXELS)
@@ -114,12 +108,12 @@ def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells) -> list[Artist]:
     veil[..., 3] = np.where(proven, 0.0, _VEIL)
     place: dict[str, Any] = {"extent": (-reach, reach, -reach, reach), "origin": "lower", "zorder": 1.5}
     axes.imshow(veil, **place, interpolation="nearest", gid="veil")
-    entries: list[Artist] = [look.named(look.words) for look in motions]
-    return entries if kicks.whole else [*entries, Patch(fc="white", ec="#a6a6a6", lw=0.4, label="pale: not proven")]
+    if not kicks.whole:
+        axes.fill_between([], [], fc="white", ec="#a6a6a6", lw=0.4, label="pale: not proven")
 
 
-def _proven(axes: Axes, kicks: ProvenKicks) -> list[Artist]:
-    """Fill the cells in the looks of their parts; return the legend entries."""
+def _proven(axes: Axes, kicks: ProvenKicks) -> None:
+    """Fill the cells in the looks of their parts."""
     looks = _looks(kicks)
     radius = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
     outlines = [radius * _outline(edges) for edges in kicks.edges]
@@ -127,11 +121,10 @@ def _proven(axes: Axes, kicks: ProvenKicks) -> list[Artist]:
         cells = [outlines[cell] for cell in np.flatnonzero(kicks.places == place)]
         # Edges of their own colour, for no gap shows between cells then.
         edge = {"edgecolor": look["facecolor"], "lw": 0.2, "gid": "open" if part.open else "proven"}
-        axes.add_collection(PolyCollection(cells, **look, **edge, rasterized=True))
+        axes.add_collection(PolyCollection(cells, **look, **edge, rasterized=True, label=_words(part)))
     proven = np.array([not part.open for part in kicks.parts])[kicks.places]
     wide = [outlines[cell] for cell in np.flatnonzero(proven & (_sides(kicks.edges) > _EDGES))]
     axes.add_collection(PolyCollection(wide, fc="none", ec="#06402a", lw=0.15, rasterized=True))
-    return [Patch(**look, lw=0.4, label=_words(part)) for look, part in zip(looks, kicks.parts, strict=True)]
 
 
 def _looks(kicks: ProvenKicks) -> list[dict[str, Any]]:
@@ -170,8 +163,8 @@ def _outline(edges: np.ndarray) -> np.ndarray:
     return np.hstack([around(turn, np.array(fast)), around(turn[::-1], np.array(slow))]).T
 
 
-def _frame(axes: Axes, kicks: ProvenKicks) -> list[Line2D]:
-    """Draw the circles of what never touches and of what all comes back; return their legend entries."""
+def _frame(axes: Axes, kicks: ProvenKicks) -> None:
+    """Draw the circles of what never touches and of what all comes back."""
     factor, unit = told_in("velocity", kicks.rotor.scales)
     reach = _REACH * factor * kicks.largest
     axes.set_aspect("equal")
@@ -180,10 +173,8 @@ def _frame(axes: Axes, kicks: ProvenKicks) -> list[Line2D]:
     marked = [(kicks.harmless, (4.0, 2.0), "none touches below")]
     if not kicks.whole and kicks.all_up_to > kicks.harmless:  # else it says no more
         marked.append((kicks.all_up_to, (1.0, 1.5), "all proven to come back below"))
-    lines = []
     for size, dashes, words in marked:
         if 0.0 < size <= kicks.largest:
             circle = around(np.linspace(0.0, 2.0 * np.pi, 361), np.array(factor * size))
             label = f"{words} {number(rounded_down(factor * size))} {unit}"
-            lines += axes.plot(*circle, ls=(0.0, dashes), lw=0.8, color=LOOKS["wall"].colour, label=label)
-    return lines
+            axes.plot(*circle, ls=(0.0, dashes), lw=0.8, color=LOOKS["wall"].colour, label=label)

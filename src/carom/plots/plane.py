@@ -281,13 +281,13 @@ def finish(figure: Figure, drawn: Axes, axes: Axes | None, title: str | None = N
 
 def key(figure: Figure, drawn: Iterable[Axes], columns: int) -> Legend:
     """Add a legend of everything labelled in the axes, without duplicates, below the figure."""
-    handles, words = _unique(drawn)
+    handles, words = unique_entries(drawn)
     return figure.legend(handles, words, loc="outside lower center", ncols=min(columns, len(words)))
 
 
 def legend_below(axes: Axes) -> Legend:
     """Add the same legend below one axes that belongs to a figure of the user."""
-    handles, words = _unique([axes])
+    handles, words = unique_entries([axes])
     return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(2, len(words)))
 
 
@@ -300,7 +300,8 @@ def legend_above(axes: Axes, handles: Sequence[Artist], columns: int, *, aside: 
     return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0 + above), ncols=columns)
 
 
-def _unique(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:
+def unique_entries(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:
+    """Everything labelled in axes, without duplicates, and its words."""
     found: dict[str, Artist] = {}
     for axes in drawn:
         for handle, words in zip(*axes.get_legend_handles_labels(), strict=True):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,10 +12,8 @@ from matplotlib.patheffects import Normal, Stroke
 
 from carom.arguments import checked
 from carom.outcome import STEADY_WORDS
-from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
-from carom.plots.numerals import name_regions
 from carom.plots.parameter_axes import label_parameter
 from carom.plots.plane import Floats, legend_above
 from carom.plots.style import TWO_COLUMNS, styled
@@ -37,54 +34,51 @@ _HEIGHT, _LINE = 0.6, 0.135
 def region_map(found: RegionMap, virtual: bool = False) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
-    Each region has the names of its motions in its area, without those of all regions.  A region without room for them
-    has its number in the JSON document, thin ones beside them with a leader line, and is described below the axes.
+    Each region has its number in the JSON document, by which it is described below the axes, without the motions of all regions.
 
     Parameters
     ----------
     virtual : bool
         Draw the curves of virtual motions too, faint.
     """
-    names = [_name(found, region) for region in found.regions]
-    listed: set[int] = set()
-    while True:  # what is listed changes the layout a little, so that another name may find no room
-        figure, axes, units = _drawn(found, virtual, names, sorted(listed))
-        without = name_regions(axes, found, units, [with_symbols(name) for name in names], listed, virtual=virtual)
-        if without <= listed:
-            return figure
-        listed |= without
-
-
-def _drawn(found: RegionMap, virtual: bool, names: Sequence[str], listed: Sequence[int]) -> tuple[Figure, Axes, Floats]:
-    """Return a figure without the names in the areas, laid out, with its axes and the divisors of the parameters."""
-    lines = [f"{number}: {names[number - 1].replace(chr(10), ', ')}" for number in listed]
+    lines = [f"{number}: {_name(found, region)}" for number, region in enumerate(found.regions, start=1)]
     if found.everywhere:
         lines.append(f"everywhere: {', '.join(found.everywhere)}")
     columns = 2 if max(map(len, lines), default=0) <= _LONGEST_HALF else 1
-    rows = -(-len(lines) // columns)
-    lines = [with_symbols(line) for line in lines]
-    figure = StyledFigure(figsize=(TWO_COLUMNS, _HEIGHT * TWO_COLUMNS + _LINE * rows))
+    figure = StyledFigure(figsize=(TWO_COLUMNS, _HEIGHT * TWO_COLUMNS + _LINE * -(-len(lines) // columns)))
     drawn = figure.subplots()
     units = np.array([axis.field.usual_size for axis in found.axes])
     if not found.model.has_closed_forms:
         _draw_cells(drawn, found, units)
-    # Draw the broad line of non-smooth Hopf bifurcations below all others.
-    for curve in found.curves:
-        if curve.kind == "non-smooth-hopf":
-            curve_line(drawn, curve, units, virtual)
-    for curve in found.curves:
-        if curve.kind != "non-smooth-hopf":
-            curve_line(drawn, curve, units, virtual)
+    # The broad line of non-smooth Hopf bifurcations lies below all others.
+    for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
+        curve_line(drawn, curve, units, virtual)
+    for number, region in enumerate(found.regions, start=1):
+        _write(drawn, str(number), np.array(region.point) / units, "numeral", ha="center", va="center")
     scales = found.model.scales
     aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
     label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
     drawn.set(xlim=np.array(found.plane.first_range) / units[0], ylim=np.array(found.plane.second_range) / units[1])
     legend_above(drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual)], 3, aside=aside)
-    if lines:
-        handles = [Line2D([], [], ls="none", label=words) for words in lines]
-        figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
-    arrange(figure)
-    return figure, drawn, units
+    handles = [Line2D([], [], ls="none", label=with_symbols(line)) for line in lines]
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
+    return figure
+
+
+def _write(axes: Axes, words: str, place: Floats, gid: str, shift: float = 0.0, **options: Any) -> None:
+    """Write words at a place, or shifted from it to the left and downward, readable upon lines."""
+    outline = [Stroke(linewidth=2.5, foreground="#ffffff"), Normal()]
+    axes.annotate(
+        words,
+        place,
+        (-shift, -shift),
+        textcoords="offset points",
+        fontsize=7,
+        zorder=8,
+        gid=gid,
+        path_effects=outline,
+        **options,
+    )
 
 
 def _draw_cells(axes: Axes, found: RegionMap, units: np.ndarray) -> None:
@@ -100,11 +94,11 @@ def _draw_cells(axes: Axes, found: RegionMap, units: np.ndarray) -> None:
 
 
 def _name(found: RegionMap, region: Region) -> str:
-    """Return the motions that a region has and not all have, one kind a line."""
+    """Return the motions that a region has and not all have."""
     absent = ("no ", f"{STEADY_WORDS['contact-free']} virtual")
     parts = [part for part in region.motions.parts if part not in found.everywhere and not part.startswith(absent)]
     lines = [line for part in parts for line in part.removeprefix("stable ").split(" and ")]
-    return "\n".join(lines) or "none of these motions"
+    return ", ".join(lines) or "none of these motions"
 
 
 def _curve_key(found: RegionMap, virtual: bool) -> list[Line2D]:
@@ -137,18 +131,7 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray, virtual: bool)
         look = ("resonance of the multipliers", "D", 4.0) if resonance else ("two at once", "o", 4.5)
         mark(point.value, *look, _BLACK if point.admissible else "none")
         if resonance:
-            axes.annotate(
-                resonance,
-                np.array(point.value) / units,
-                (-4.0, -4.0),
-                textcoords="offset points",
-                fontsize=6.5,
-                ha="right",
-                va="top",
-                zorder=8,
-                gid="resonance",
-                path_effects=[Stroke(linewidth=2.0, foreground="#ffffff"), Normal()],
-            )
+            _write(axes, resonance, np.array(point.value) / units, "resonance", 4.0, ha="right", va="top")
     for change in found.unexplained:
         mark(change.point, "change of motions on no curve found", "x", 4.0, _UNEXPLAINED, _UNEXPLAINED)
     if found.present is not None:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import SymmetricalLogLocator
 
 from carom.arguments import checked
-from carom.plots.plane import Complex, one_axes
+from carom.plots.plane import one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import orbit_look, orbit_words
 
@@ -28,9 +29,8 @@ def multipliers(orbits: Iterable[Orbit], *, virtual: bool = False, axes: Axes | 
     """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
 
     An orbit is stable if all its multipliers lie inside the circle.  A multiplier that leaves it through +1 means a
-    fold, through -1 a period doubling, elsewhere a torus.  If the modulus of a multiplier exceeds 2, the plane outside
-    the unit circle has a logarithmic radius: a multiplier keeps its direction and is drawn at the distance 1 + log10 of
-    its modulus.  The axis labels then say so and the axes have no numbers; circles show the modulus.
+    fold, through -1 a period doubling, elsewhere a torus.  If the modulus of a multiplier exceeds 2, both axes are logarithmic
+    beyond -1 and 1.
 
     A new figure is 88 mm wide.
 
@@ -45,21 +45,14 @@ def multipliers(orbits: Iterable[Orbit], *, virtual: bool = False, axes: Axes | 
     entries = len(shown) + bool(grouped)
     columns = 1 if entries <= 4 else 2
     lines = -(-entries // columns)
-    largest = max((float(np.abs(orbit.multipliers.values).max()) for orbit in every), default=1.0)
-    compressed = largest > _LINEAR_UP_TO
-    height = (1.06 if compressed else 0.97) * ONE_COLUMN + 0.15 * lines
-    figure, drawn = one_axes(axes, (ONE_COLUMN, height))
-    _unit_circle(drawn)
-    if compressed:
-        _logarithmic_plane(drawn, largest)
-    else:
-        _linear_plane(drawn, largest)
+    figure, drawn = one_axes(axes, (ONE_COLUMN, 0.97 * ONE_COLUMN + 0.15 * lines))
+    _plane(drawn, max((float(np.abs(orbit.multipliers.values).max()) for orbit in every), default=1.0))
     for orbit, shape in zip(shown, cycle(_SHAPES), strict=False):
-        values = np.asarray(orbit.multipliers.values)
-        _markers(drawn, _compress(values) if compressed else values, orbit, shape)
+        _markers(drawn, orbit, shape)
     if grouped:
         values = np.concatenate([orbit.multipliers.values for orbit in grouped])
-        _dots(drawn, _compress(values) if compressed else values, len(grouped))
+        look, words = LOOKS["virtual"], f"{len(grouped)} orbits \N{EM DASH} {LOOKS['virtual'].words}"
+        drawn.plot(values.real, values.imag, ".", ms=2.5, color=look.colour, label=words, zorder=2, gid="virtual")
     if not every:
         drawn.plot([], [], linestyle="none", label="no periodic orbit" if virtual else "no possible periodic orbit")
     if axes is None:
@@ -69,56 +62,27 @@ def multipliers(orbits: Iterable[Orbit], *, virtual: bool = False, axes: Axes | 
     return figure
 
 
-def _compress(values: Complex) -> Complex:
-    """Map values outside the unit circle to the distance 1 + log10 of their modulus; values inside are unchanged."""
-    modulus = np.maximum(np.abs(values), 1.0)
-    return values / modulus * (1.0 + np.log10(modulus))
-
-
-def _unit_circle(axes: Axes) -> None:
-    _circle(axes, 1.0, "#1a1a1a", 0.9, "unit-circle")
+def _plane(axes: Axes, largest: float) -> None:
+    """Draw the unit circle in a plane that holds the largest modulus; beyond 1 it is logarithmic if that is large."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(angle), np.sin(angle), color="#1a1a1a", lw=0.9, zorder=1, gid="unit-circle")
     axes.axhline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
     axes.axvline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
-    axes.set_aspect("equal")
-
-
-def _circle(axes: Axes, radius: float, colour: str, width: float, gid: str) -> None:
-    angle = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(radius * np.cos(angle), radius * np.sin(angle), color=colour, lw=width, zorder=1, gid=gid)
-
-
-def _linear_plane(axes: Axes, largest: float) -> None:
     reach = 1.08 * max(1.1, largest)
-    ticks = np.arange(-2.0, 2.01, 0.5)
-    axes.set(xticks=ticks, yticks=ticks, xlim=(-reach, reach), ylim=(-reach, reach))
-    axes.set_xlabel(r"real part of the multiplier, Re $\lambda$ (no unit)")
-    axes.set_ylabel(r"imaginary part of the multiplier, Im $\lambda$ (no unit)")
+    note = "no unit"
+    if largest > _LINEAR_UP_TO:
+        reach, note = 1.3 * largest, "no unit; logarithmic beyond 1"
+        axes.set_xscale("symlog", linthresh=1.0)
+        axes.set_yscale("symlog", linthresh=1.0)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=1.0))
+            axis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
+    axes.set(xlabel=rf"Re $\lambda$ ({note})", ylabel=rf"Im $\lambda$ ({note})")
 
 
-def _logarithmic_plane(axes: Axes, largest: float) -> None:
-    reach = 1.08 * (1.0 + np.log10(largest))
-    decades = range(int(np.ceil(np.log10(largest))) + 1)
-    diagonal = np.exp(-0.25j * np.pi)
-    for modulus in [factor * 10**decade for decade in decades for factor in (1, 2, 5)]:
-        place = (1.0 + np.log10(modulus)) * diagonal
-        if place.real > 0.97 * reach:
-            break
-        power = float(np.log10(modulus)).is_integer()
-        if modulus > 1:
-            _circle(axes, abs(place), "#a6a6a6" if power else "#dcdcdc", 0.4, "modulus")
-        if power or len(decades) <= 3:
-            box = {"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"}
-            axes.text(place.real, place.imag, f"{modulus}", fontsize=6, ha="center", va="center", bbox=box, zorder=2)
-    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xticks=(), yticks=())
-    axes.set_xlabel(
-        "direction of Re $\\lambda$ (circles: $|\\lambda|$, no unit; distance from the\n"
-        "centre $|\\lambda|$ up to 1, $1+\\log_{10}|\\lambda|$ beyond)"
-    )
-    axes.set_ylabel(r"direction of Im $\lambda$")
-
-
-def _markers(axes: Axes, values: Complex, orbit: Orbit, shape: str) -> None:
-    meaning = orbit_look(orbit)
+def _markers(axes: Axes, orbit: Orbit, shape: str) -> None:
+    meaning, values = orbit_look(orbit), np.asarray(orbit.multipliers.values)
     colour = LOOKS[meaning].colour
     axes.plot(
         values.real,
@@ -133,9 +97,3 @@ def _markers(axes: Axes, values: Complex, orbit: Orbit, shape: str) -> None:
         zorder=3 if meaning == "stable" else 4,
         gid=orbit.name,
     )
-
-
-def _dots(axes: Axes, values: Complex, count: int) -> None:
-    look = LOOKS["virtual"]
-    words = f"{count} orbits \N{EM DASH} {look.words}"
-    axes.plot(values.real, values.imag, ".", markersize=2.5, color=look.colour, label=words, zorder=2, gid="virtual")

@@ -37,7 +37,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
-from carom.plots.arrangement import arrange, write_plain_ticks
+from carom.plots.figure import arrange, write_plain_ticks
 from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
 from carom.plots.sheet import drawing
 

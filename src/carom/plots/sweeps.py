@@ -12,34 +12,22 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.collections import QuadMesh
-from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch, PathPatch
-from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
 from carom.arguments import checked
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import SETTINGS, Field
 from carom.parameters.told import shown_from_si
-from carom.plots.plane import Floats, legend_above, one_axes
-from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
+from carom.plots.maps import BLANKS, SHADES, cell_edges, draw_map, mark_present
+from carom.plots.plane import Floats, one_axes
+from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import parameter_label
 
 if TYPE_CHECKING:
     import xarray
 
-BLANKS = MappingProxyType(
-    {
-        "no-levitation": Look("#e6e6e6", f"no {STEADY_WORDS['contact-free']}", hatch=r"\\"),
-        "none": Look("#ffffff", "no such value", hatch="////"),
-        "waiting": Look("#ffffff", "not computed yet", hatch="...."),
-        "failed": Look("#ffffff", "failed", hatch="xxxx"),
-    }
-)
-"""Why a cell has no value: distinguished by hatching, also in greyscale and for colour-blind readers."""
 _NONE = MappingProxyType(
     {
         "smallest_unrecovered_kick": "every kick tried came back",
@@ -60,12 +48,9 @@ _SHARES = MappingProxyType(
     }
 )
 """Numbers shown in percent, and their words if the stored words refer to another variable."""
-_SHADES = "cividis"
-"""Colour map that can be read by colour-blind readers and in greyscale (Nuñez, Anderton, Renslow 2018)."""
 _MOST_STEPS = 9
 """Largest count up to which each number has a shade of its own."""
-_INK = "#8c8c8c"
-"""Colour of the hatching and edges of cells without a value."""
+_PRESENT = "the machine as it is"
 _LONGEST = 60
 """Letters of a line that fit along the side of a figure."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
@@ -130,9 +115,19 @@ def sweep_map(
         edges = [
             cell_edges(along, spacings[dimension] == "log") for along, dimension in zip(places, dimensions, strict=True)
         ]
-        _shades(figure, drawn, (edges[0], edges[1]), values, _reasons(data, values))
+        _shades(drawn, (edges[0], edges[1]), values, _reasons(data, values))
     if present is not None:
-        _mark(drawn, [present[name] / size for name, size in zip(dimensions, sizes, strict=True)], places)
+        here = [present[name] / size for name, size in zip(dimensions, sizes, strict=True)]
+        if all(along.min() <= value <= along.max() for value, along in zip(here, places, strict=True)):
+            if len(here) == 1:
+                drawn.axvline(here[0], color="#1a1a1a", lw=0.8, ls=(0, (1, 1.5)), gid="present", label=_PRESENT)
+            else:
+                mark_present(drawn, (here[0], here[1]), _PRESENT)
+    handles, labels = drawn.get_legend_handles_labels()
+    if handles:
+        meanings = len(dimensions) == 2 and len(figure.axes) == 1  # no colour bar says what is shown
+        title_of_legend = values.attrs["long_name"] if meanings else None
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(handles), 4), title=title_of_legend)
     if title:
         drawn.set_title(title)
     return figure
@@ -146,20 +141,6 @@ def _as_told(values: xarray.DataArray) -> xarray.DataArray:
     return (
         (factor * values).assign_attrs(values.attrs | {"units": unit}).rename(values.name) if factor != 1.0 else values
     )
-
-
-def _mark(axes: Axes, present: list[float], places: list[np.ndarray]) -> None:
-    """Mark the machine as it is, if it lies within the sweep."""
-    inside = all(along.min() <= value <= along.max() for value, along in zip(present, places, strict=True))
-    if not inside:
-        return
-    words = "the machine as it is"
-    if len(present) == 1:
-        axes.axvline(present[0], color="#1a1a1a", lw=0.8, ls=(0, (1, 1.5)), gid="present", label=words)
-    else:
-        star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
-        axes.plot(*present, gid="present", label=words, **star)
-    legend_above(axes, axes.get_legend_handles_labels()[0], 1)
 
 
 def _field(coordinate: xarray.DataArray) -> Field:
@@ -193,7 +174,7 @@ def _counts(values: xarray.DataArray) -> bool:
 
 
 def _reasons(data: xarray.Dataset, values: xarray.DataArray) -> dict[str, np.ndarray]:
-    """Return the cells without a value, by the key of :data:`BLANKS` that says why."""
+    """Return the cells without a value, by the key of :data:`carom.plots.maps.BLANKS` that says why."""
     blank, status = ~np.isfinite(np.asarray(values.values, float)), data["status"].transpose(*values.dims).values
     reasons = {"waiting": blank & (status == 0), "failed": blank & (status == 2)}
     rest = blank & (status == 1)
@@ -205,24 +186,13 @@ def _reasons(data: xarray.Dataset, values: xarray.DataArray) -> dict[str, np.nda
     return {"no-levitation": grounded, "none": rest & ~grounded, **reasons}
 
 
-def cell_edges(values: Floats, logarithmic: bool = False) -> Floats:
-    """Return the edges of the cells around values: halfway between them on their axis."""
-    along = np.log(values) if logarithmic else np.asarray(values, float)
-    steps = np.diff(along) if len(along) > 1 else np.ones(1)
-    edges = np.concatenate(
-        [[along[0] - 0.5 * steps[0]], along[:-1] + 0.5 * np.diff(along), [along[-1] + 0.5 * steps[-1]]]
-    )
-    return np.exp(edges) if logarithmic else edges
-
-
 def _shades(
-    figure: Figure,
     axes: Axes,
     edges: tuple[Floats, Floats],
     values: xarray.DataArray,
     reasons: Mapping[str, np.ndarray],
 ) -> None:
-    """Draw a number as shades with a colour bar, or a flag as colours; add a legend of the flag and of blank cells."""
+    """Draw a number as shades with a colour bar, or a flag as colours."""
     shown = np.ma.masked_invalid(np.asarray(values.values, float))
     look: dict[str, Any] = {}
     meanings = str(values.attrs.get("flag_meanings", "")).split()
@@ -234,65 +204,14 @@ def _shades(
         most = max(int(shown.filled(0.0).max()), 1)
         look = {"vmin": 0.0, "vmax": most}
         if most <= _MOST_STEPS:
-            look = {"cmap": colormaps[_SHADES].resampled(most + 1), "vmin": -0.5, "vmax": most + 0.5}
-    mesh = shaded_cells(axes, edges, shown, **look)
-    handles = [
-        Patch(facecolor=colour, edgecolor=_INK, lw=0.4, label=word.replace("_", " "))
-        for colour, word in zip(_FLAGS, meanings, strict=False)
-    ]
-    if not meanings and shown.count():
-        _ticks(colour_bar(figure, axes, mesh, _label(values)).ax.yaxis, values)
-    words = {"none": _NONE.get(values.attrs.get("si_of", values.name), BLANKS["none"].words)}
-    handles += blank_cells(axes, edges, reasons, words)
-    if handles:
-        title = values.attrs["long_name"] if meanings or not shown.count() else None
-        columns = min(len(handles), 5 if meanings else 4)  # Names of flags are short.
-        figure.legend(handles=handles, loc="outside lower center", ncols=columns, title=title)
-
-
-def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, **look: Any) -> QuadMesh:
-    """Draw cells, values of shape (n, m) between n + 1 and m + 1 edges, in shades; masked ones are left out.
-
-    `look` are the colour map and its limits, as for ``pcolormesh``.
-    """
-    return axes.pcolormesh(*edges, values.T, rasterized=True, gid="cells", **{"cmap": _SHADES, **look})
-
-
-def colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, words: str) -> Colorbar:
-    """Add the colour bar of shaded cells."""
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02)
-    bar.set_label(words)
-    bar.outline.set_linewidth(0.5)
-    return bar
-
-
-def blank_cells(
-    axes: Axes, edges: tuple[Floats, Floats], reasons: Mapping[str, np.ndarray], words: Mapping[str, str]
-) -> list[Patch]:
-    """Draw cells without a value, by the key of :data:`BLANKS` that says why, and return the legend entries.
-
-    `words` replace those of the looks.
-    """
-    handles = []
-    for key, cells in reasons.items():
-        if not cells.any():
-            continue
-        look = BLANKS[key]
-        drawn: dict[str, Any] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK}
-        axes.add_patch(PathPatch(_outline(edges, cells), lw=0.0, zorder=0.5, gid=key, **drawn))
-        handles.append(Patch(lw=0.4, label=words.get(key, look.words), **drawn))
-    return handles
-
-
-def _outline(edges: tuple[Floats, Floats], cells: np.ndarray) -> Path:
-    """Return cells as one path, so that hatching is continuous: a rectangle for each run along a row."""
-    rectangles = []
-    for row, inside in enumerate(cells.T):
-        turns = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
-        low, high = edges[1][row : row + 2]
-        for left, right in edges[0][turns.reshape(-1, 2)]:
-            rectangles.append(Path([(left, low), (right, low), (right, high), (left, high), (left, low)], closed=True))
-    return Path.make_compound_path(*rectangles)
+            look = {"cmap": colormaps[SHADES].resampled(most + 1), "vmin": -0.5, "vmax": most + 0.5}
+    words = "" if meanings or not shown.count() else _label(values)
+    none = _NONE.get(values.attrs.get("si_of", values.name), BLANKS["none"].words)
+    bar = draw_map(axes, edges, shown, words, reasons, {"none": none}, **look)
+    if bar is not None:
+        _ticks(bar.ax.yaxis, values)
+    for colour, word in zip(_FLAGS, meanings, strict=False):
+        axes.fill_between([], [], fc=colour, ec="#8c8c8c", lw=0.4, label=word.replace("_", " "))
 
 
 def _label(values: xarray.DataArray) -> str:
