@@ -33,7 +33,6 @@ import re
 import sys
 from collections import Counter
 from fractions import Fraction
-from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -1611,69 +1610,7 @@ def multiplier_facts(kind: str, along: Along, m: Machine, x: list, slopes: list)
             True if abs(total) < 2 and not any(strong) else None,
             {"pair_sum": total},
         )
-    if kind == "period-doubling":
-        total, pair = trace + 1, -det  # sum and product of the other two
-        simple = (
-            True
-            if abs(pair) < 1 and abs(total) < 1 + pair
-            else False
-            if abs(pair) > 1 or abs(total) > 1 + pair
-            else None
-        )
-        facts["simple"] = Fact(
-            "The other two multipliers lie inside the unit circle.", simple, {}, {"one of them is outside"}
-        )
-        b = cubic_term(m, period, speed)
-        words = "It is {}: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of twice the period next to it are {}"
-        stable = (
-            "born stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall."
-        )
-        unstable = "unstable, as far as they stay inside the wall."
-        facts["supercritical"] = Fact(
-            words.format("supercritical", stable), positive(b) if simple else None, {"b": None}
-        )
-        facts["subcritical"] = Fact(words.format("subcritical", unstable), positive(-b), {"b": None})
     return facts
-
-
-def cubic_term(m: Machine, period, speed) -> arb:
-    """Give b of the map x -> -x + b x^3 on the centre manifold, up to a positive factor: the third derivative along the parabola of the manifold."""
-    far, state = course(m, period, speed)
-    ctx.cap = 4
-    j = impact_derivative(m, far, state, state)
-    plus = [[v + int(i == k) for k, v in enumerate(row)] for i, row in enumerate(j)]
-    adjoint = [
-        [
-            plus[(k + 1) % 3][(i + 1) % 3] * plus[(k + 2) % 3][(i + 2) % 3]
-            - plus[(k + 1) % 3][(i + 2) % 3] * plus[(k + 2) % 3][(i + 1) % 3]
-            for k in range(3)
-        ]
-        for i in range(3)
-    ]
-    row, column = max(
-        ((i, k) for i in range(3) for k in range(3)), key=lambda at: float(abs(adjoint[at[0]][at[1]].mid()))
-    )
-    right, left = [adjoint[i][column] for i in range(3)], adjoint[row]
-    scale = sum((a * b for a, b in zip(left, right, strict=True)), arb(0))
-
-    def image(shift: list) -> list[arb_series]:
-        """The map at the state plus a series, by corrections of which each adds an order."""
-        begin = (*tuple(s + d for s, d in zip(state[:3], shift, strict=True)), series(period))
-        follow = [series(v) for v in state[:3]]
-        _, own, end = segment(m, far, state, state)
-        matrix = [[*r, own[i][3]] for i, r in enumerate(end)]
-        for _ in range(4):
-            gap, _, _ = segment(m, far, begin, tuple(follow))
-            step = solve(matrix, [[-g] for g in gap])
-            follow = [f + s[0] for f, s in zip(follow, step, strict=False)]
-            begin = (*begin[:3], begin[3] + step[3][0])
-        return follow
-
-    bent = image([series(arb(0), q) for q in right])
-    second = [[-f[2]] for f in bent]
-    bow = solve([[v - int(i == k) for k, v in enumerate(r)] for i, r in enumerate(j)], second)
-    third = image([series(arb(0), q, y[0]) for q, y in zip(right, bow, strict=True)])
-    return sum((p * f[3] for p, f in zip(left, third, strict=True)), arb(0)) / scale
 
 
 # ----------------------------------------------------------------------------------------------- intervals of a parameter
@@ -1975,56 +1912,6 @@ def check_stretch(along: Along, claim: dict) -> str:
     return "checked"
 
 
-def check_change(along: Along, claim: dict, name: str) -> str:
-    """One change of an orbit on an interval: where its radial speed, or a margin of its stability, has its only zero."""
-    birth, margin = claim["kind"].startswith("birth"), 3 if claim["kind"].startswith("neimark") else 1
-    which = "the product of 1 - lambda_j lambda_k over the pairs of multipliers" if margin == 3 else "det(1 + J)"
-    low, high = (decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups())
-    stated = numbers_of(claim)
-    if set(stated) != {"value"}:
-        raise RefusedError("its numbers are not those of such a change")
-    zero, slopes = stated["value"], []
-
-    def each(a: Fraction, b: Fraction) -> None:
-        names = named(isolated_on(along, a, b))
-        if name not in names:
-            raise RefusedError("it is false: there is no such orbit")
-        block = Block(along, a, b, *names[name])
-        function = (lambda m, t, r: r) if birth else (lambda m, t, r: margins_of(m, t, r)[margin])
-        value, slope = block.over(function), block.slope(function)
-        if b <= zero[0] or a >= zero[1]:
-            if not (value > 0 or value < 0):
-                raise OpenError
-        elif slope.contains(0):
-            raise OpenError
-        slopes.append(
-            (a, 1 if (value > 0) == (a >= zero[1]) else -1) if not value.contains(0) else (a, 1 if slope > 0 else -1)
-        )
-        if birth:
-            if not block.speed < 0:
-                if block.inside() is not True:
-                    raise OpenError
-                block.slip()
-        elif not value < 0 and not all(v > 0 for k, v in enumerate(block.margins()) if k != margin):
-            raise OpenError
-
-    edges = [low, *sorted(v for v in zero if low < v < high), high]
-    for a, b in pairwise(edges):
-        stretch(along, a, b, each)
-    signs = {s for _, s in slopes}
-    if len(signs) != 1 or not low < zero[0] or not zero[1] < high:
-        raise RefusedError("could not be shown: one zero only")
-    larger, smaller = ("larger", "smaller") if signs == {1} else ("smaller", "larger")
-    words = (
-        f"{name} exists for all values of this interval, and its radial speed has exactly one zero there, at this value: for all {larger} values of "
-        f"the interval {name} is a motion of the machine, and for no {smaller} one."
-        if birth
-        else f"{name} exists for all values of this interval, and {which} has exactly one zero there, at this value: for all {larger} values of "
-        f"the interval {name} is stable, and for no {smaller} one."
-    )
-    return judge(claim, Fact(words, True, {"value": None}))
-
-
 def one(verdicts: set):
     """The verdict of a set that holds one."""
     return next(iter(verdicts)) if len(verdicts) == 1 else None
@@ -2168,12 +2055,9 @@ def decide_interval(claim: dict, intervals: Intervals | None, along: Along) -> s
         re.fullmatch(r"B\d+,[a-d]", about) and kind in ("exists", "admissible", "stable")
     ):
         return intervals.follows(claim)
-    if re.fullmatch(rf"{along.name} in \[\S+, \S+\]", about):
-        if kind == "orbits" and claim["status"] == "proven" and claim["reason"] == "":
-            return check_stretch(along, claim)
-        change = re.fullmatch(r"(?:birth|period doubling|neimark-sacker) of (B\d+,[a-d])", kind)
-        if change:
-            return check_change(along, claim, change[1])
+    stretch_of = re.fullmatch(rf"{along.name} in \[\S+, \S+\]", about)
+    if stretch_of and kind == "orbits" and claim["status"] == "proven" and claim["reason"] == "":
+        return check_stretch(along, claim)
     return "not covered|this program does not decide such claims"
 
 
@@ -2993,10 +2877,7 @@ THEOREMS = {
 
 # What each theorem may claim, as "about: kind"; its options; and what a reader may expect that it does not claim.
 _STEADY = "levitation: (inside|stable)", r"rub \d+: (solution|pressed|attracts sliding)"
-_WHIRL = (
-    "whirl: (rolls|rolls above|attracts sliding|reached by sliding|slips|slips steadily|absent|absent below|only rubs below)",
-    "ball at rub 1: (slides in|bounces in)",
-)
+_WHIRL = ("whirl: (rolls|attracts sliding|slips|absent|absent below)",)
 _SINGLE = (
     *_STEADY,
     *_WHIRL,
@@ -3006,7 +2887,7 @@ _SINGLE = (
 )
 _ALONG = (
     "(fold|speed-fold|period-doubling|neimark-sacker|grazing|slip-stop|non-smooth-hopf|boundary-equilibrium|rub-fold): of .+",
-    r"\S+ in \[\S+, \S+\]: (orbits|(birth|period doubling|neimark-sacker) of B\d+,[a-d])",
+    r"\S+ in \[\S+, \S+\]: orbits",
     r"B\d+,[a-d]: (exists|admissible|stable)",
     "machine: (slip|all-single-impact-orbits)",
     "levitation: inside",
@@ -3049,7 +2930,7 @@ FORMS = {
         (
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             _NO_BASINS,
-            "that a rub attracts what begins outside of the ball that is told",
+            "which disturbances end in a rub",
             "which slides and whirls repeat that are not told, or that there is no whirl that bounces",
         ),
     ),

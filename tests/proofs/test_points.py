@@ -9,18 +9,15 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from flint import arb
 from machines import PAPER, exact_return
 
 import carom as cm
 from carom.bifurcations.conditions import jacobian_at, profile_at
-from carom.orbits import Section, find_orbits, impact_map
+from carom.orbits import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Numbers as Doubles
 from carom.proofs import check, prove
 from carom.proofs.balls import at_precision, exact_ends
-from carom.proofs.courses import Course, Return
-from carom.proofs.criticality import flip_coefficient
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.krawczyk import enclosed_zero, newton
@@ -72,7 +69,6 @@ def test_points_of_the_paper_have_twenty_digits(paper, name):
 def test_natures_of_the_paper_are_proven(paper):
     assert {name for name, claim in paper.items() if claim.status != "proven"} == set()
     assert {
-        "period-doubling of B1,d supercritical",
         "period-doubling of B1,d transversal",
         "non-smooth-hopf of B1,a subcritical",
         "non-smooth-hopf of B1,b motion",
@@ -121,41 +117,6 @@ def test_fold_flips_within_1e_12(paper):
     assert [claim.statement.split()[3] for claim in counts] == ["2", "0"]
 
 
-def test_coefficient_of_the_period_doubling_is_that_of_the_simulated_map(paper):
-    """``ξ ↦ −ξ + bξ³`` on the centre manifold: after the others have died out, every second image moves by ``−2bξ³``."""
-    at = PAPER.replace(gamma=float(paper["period-doubling of B1,d"].enclosures["value"].low))
-    orbit = find_orbits(at)["B1,d"]
-    matrix = jacobian_at(Doubles.of(at), orbit.period, orbit.radial_speed)
-    values, vectors = np.linalg.eig(matrix)
-    q = vectors[:, np.argmin(abs(values + 1))].real
-    values, vectors = np.linalg.eig(matrix.T)
-    p = vectors[:, np.argmin(abs(values + 1))].real
-    p /= p @ q
-    centre = np.array([orbit.angle, orbit.radial_speed, orbit.angular_speed])
-    place, images = centre + 0.02 * q, []
-    for _ in range(80):
-        image = impact_map(orbit.rotor, Section(*place)).image
-        place = np.array([image.angle, image.radial_speed, image.angular_speed])
-        images.append(p @ (place - centre))
-    pairs = np.array(images[40::2])
-    found = np.mean(np.diff(pairs) / (-2 * pairs[:-1] ** 3))
-
-    b = paper["period-doubling of B1,d supercritical"].enclosures["b"].value
-    assert found == pytest.approx(b, rel=0.04)  # 3.4 % of the next order at these distances
-
-
-def test_supercritical_orbit_of_twice_the_period_is_born_where_it_is_said():
-    """Beside the theorem: below the period doubling the simulated motion settles on two impacts a period."""
-    at = PAPER.replace(gamma=0.0833)
-    orbit = find_orbits(at)["B1,d"]
-    assert not orbit.stable
-    # A nudge off the repelling orbit, on which rounding alone may keep it.
-    start = cm.State(orbit.departure.position, orbit.departure.velocity * (1.0 + 1e-9))
-    log = cm.simulate(orbit.rotor, start, 12_000.0).contacts
-    assert abs(log.radial_speed[-1] - log.radial_speed[-3]) < 1e-9
-    assert abs(log.radial_speed[-1] - log.radial_speed[-2]) > 1e-3
-
-
 def test_points_of_random_machines_agree_with_double_precision():
     random, agreed = np.random.default_rng(8), 0
     for along in ("mu", "omega", "gamma", "rho", "d")[: sized(2, 1, 5)] * sized(1, 1, 30):
@@ -191,13 +152,6 @@ def test_speed_grows_from_the_non_smooth_hopf_point_with_the_slope_that_is_told(
         slope = paper[f"non-smooth-hopf of {name} transversal"].enclosures["speed_slope"].value
         speeds = [find_orbits(PAPER.replace(gamma=point + step))[name].radial_speed for step in (-1e-6, 1e-6)]
         assert (speeds[1] - speeds[0]) / 2e-6 == pytest.approx(slope, rel=1e-4)
-
-
-def test_criticality_is_not_told_where_balls_are_wide():
-    line = line_of(hypotheses_of(DECIMAL), "gamma", "0.08", "0.09")
-    course = Course(Return(line.at(arb("0.0834 +/- 0.001")), arb("2.995 +/- 0.01")), arb("0.69 +/- 0.01"))
-    found = flip_coefficient(course)
-    assert not found.is_finite() or found.contains(0)
 
 
 def test_certificate_of_points_is_verified_and_refused_when_changed():

@@ -198,42 +198,6 @@ def test_physical_parameters_have_units():
     assert "1400 N s/m <= damping <= 1400.5 N s/m" in stable.statement
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "kinds", "point", "attribute"),
-    [
-        ("0.08338", "0.083383", ["period doubling of B1,d"], "0.083381417512480910", "stable"),
-        ("0.072468", "0.0724695", ["birth of B1,a", "birth of B1,b"], "0.072468678667097981", "admissible"),
-    ],
-)
-def test_open_interval_around_a_point_has_exactly_one_change(low, high, kinds, point, attribute):
-    claims = ranges(DECIMAL, "gamma", low, high, blocks=2, narrowest="1/2")
-
-    for kind in kinds:
-        claim = next(claim for claim in claims if claim.kind == kind)
-        value = claim.enclosures["value"]
-        assert claim.status == "proven"
-        assert "for all larger values" in claim.statement
-        assert "but it crosses" not in claim.statement
-        assert Fraction(value.low) < Fraction(point) < Fraction(value.high)
-        name = kind[-4:]
-        ends = [float(end) for end in claim.about.partition("[")[2][:-1].split(", ")]
-        # Next to a birth the peer in double precision cannot tell a motion of speed 1e-10 from grazing.
-        # Next to a birth the search in double precision cannot tell a motion of speed 1e-10 from grazing.
-        for place, holds in (
-            (ends[0], False),
-            (float(point) - 2e-7, False),
-            (float(point) + 2e-7, True),
-            (ends[1], True),
-        ):
-            assert getattr(find_orbits(PAPER.replace(gamma=place))[name], attribute) is holds
-
-
-def test_nothing_is_said_of_changes_at_a_fold():
-    claims = ranges(DECIMAL, "gamma", "0.17802772", "0.17802773", blocks=2, narrowest="1/2")
-    assert {claim.status for claim in claims if claim.kind == "orbits"} == {"undecided"}
-    assert not any(claim.kind.startswith(("birth", "period doubling")) for claim in claims)
-
-
 def test_longest_period_of_a_block_bounds_that_of_every_machine_in_it():
     line = line_of(hypotheses_of({**DECIMAL, "omega": "1", "mu": "5"}), "gamma", "0.5", "2.2")
     with at_precision(64):

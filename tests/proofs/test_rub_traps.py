@@ -15,8 +15,8 @@ from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.patches import Held, Patch
 from carom.proofs.rotor import Rotor
-from carom.proofs.rub_balls import Rub
 from carom.proofs.rub_traps import Bounces, ends_in_rub
+from carom.proofs.rubs import Rub
 
 NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
 PAPER = dict(zip(NAMES, (0.3, 0.76, 3 / 7, 0.0, 0.15, 0.95, 57.0), strict=True))

@@ -9,9 +9,8 @@
 ``single_impact``   orbits with one impact a period: existence, course, stability
 ``slip``            no orbit stops its slip
 ``steady``          levitation, rubs, harmless kicks
-``rub_balls``       a ball around a rub from which slides and bounces decay to it
+``rubs``            what acts along the wall next to a rub
 ``whirl``           rolling and slides in backward whirl, and where there are none
-``whirl_lines``     the same for an interval of a parameter
 ``runs``            parts of such an interval as a claim
 ``series``          functions of balls and of power series of balls
 ``courses``         orbits with one impact a period with their derivatives
@@ -19,10 +18,8 @@
 ``lines``           numbers of the equations; machines that differ in one
 ``blocks``          an orbit on an interval of a parameter, by mean value forms
 ``block_orbits``    all orbits on such an interval
-``crossings``       the one change inside an open interval
 ``ranges``          claims about an interval of a parameter
 ``points``          bifurcation points along a parameter
-``criticality``     whether a period doubling is super- or subcritical
 ``flights``         whether a flight stays inside the wall
 ``words``           motions with several impacts a period, by shooting
 ``several_impacts`` claims about them
@@ -45,7 +42,7 @@
 ``plain_flights``   flights in double precision
 ``gaps``            parts of a box on which something is open
 ``kick_box_claims`` claims about kicks of boxes of machines
-``steady_lines``    levitation, rubs and harmless kicks along a parameter
+``steady_lines``    levitation, rubs, whirl and harmless kicks along a parameter
 ``starts``          how a disturbance takes a rotor out of levitation
 ``families``        kicks, shocks and steps of the unbalance: sizes and words
 ``kick_cells``      a disc of kicks, or of others, as cells that halve one another

@@ -17,7 +17,7 @@ so are the zeros of the derivative of the characteristic polynomial (Gauss, Luca
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -207,15 +207,7 @@ def branches_on(block: Block, cells: Sequence[Cell]) -> list[Branch]:
 
 def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
     """All orbits on a block, with what holds for each on all of it; :class:`OpenError` if their number is not decided."""
-    return [_fact(*found) for found in orbit_branches_on(block, cells)]
-
-
-def orbit_branches_on(block: Block, cells: Sequence[Cell]) -> Iterator[tuple[str, OrbitBranch, bool]]:
-    """All orbits on a block: name, orbit as a function of the parameter, and whether ``det(1 − J)`` is positive.
-
-    Raises :class:`OpenError` if their number is not decided.
-    """
-    branches = branches_on(block, cells)
+    branches, found = branches_on(block, cells), []
     for count, branch in enumerate(branches, bool(branches) and branches[0].rising):
         discriminant = branch.along(lambda back: back.discriminant)
         if discriminant < 0:
@@ -224,10 +216,12 @@ def orbit_branches_on(block: Block, cells: Sequence[Cell]) -> Iterator[tuple[str
             raise OpenError("two radial speeds of one period may meet")
         for faster in (False, True):
             name = f"B{count // 2 + 1},{'abcd'[branch.rising + 2 * faster]}"
-            yield name, OrbitBranch(branch, faster), branch.rising is faster
+            found.append(_fact(name, OrbitBranch(branch, faster), branch.rising is faster))
+    return found
 
 
 def _fact(name: str, orbit: OrbitBranch, positive: bool) -> OrbitFact:
+    """What holds for an orbit; ``positive`` says whether ``det(1 − J)`` is."""
     instability, reason = instability_of(orbit, positive), why_virtual(orbit)
     admissible, stable = (None if why is None else not why for why in (reason, instability))
     return OrbitFact(name, admissible, stable, reason or "", instability or "", orbit.branch.period, orbit.speed)

@@ -263,8 +263,4 @@ class OrbitBranch:
 
     def along(self, function: Callable[[Course], Any]) -> Any:
         """Enclosure of a function of the orbit on the block."""
-        return self.over(function)[0]
-
-    def over(self, function: Callable[[Course], Any]) -> tuple[Any, Any, Any]:
-        """Enclosures of a function of the orbit on the block, of its slope and of half of its second derivative."""
-        return enclosed(self.branch.block, self.near, self.far, function)
+        return enclosed(self.branch.block, self.near, self.far, function)[0]

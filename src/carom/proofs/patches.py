@@ -29,7 +29,7 @@ from flint import acb, arb
 from carom.proofs.lines import Numbers
 from carom.proofs.moments import FORM, UNIT, Moment, Wave, Waves
 from carom.proofs.plain_flights import PlainRotor
-from carom.proofs.rub_balls import Rub
+from carom.proofs.rubs import Rub
 from carom.proofs.series import I, hyperbolic
 from carom.proofs.sides import Side, responses_by
 from carom.proofs.starts import Blow, Plain, Response, Start

@@ -20,7 +20,6 @@ from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.courses import Course, Return
-from carom.proofs.criticality import flip_coefficient
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.krawczyk import System, box_of, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
@@ -255,14 +254,12 @@ class Point:
 
 
 def _nature(point: Point) -> list[Claim]:
-    """Claims about transversality, criticality and the motion at a point."""
+    """Claims about transversality and the motion at a point."""
     if "period" not in point.at:
         return _steady_claims(point)
     claims = {"fold": _fold_claims, "speed-fold": _speed_fold_claims, "non-smooth-hopf": _shrinking_claims}.get(
         point.kind, _crossing_claims
     )(point)
-    if point.kind == "period-doubling":
-        claims += _flip_claims(point)
     if point.kind == "neimark-sacker":
         claims.append(_torus_claim(point))
     return [*claims, _motion_claim(point)]
@@ -331,37 +328,6 @@ def _fold_claims(point: Point) -> list[Claim]:
     words = f"It is a quadratic fold: d2F1/dT2 and the derivative of F1 by {name} are not zero. Both periods exist for "
     words += f"{both} values of {name} next to it, and none for {none} ones."
     return [point.claim("transversal", words, abs(side), "a derivative may vanish", curvature=curve, slope=push)]
-
-
-def _flip_claims(point: Point) -> list[Claim]:
-    trace, _, determinant = point.course.invariants
-    # The other two multipliers have the sum τ + 1 and the product −D.
-    total, product = trace + 1, -determinant
-    signs = [decided(x) for x in (1 - total + product, 1 + total + product, 1 - product, 1 + product)]
-    others = min(signs)
-    coefficient = flip_coefficient(point.course)
-    # The normal form needs that no other multiplier is on the unit circle.
-    sign = decided(coefficient) if 0 not in signs else 0
-    words = {1: "supercritical", -1: "subcritical", 0: "super- or subcritical"}[sign]
-    born = "unstable"
-    if sign > 0 and others > 0:
-        born = "born stable, as the other two multipliers lie inside the unit circle"
-    return [
-        point.claim(
-            "simple",
-            "The other two multipliers lie inside the unit circle.",
-            others,
-            "one of them is outside" if others < 0 else "whether they lie inside is open",
-        ),
-        point.claim(
-            words if sign else "critical",
-            f"It is {words}: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of "
-            f"twice the period next to it are {born}, as far as they stay inside the wall.",
-            abs(sign),
-            "the sign of b is open, or another multiplier may be on the unit circle",
-            b=coefficient,
-        ),
-    ]
 
 
 def _torus_claim(point: Point) -> Claim:

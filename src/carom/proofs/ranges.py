@@ -20,7 +20,6 @@ from carom.proofs.balls import at_precision, enclosure_of, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.crossings import crossing_claims
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
@@ -91,11 +90,7 @@ def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction
     claims = [slip, _all_claim(line, stretches, slip)]
     for name in sorted({fact.name for stretch in stretches for fact in stretch.facts or ()}):
         claims += _orbit_claims(line, name, stretches)
-    for stretch in stretches:
-        claims.append(_stretch_claim(line, stretch))
-        if stretch.reason:
-            claims += crossing_claims(line, stretch.low, stretch.high, stretch.ends)
-    return claims
+    return [*claims, *(_stretch_claim(line, stretch) for stretch in stretches)]
 
 
 # ------------------------------------------------------------------------------------------------ blocks

@@ -1,6 +1,6 @@
-"""Levitation, rubs and harmless kicks for all values of a parameter between two.
+"""Levitation, rubs, whirl in lasting contact and harmless kicks for all values of a parameter between two.
 
-As in :mod:`carom.proofs.whirl_lines` the interval is halved until the signs of :mod:`carom.proofs.steady` are decided for all values of a part.
+The interval is halved until the signs of :mod:`carom.proofs.steady` and of :mod:`carom.proofs.whirl` are decided for all values of a part, or the part is narrow.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure, decided, enclosure_of, interval
@@ -20,6 +20,7 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.runs import claim_of_runs, in_brackets, runs_along, written
 from carom.proofs.series import hull
 from carom.proofs.steady import harmless_speed, rub_discriminant, rub_force, wall_condition
+from carom.proofs.whirl import BACKWARD, drag_sign, rolling_sign
 
 _HALVED = 200
 """Parts of an interval that are halved to enclose the least harmless speed."""
@@ -33,24 +34,11 @@ def steady_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
     The rotor's own value of the parameter does not matter.
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
-    kinds: dict[tuple[str, str], tuple[str, Callable[[Numbers], bool | None]]] = {
-        ("levitation", "inside"): ("the contact-free equilibrium lies inside the wall, |U*| < 1", _levitates),
-        ("rub 1", "pressed"): (_words("larger"), partial(_is_pressed, side=1)),
-        ("rub 1", "attracts sliding"): (
-            "the rub of the larger normal force is a motion of the machine, and small disturbances along the wall die out",
-            _attracts,
-        ),
-        ("rub 2", "pressed"): (_words("smaller"), partial(_is_pressed, side=-1)),
-    }
     claims = [
         claim_of_runs(about, kind, f"For all {line.words}, {words}.", runs_along(line, holds))
-        for (about, kind), (words, holds) in kinds.items()
+        for about, kind, words, holds in _KINDS
     ]
     return [*claims, *_kick_claims(line)]
-
-
-def _words(which: str) -> str:
-    return f"there is a synchronous rub, with two normal forces in balance, and the wall pushes the rotor at the {which} of them"
 
 
 def _levitates(n: Numbers) -> bool | None:
@@ -73,30 +61,46 @@ def _attracts(n: Numbers) -> bool | None:
     return True if pressed and damped else None
 
 
+def _rolls(n: Numbers) -> bool | None:
+    sign = rolling_sign(n)
+    return sign > 0 if sign else None
+
+
+def _whirl_is_absent(n: Numbers) -> bool | None:
+    if drag_sign(n) == 1:
+        return True
+    return False if rolling_sign(n) == 1 else None
+
+
+_RUB = "there is a synchronous rub, with two normal forces in balance, and the wall pushes the rotor at the {} of them"
+_KINDS: tuple[tuple[str, str, str, Callable[[Numbers], bool | None]], ...] = (
+    ("whirl", "rolls", "the rotor can roll on the wall without slip, backward, for ever", _rolls),
+    ("whirl", "absent", BACKWARD, _whirl_is_absent),
+    ("levitation", "inside", "the contact-free equilibrium lies inside the wall, |U*| < 1", _levitates),
+    ("rub 1", "pressed", _RUB.format("larger"), partial(_is_pressed, side=1)),
+    (
+        "rub 1",
+        "attracts sliding",
+        "the rub of the larger normal force is a motion of the machine, and small disturbances along the wall die out",
+        _attracts,
+    ),
+    ("rub 2", "pressed", _RUB.format("smaller"), partial(_is_pressed, side=-1)),
+)
+"""What is claimed along a parameter: of what, its kind, in words, and whether it holds."""
+
+
 def _kick_claims(line: Line) -> list[Claim]:
     """Claims about harmless kicks: on all of the interval, or on the parts on which a speed is shown."""
     runs = runs_along(line, lambda n: True if harmless_speed(n) is not None else None)
     words = "the rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall"
+    shown = partial(claim_of, "kick", sign=1, limited=False)
     if not runs[None]:
-        return [
-            claim_of(
-                "kick",
-                "harmless",
-                f"For all {line.words}, {words}.",
-                1,
-                enclosures=_speeds(line, runs[True]),
-                limited=False,
-            )
-        ]
+        return [shown("harmless", f"For all {line.words}, {words}.", enclosures=_speeds(line, runs[True]))]
     claims = [claim_of_runs("kick", "harmless", f"For all {line.words}, a speed of harmless kicks is shown.", runs)]
     if runs[True]:
         where = " or ".join(in_brackets(written(*run, inward=True)) for run in runs[True])
         statement = f"For all {line.name} in {where}, {words}."
-        claims.append(
-            claim_of(
-                "kick", "harmless outside of gaps", statement, 1, enclosures=_speeds(line, runs[True]), limited=False
-            )
-        )
+        claims.append(shown("harmless outside of gaps", statement, enclosures=_speeds(line, runs[True])))
     return claims
 
 
@@ -116,36 +120,35 @@ def _least(line: Line, runs: Sequence[tuple[Fraction, Fraction]], *, scaled: boo
 
     It is at most the upper end of that of any part, and at least the least of all lower ends; the part with that is halved next.
     """
-    parts = [_Part(line, *run, scaled) for run in runs]
+    parts = [_Part.of(line, *run, scaled) for run in runs]
     above, halved = min(part.most for part in parts), 0
     heapq.heapify(parts)
     # Parts that are wider than those on which it is shown are halved in any case.
     while parts[0].low < parts[0].high and (halved < _HALVED or parts[0].least == -math.inf):
-        for half in heapq.heappop(parts).halves():
+        _, low, high, _ = heapq.heappop(parts)
+        middle = (low + high) / 2
+        for ends in ((low, middle), (middle, high)):
+            heapq.heappush(parts, half := _Part.of(line, *ends, scaled))
             above = min(above, half.most)
-            heapq.heappush(parts, half)
         halved += 1
     return hull(parts[0].least, above)
 
 
-class _Part:
+class _Part(NamedTuple):
     """Part of an interval with bounds of the harmless speed on it, in double precision outward."""
 
-    def __init__(self, line: Line, low: Fraction, high: Fraction, scaled: bool) -> None:
-        self.line, self.low, self.high, self.scaled = line, low, high, scaled
+    least: float
+    low: Fraction
+    high: Fraction
+    most: float
+
+    @classmethod
+    def of(cls, line: Line, low: Fraction, high: Fraction, scaled: bool) -> _Part:
+        """The bounds between two values."""
         value = interval(low, high)
         speed = harmless_speed(line.at(value))
-        self.least, self.most = -math.inf, math.inf
-        if speed is not None:
-            table = line.table(value) if scaled else {}
-            speed = speed * table["clearance"] * table["speed"] if scaled else speed
-            self.least, self.most = float(speed.lower()) * (1 - _ROUNDING), float(speed.upper()) * (1 + _ROUNDING)
-
-    def __lt__(self, other: _Part) -> bool:
-        """Whether the least speed on it may be the smaller one."""
-        return (self.least, self.low) < (other.least, other.low)
-
-    def halves(self) -> list[_Part]:
-        """Both halves."""
-        middle = (self.low + self.high) / 2
-        return [_Part(self.line, *ends, self.scaled) for ends in ((self.low, middle), (middle, self.high))]
+        if speed is None:
+            return cls(-math.inf, low, high, math.inf)
+        table = line.table(value) if scaled else {}
+        speed = speed * table["clearance"] * table["speed"] if scaled else speed
+        return cls(float(speed.lower()) * (1 - _ROUNDING), low, high, float(speed.upper()) * (1 + _ROUNDING))

@@ -20,14 +20,12 @@ from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
-from carom.proofs.rub_balls import rub_ball_claims
 from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
 from carom.proofs.steady import steady_claims
 from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
-from carom.proofs.whirl_lines import whirl_line_claims
 
 Options = Mapping[str, Any]
 MOST_PLACES = 4
@@ -57,10 +55,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
     slip = slip_claim(rotor.numbers, evidence)
-    steady = steady_claims(rotor)
-    attracts = any(claim.name == "rub 1 attracts sliding" and claim.status == "proven" for claim in steady)
-    balls = rub_ball_claims(rotor, evidence) if attracts else []
-    claims = [*steady, *balls, *whirl_claims(rotor), _periods_claim(rotor, periods), slip]
+    claims = [*steady_claims(rotor), *whirl_claims(rotor), _periods_claim(rotor, periods), slip]
     admissible, doubts = [], []
     if not periods.complete:
         doubts.append("not all periods are known")
@@ -121,7 +116,7 @@ THEOREMS: Mapping[str, Theorem] = {
         (
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
-            "that a rub attracts what begins outside of the ball that is told",
+            "which disturbances end in a rub",
             "which slides and whirls repeat that are not told, or that there is no whirl that bounces",
         ),
         ("longest_period", "cells"),
@@ -142,7 +137,6 @@ THEOREMS: Mapping[str, Theorem] = {
         lambda rotor, evidence, options: [
             *point_claims(rotor, evidence, options),
             *range_claims(rotor, evidence, options),
-            *whirl_line_claims(rotor, options),
             *steady_line_claims(rotor, options),
         ],
         (

@@ -16,9 +16,8 @@ the same interval.  At its fixed points the slope is ``exp −∮(2μw − γ)/(
 is exactly one; other slides leave the interval.
 
 *None.*  ``docs/theory/proofs.md`` shows: with ``γ ≥ 0`` and ``γs > μA`` no motion on the wall that whirls backward all the time
-repeats after a turn.  If ``ω² + ρ ≥ 1`` too, a motion on the wall that repeats is a synchronous rub.  At ``ν`` times the speed of
-the shaft ``γ`` is ``γ/ν`` and ``ω²`` is ``ω²/ν²``: the first condition becomes ``ν < (γ + √(γ² + 4μ²ω²))/(2μs)``, for any unbalance,
-the second ``ν ≤ ω/√(1 − ρ)`` or ``ρ ≥ 1``.
+repeats after a turn.  At ``ν`` times the speed of the shaft ``γ`` is ``γ/ν`` and ``ω²`` is ``ω²/ν²``: the condition becomes
+``ν < (γ + √(γ² + 4μ²ω²))/(2μs)``, for any unbalance.
 """
 
 from __future__ import annotations
@@ -35,10 +34,7 @@ from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 
 _NAMES = ("gamma", "omega_squared", "rho", "mu", "radius_ratio")
-_NEGATIVE, _NEITHER = "the argument needs damping that is not negative", "there is neither damping nor friction"
 BACKWARD = "no motion that is pressed on the wall and whirls backward all the time repeats after a turn"
-_AT_SPEEDS = "With its damping and stiffness, at every speed of the shaft"
-_BELOW = "below the lower end of share times the present one, "
 
 
 def whirl_claims(rotor: Rotor) -> list[Claim]:
@@ -49,11 +45,9 @@ def whirl_claims(rotor: Rotor) -> list[Claim]:
     return [
         rolls,
         _attraction_claim(rotor, exact),
-        _reached_claim(rotor, exact),
-        _constant_slide_claim(rotor, exact),
         *slips,
         _absence_claim(rotor, exact, rolls.status == "proven", repeats),
-        *_speed_claims(rotor, exact),
+        _below_claim(rotor, exact),
     ]
 
 
@@ -113,11 +107,9 @@ def drag_sign(n: Numbers) -> int | None:
     return 1 if not_negative and excess == 1 else None
 
 
-def _claim(
-    rotor: Rotor, kind: str, statement: str, sign: int | None, reason: str = "", *, more: bool = False, **balls: Any
-) -> Claim:
-    """Claim about whirl.  More bits may decide it where the sign is ``None``, or on request where it is 0."""
-    limited = rotor.hypotheses.exact and (sign is None or more)
+def _claim(rotor: Rotor, kind: str, statement: str, sign: int | None, reason: str = "", **balls: Any) -> Claim:
+    """Claim about whirl.  More bits may decide it where the sign is ``None``."""
+    limited = rotor.hypotheses.exact and sign is None
     told = reason or ("the sign of a condition is open" if sign is None else "")
     numbers = enclosures_of(**balls) if sign == 1 else {}
     return claim_of("whirl", kind, statement, sign or 0, reason=told, enclosures=numbers, limited=limited)
@@ -165,63 +157,6 @@ def sustaining_speed(n: Numbers, pull: Any) -> Any:
     return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + pull)).sqrt()) / (2 * n.mu)
 
 
-def _reached_claim(rotor: Rotor, exact: Numbers) -> Claim:
-    """At ``w = s`` slides gain at most ``μA − γs + p``, namely where ``cos x = μ/√(1 + μ²)``."""
-    n, force = exact, rolling_force(exact)
-    need = n.gamma * n.radius_ratio - n.mu * force
-    against = _against_pull(need, n)
-    apart = sign_of(force + n.rho)
-    pushed = decided(
-        rolling_force(rotor.numbers) + rotor.numbers.rho * rotor.numbers.mu / (1 + rotor.numbers.mu**2).sqrt()
-    )
-    sign: int | None = 0
-    if against == 1 or apart == -1:
-        sign, reason = (
-            -1,
-            "damping outweighs friction at every angle" if against == 1 else "the wall cannot push so fast a whirl",
-        )
-    elif against is None or apart is None:
-        sign, reason = None, ""
-    elif against == -1 and pushed == 1:
-        sign, reason = 1, ""
-    else:
-        reason = (
-            "damping and friction balance" if against == 0 else "the wall may not push where friction feeds the whirl"
-        )
-    return _claim(
-        rotor,
-        "reached by sliding",
-        "Sliding can run away: some motion on the wall with forward slip gains speed of backward whirl until its slip ends.",
-        sign,
-        reason,
-    )
-
-
-def _constant_slide_claim(rotor: Rotor, exact: Numbers) -> Claim:
-    """Without unbalance ``h(w) = 0``, or ``−γw = μ(w² − ω²)`` where slip is backward; with it there is none."""
-    statement = "The rotor can slide on the wall in backward whirl at a constant speed, pressed by it."
-    balanced, damping, friction = (sign_of(v) for v in (exact.rho, exact.gamma, exact.mu))
-    n = rotor.numbers
-    if balanced == 1:
-        return _claim(rotor, "slips steadily", statement, -1, "unbalance changes its speed within each turn")
-    if None in (balanced, damping, friction):
-        return _claim(rotor, "slips steadily", statement, None)
-    if friction == 0 or damping == 0:
-        free = friction == damping
-        return _claim(
-            rotor,
-            "slips steadily",
-            statement,
-            1 if free else -1,
-            "" if free else "the forces along the wall do not balance",
-        )
-    room = sign_of(exact.mu * rolling_force(exact) - abs(exact.gamma) * exact.radius_ratio)
-    sign = None if room is None else 1 if room == damping else -1
-    speed = (abs(n.gamma) + (n.gamma * n.gamma + 4 * n.mu * n.mu * n.omega_squared).sqrt()) / (2 * n.mu)
-    reason = "its slip would have the other direction" if sign == -1 else ""
-    return _claim(rotor, "slips steadily", statement, sign, reason, speed=speed)
-
-
 def _slide_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
     """Claim about a slide that repeats; none where unbalance may take it off the wall, to rolling, or to rest."""
     claim = partial(
@@ -257,70 +192,20 @@ def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool, slips: bool) -> Cl
     return _claim(rotor, "absent", statement, 0 if sign == -1 else sign, reason)
 
 
-def _speed_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
-    """Claims for all speeds of the shaft below or above one."""
+def _below_claim(rotor: Rotor, exact: Numbers) -> Claim:
+    """Claim for all speeds of the shaft below a share of the present one; for all speeds without friction."""
     n, damping, friction = rotor.numbers, sign_of(exact.gamma), sign_of(exact.mu)
-    words = {
-        "absent below": f"{BACKWARD}.",
-        "only rubs below": "every motion on the wall that repeats, pressed all the time, is a synchronous rub.",
-    }
-    above = _rolls_above_claim(rotor, exact)
-    if damping == -1 or (damping == 0 and friction == 0):
-        reason = _NEGATIVE if damping else _NEITHER
-        statements = {kind: f"{_AT_SPEEDS} {_BELOW}{told}" for kind, told in words.items()}
-        return [*(_claim(rotor, kind, told, 0, reason) for kind, told in statements.items()), above]
-    # Without friction there is no such speed.
-    share = None if friction == 0 else still_share(n)
-    light = _light_share(n, exact)
-    least = light if share is None else share if light is None else share.min(light)
-    shares = zip(words.items(), (share, least), strict=True)
-    return [*(_below(rotor, kind, told, found) for (kind, told), found in shares), above]
-
-
-def still_share(n: Numbers) -> Any:
-    """``(γ + √(γ² + 4μ²ω²))/(2μs)``, the share of the shaft's speed below which no backward whirl repeats, as a ball."""
-    return sustaining_speed(n, 0) / n.radius_ratio
-
-
-def _light_share(n: Numbers, exact: Numbers) -> Any | None:
-    """``ω/√(1 − ρ)``; ``None`` if there is no such limit."""
-    if sign_of(exact.rho - 1) in (0, 1):
-        return None
-    return (n.omega_squared / (1 - n.rho)).sqrt()
-
-
-def _below(rotor: Rotor, kind: str, words: str, share: Any | None) -> Claim:
-    """Claim for all speeds of the shaft below a share of the present one; for all speeds if it is ``None``."""
-    if share is None:
-        return _claim(rotor, kind, f"{_AT_SPEEDS} {words}", 1)
-    shown = rotor.numbers.gamma >= 0 and share.is_finite() and share > 0
-    return _claim(rotor, kind, f"{_AT_SPEEDS} {_BELOW}{words}", 1 if shown else None, **_speeds(rotor, share))
-
-
-def _rolls_above_claim(rotor: Rotor, exact: Numbers) -> Claim:
-    """At ``ν`` times the speed rolling is held where ``(μs² − p)ν² − |γ|sν − μω² ≥ 0``."""
-    n = rotor.numbers
-    statement = (
-        f"{_AT_SPEEDS} above the upper end of share times the present one the rotor can roll on the wall for ever."
-    )
-    against = _against_pull(exact.mu * exact.radius_ratio * exact.radius_ratio, exact)
-    if against in (0, -1):
-        return _claim(
-            rotor,
-            "rolls above",
-            statement,
-            against,
-            "friction is too weak at every speed" if against else "friction just balances the unbalance",
-        )
-    room, drag = n.mu * n.radius_ratio * n.radius_ratio - pull_of(n), abs(n.gamma) * n.radius_ratio
-    share = (drag + (drag * drag + 4 * room * n.mu * n.omega_squared).sqrt()) / (2 * room)
-    shown = against == 1 and share.is_finite()
-    return _claim(rotor, "rolls above", statement, 1 if shown else None, **_speeds(rotor, share))
-
-
-def _speeds(rotor: Rotor, share: Any) -> dict[str, Any]:
-    """A speed of the shaft as a share of the present one and, of a machine in SI units, in rad/s."""
-    given = rotor.hypotheses
-    if given.table != "machine":
-        return {"share": share}
-    return {"share": share, "speed_si": share * ball_of(read_exact(MACHINE_FIELDS["speed"], given.values["speed"]))}
+    words = "With its damping and stiffness, at every speed of the shaft"
+    below = f"{words} below the lower end of share times the present one, {BACKWARD}."
+    if damping == -1:
+        return _claim(rotor, "absent below", below, 0, "the argument needs damping that is not negative")
+    if damping == 0 and friction == 0:
+        return _claim(rotor, "absent below", below, 0, "there is neither damping nor friction")
+    if friction == 0:
+        return _claim(rotor, "absent below", f"{words} {BACKWARD}.", 1)
+    share = sustaining_speed(n, 0) / n.radius_ratio
+    numbers, given = {"share": share}, rotor.hypotheses
+    if given.table == "machine":
+        numbers["speed_si"] = share * ball_of(read_exact(MACHINE_FIELDS["speed"], given.values["speed"]))
+    shown = n.gamma >= 0 and share.is_finite() and share > 0
+    return _claim(rotor, "absent below", below, 1 if shown else None, **numbers)
