@@ -4,6 +4,7 @@ import io
 import sys
 import threading
 from types import SimpleNamespace
+from typing import ClassVar
 
 import pytest
 import rich.console
@@ -62,23 +63,22 @@ def test_a_sweep_reports_in_the_same_way(tmp_path):
 
 def test_true_shows_a_bar(monkeypatch):
     shown = []
-    monkeypatch.setattr(carom.progress, "_WATCH", AtOnce())
+    monkeypatch.setattr(carom.progress, "Timer", AtOnce)
     monkeypatch.setattr(rich.progress.Progress, "update", lambda _, task, **state: shown.append(state))
     assert carom.settle(PAPER, [0.1, 0.2j], [0.3, 0.4j], progress=True).outcomes.size == 2
     assert shown[-1] == {"completed": 1.0, "description": "following starts"}
 
 
 class AtOnce:
-    """A watch that does not wait, and keeps how long it was to."""
+    """A timer that does not wait, and keeps how long it was to."""
 
-    def __init__(self):
-        self.waits = []
+    waits: ClassVar[list[float]] = []
 
-    def begin(self, late, patience):
+    def __init__(self, patience, function):
         self.waits.append(patience)
-        late.appear()
+        self.start = function
 
-    def end(self, late):
+    def cancel(self):
         pass
 
 
@@ -92,7 +92,7 @@ def terminal(monkeypatch):
     """An error stream that someone watches, and bars that appear at once."""
     monkeypatch.delenv("CAROM_PROGRESS", raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(carom.progress, "_WATCH", AtOnce())
+    monkeypatch.setattr(carom.progress, "Timer", AtOnce)
     stream = Terminal()
     # Not the stream itself, which pytest sets anew before the test.
     monkeypatch.setattr(carom.progress, "sys", SimpleNamespace(stderr=stream, modules=sys.modules))
@@ -120,9 +120,10 @@ def test_where_someone_watches_one_bar_appears_by_itself_and_leaves_nothing(term
 
 
 def test_a_bar_that_was_not_asked_for_waits_longer(terminal):
+    AtOnce.waits.clear()
     outer()
     outer(progress=True)
-    assert carom.progress._WATCH.waits == [2.0, 0.7]
+    assert AtOnce.waits == [2.0, 0.7]
 
 
 def test_a_bar_ends_where_its_function_fails(terminal):
@@ -193,29 +194,16 @@ def test_a_bar_appears_after_a_moment_and_shows_words_as_they_are(monkeypatch):
     assert "drawing [bold]" in screen.file.getvalue()
 
 
-def test_short_functions_start_no_threads_of_their_own(monkeypatch, terminal):
-    started, start_thread = [], threading.Thread.start
-    monkeypatch.setattr(threading.Thread, "start", lambda thread: (started.append(thread), start_thread(thread)))
-    monkeypatch.setattr(carom.progress, "_WATCH", carom.progress._Watch())
+def test_short_functions_show_nothing_and_leave_no_thread(monkeypatch, terminal):
+    monkeypatch.setattr(carom.progress, "Timer", threading.Timer)
+    before = threading.active_count()
     for _ in range(5):
         outer()
-    assert len(started) == 1
     assert terminal.getvalue() == ""
-
-
-def test_the_watch_ends_when_nobody_waits_and_begins_again(monkeypatch):
-    watch = carom.progress._Watch()
-    monkeypatch.setattr(carom.progress, "_WATCH", watch)
-    monkeypatch.setattr(carom.progress, "_PAUSE", 0.001)
-    monkeypatch.setattr(carom.progress, "PATIENCE", 0.0)
-    for _ in range(2):
-        shown = threading.Event()
-        monkeypatch.setattr(carom.progress._LateBar, "appear", lambda late, shown=shown: shown.set())
-        with bar("loading"):
-            thread = watch._thread
-            assert shown.wait(60)
-        thread.join(60)
-        assert not thread.is_alive()
+    for thread in threading.enumerate():
+        if isinstance(thread, threading.Timer):
+            thread.join(10)
+    assert threading.active_count() == before
 
 
 def test_parts_report_shares_of_the_whole():

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import wraps
 from html import escape
 from multiprocessing import current_process
+from threading import Timer
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
@@ -27,9 +28,7 @@ PATIENCE = 0.7
 LONG = 2.0
 """Seconds before one appears that was not."""
 _PAUSE = 0.1
-"""Seconds between two changes of a bar in a notebook, and between two looks at the clock."""
-_IDLE = 20
-"""Looks in a row after which nobody waits for a bar any more."""
+"""Seconds between two changes of a bar in a notebook."""
 _CLOCK = len("0:00:00")
 _SETTLED = 1.0
 """Seconds after which a rate means something."""
@@ -143,26 +142,27 @@ def bar(step: str, console: Console | None = None, patience: float | None = None
 
     `step` is the first step, in words.  By default the console is the error stream, or the notebook.
     """
-    late = _LateBar(step, console)
+    late = _LateBar(step, console, PATIENCE if patience is None else patience)
     before = _inside.set(True)
-    _WATCH.begin(late, PATIENCE if patience is None else patience)
     try:
         yield Reporter(late.tell)
     finally:
         _inside.reset(before)
-        _WATCH.end(late)
         late.end()
 
 
 class _LateBar:
-    """A bar that is made when it appears; until then it only knows the newest report."""
+    """A bar that is made when it appears, after some seconds; until then it only knows the newest report."""
 
-    def __init__(self, step: str, console: Console | None) -> None:
+    def __init__(self, step: str, console: Console | None, patience: float) -> None:
         self._newest, self._console, self._began = Progress(0.0, step), console, time.monotonic()
         self._lock, self._ended = threading.Lock(), False
         self._shown: _Terminal | _Notebook | None = None
+        self._timer = Timer(patience, self._appear)
+        self._timer.daemon = True
+        self._timer.start()
 
-    def appear(self) -> None:
+    def _appear(self) -> None:
         with self._lock:
             if not self._ended:
                 notebook = self._console is None and _in_notebook()
@@ -176,54 +176,11 @@ class _LateBar:
                 self._shown.show(report)
 
     def end(self) -> None:
+        self._timer.cancel()
         with self._lock:
             self._ended = True
             if self._shown is not None:
                 self._shown.close()
-
-
-class _Watch:
-    """The thread in which bars appear: one for all, since to start one takes as long as to follow a short motion.
-
-    It looks at the clock while bars wait, and ends once none has waited for a while.
-    """
-
-    def __init__(self) -> None:
-        self._waiting: dict[_LateBar, float] = {}
-        self._lock = threading.Lock()
-        self._thread: threading.Thread | None = None
-
-    def begin(self, late: _LateBar, patience: float) -> None:
-        """Let a bar appear after this many seconds."""
-        with self._lock:
-            self._waiting[late] = time.monotonic() + patience
-            # A thread does not live on in a process that was forked.
-            if self._thread is None or not self._thread.is_alive():
-                self._thread = threading.Thread(target=self._run, name="carom progress", daemon=True)
-                self._thread.start()
-
-    def end(self, late: _LateBar) -> None:
-        """Let a bar appear no more."""
-        with self._lock:
-            self._waiting.pop(late, None)
-
-    def _run(self) -> None:
-        idle = 0
-        while idle < _IDLE:
-            now = time.monotonic()
-            with self._lock:
-                due = [late for late, when in self._waiting.items() if when <= now]
-                for late in due:
-                    del self._waiting[late]
-                idle = 0 if self._waiting else idle + 1
-                if idle == _IDLE:
-                    self._thread = None
-            for late in due:
-                late.appear()
-            time.sleep(_PAUSE)
-
-
-_WATCH = _Watch()
 
 
 class _Terminal:

@@ -214,31 +214,18 @@ def test_wrong_usage(carom, machine, arguments, words):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (
-            ("basins", "MACHINE", "--peak", "20 g"),
-            "--peak = 20 g: allowed only with --disturbance shock, not with kick",
-        ),
-        (
-            ("basins", "MACHINE", "--disturbance", "shock", "--fastest", "1"),
-            "only with --disturbance kick or kick-plane or state",
-        ),
-        (("basins", "MACHINE", "--disturbance", "slice", "--fastest", "1"), "--fastest = 1: allowed only with"),
-        (("basins", "MACHINE", "--release", "fixed"), "--release = fixed: allowed only with --disturbance release"),
-        (("basins", "MACHINE", "--duration", "5 ms"), "--duration = 5 ms: allowed only with"),
         (("basins", "MACHINE", "--seed", "1"), "--seed = 1: allowed only for a sample"),
         (("basins", "MACHINE", "--plane", "gamma,omega"), "--plane = gamma,omega: allowed only with --gains NxM"),
         (("basins", "MACHINE", "--x", "1,2"), "--x = 1,2: allowed only with --gains"),
         (("basins", "MACHINE", "--y", "1,2"), "--y = 1,2: allowed only with --gains"),
         (("basins", "MACHINE", "--wanted", "0.9"), "--wanted = 0.9: allowed only with --gains"),
-        (("basins", "MACHINE", "--grid", "100000x100000"), "makes 10000000000 cells; at most 5000000 are allowed"),
         (("basins", "MACHINE", "--gains", "100000x100000"), "makes 10000000000 cells; at most 5000000 are allowed"),
-        (("basins", "MACHINE", "--grid", "0x5"), "must be 2 whole numbers of at least 1, such as 60x60"),
         (("basins", "MACHINE", "--gains", "1x5"), "must be 2 whole numbers of at least 2, such as 60x60"),
         (
             ("basins", "MACHINE", "--gains", "2x2", "--x", "3 N/m,3 N/m"),
             "--x = 3 N/m,3 N/m: must be two different values of stiffness",
         ),
-        (("basins", "MACHINE", "--fastest", "1 m"), "such as '50 mm/s'; 'm' is not a unit of velocity"),
+        (("basins", "MACHINE", "--kick", "1 m"), "such as '50 mm/s'; 'm' is not a unit of velocity"),
         (("bifurcations", "MACHINE", "--along", "speed", "--from", "1 m", "--to", "2"), "--from = 1 m: speed must be"),
         (
             ("bifurcations", "MACHINE", "--along", "speed", "--from", "1 rpm", "--to", "1.0 rpm"),

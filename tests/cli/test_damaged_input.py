@@ -309,8 +309,8 @@ LINES = (
     ("orbits", "MACHINE", "--set", "gamma=0.1"),
     ("simulate", "MACHINE", "--start", "0.3 mm,0,5 mm/s,0.1", "--until", "2 s"),
     ("simulate", "MACHINE", "--kick", "50 mm/s,30 deg"),
-    ("basins", "MACHINE", "--fastest", "50 mm/s", "--grid", "60x60"),
-    ("basins", "MACHINE", "--disturbance", "shock", "--peak", "20 g", "--duration", "5 ms", "--starts", "1000"),
+    ("basins", "MACHINE", "--kick", "50 mm/s", "--grid", "60x60"),
+    ("basins", "MACHINE", "--shock", "20 g, 5 ms", "--starts", "1000"),
     (
         "basins",
         "MACHINE",

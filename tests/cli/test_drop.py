@@ -95,7 +95,7 @@ def test_figures_and_a_page(carom, tmp_path):
         (("--race-speed", "500 rpm", "--set", "touchdown_race_inertia=0"), "touchdown_race_inertia = 0: must be"),
         (
             ("--whirl", "0.1 mm,80 Hz", "--kick", "5 mm/s"),
-            "the release = with --kick 5 mm/s with --whirl 0.1 mm,80 Hz: allowed alone, or with one of --start, --kick and --whirl",
+            "the release = with --kick 5 mm/s with --whirl 0.1 mm,80 Hz: allowed alone, or with one of --start, --kick, --whirl",
         ),
         (("--until", "-5 ms"), "--until = -5 ms: a finite time above 0"),
     ],
@@ -141,7 +141,7 @@ def test_a_map_for_people_and_as_json(carom, tmp_path):
     ("options", "said"),
     [
         (("--grid", "3x2"), "--grid = 3x2: allowed only with --map NAME,NAME"),
-        (("--map", "phase"), "--map = phase: must be two names with a comma between them, such as phase,speed"),
+        (("--map", "phase"), "--map = phase: must be two names with a comma between them"),
         (("--map", "phase,spede"), "did you mean speed?"),
         (("--map", "phase,speed", "--grid", "1x5"), "--grid = 1x5: must be 2 whole numbers of at least 2"),
         (("--map", "phase,speed", "--y", "8000,9000 rpm"), "--y = 8000: speed must be"),

@@ -120,7 +120,7 @@ def test_figures_of_both_stages(carom, tmp_path):
             ("simulate", "examples/source-paper.toml", "--drop", "--set", "gravity=9.81"),
             "gravity = 9.81: not allowed beside",
         ),
-        ((*DROP, "--shock", "5 g"), "--drop = with --shock 5 g: allowed alone, or with one of --start and --kick"),
+        ((*DROP, "--shock", "5 g"), "--drop = with --shock 5 g: allowed alone, or with one of --start, --kick"),
         (
             (*DROP, "--kick", "5 mm/s", "--start", "0,0,0,0"),
             "--drop = with --start 0,0,0,0 with --kick 5 mm/s: allowed",
@@ -192,7 +192,7 @@ def test_motions_on_which_disturbances_of_a_heavy_rotor_end_are_told(carom):
 
 def test_kicks_of_a_heavy_rotor_are_mapped(carom):
     found = document(
-        carom("basins", MACHINE, "--grid", "6x8", "--set", "damping=100 N s/m", "--fastest", "500 mm/s", "--json")
+        carom("basins", MACHINE, "--grid", "6x8", "--set", "damping=100 N s/m", "--kick", "500 mm/s", "--json")
     )
     assert found["starts"] == 48
     assert found["fractions"]["levitation"] > 0.2

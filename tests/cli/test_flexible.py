@@ -148,7 +148,7 @@ def test_a_sweep_over_what_is_no_parameter_gets_one_line(carom, tmp_path, change
 
 
 def test_gains_are_mapped_by_their_names(carom, tmp_path):
-    small = ("--grid", "1x2", "--fastest", "10 mm/s", "--set", "gravity=0", "--gains", "2x2")
+    small = ("--grid", "1x2", "--kick", "10 mm/s", "--set", "gravity=0", "--gains", "2x2")
     code, out, err = carom("basins", MACHINE, *small, "--x", "1000 A/m,5500 A/m", "--out", str(tmp_path / "out"))
     words = " ".join(out.split())
     assert code == 0
@@ -164,11 +164,12 @@ def test_gains_are_mapped_by_their_names(carom, tmp_path):
 def test_orbits_tell_steady_motions(carom):
     code, out, err = carom("orbits", MACHINE, "--set", "gravity=0", "--json")
     assert (code, err) == (0, "")
-    found = json.loads(out)["steady"]
+    found = json.loads(out)
     model = cm.load(MACHINE, ["gravity=0"]).parameters
-    assert [each["motion"] for each in found] == ["levitation", *["sliding backward whirl"] * 3]
-    held, whirl = found[:2]
-    assert (held["state"], held["touchdown_bearings"]) == ("stable", [])
+    (held,), whirls = found["equilibria"], found["whirls"]
+    assert (held["kind"], held["stable"], held["touchdown_bearings"]) == ("contact-free", True, [])
+    assert ([each["touchdown_bearing"] for each in whirls], found["orbits"]) == ([1, 1, 2], [])
+    whirl = whirls[0]
     assert held["radius_si"] == pytest.approx(model.system.rest_radius * model.scales.length)
     # Kept by a force that is that of the wall at this depth: 1e7 N/m.
     assert whirl["normal_force_si"] == pytest.approx(1e7 * (whirl["radius_si"] - 0.2e-3), rel=1e-6)
@@ -189,7 +190,7 @@ def test_an_unstable_levitation_is_one_line(carom):
 
 @pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])
 def test_basins_of_kicks(carom, settings):
-    kicks = ("--grid", "1x2", "--fastest", "10 mm/s", *settings)
+    kicks = ("--grid", "1x2", "--kick", "10 mm/s", *settings)
     code, out, _ = carom("basins", MACHINE, *kicks)
     assert code == 0
     assert "2 velocity kicks out of levitation" in out

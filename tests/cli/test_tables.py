@@ -10,7 +10,7 @@ from yielding_walls import with_walls
 
 import carom as cm
 from carom.cli.basin_tables import print_basin
-from carom.cli.drops import print_parts
+from carom.cli.motion_tables import print_parts
 from carom.cli.tables import _motions
 from carom.models import KelvinVoigt
 from carom.studies.summaries import MotionRow, State

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
+from carom.cli import options
+from carom.cli.options import flag, option
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import check_output, console, print_document, progress
 from carom.outcome import IRREGULAR_BOUNCING
 
 if TYPE_CHECKING:
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from carom.parameters import Case
 
 
+STARTS = option("N", "Number of disturbances to follow.", default=200, min=1, max=1_000_000)
+EXPONENTS = flag("--exponents", "Show all Lyapunov exponents, with their standard errors.")
+
+
 def attractors(
-    machine: MachineFile,
-    settings: Settings = None,
-    starts: Annotated[
-        int, typer.Option(metavar="N", min=1, max=1_000_000, help="Number of disturbances to follow.")
-    ] = 200,
-    seed: Annotated[int, typer.Option(metavar="S", min=0, help="Seed of the disturbances.")] = 0,
-    exponents: Annotated[
-        bool, typer.Option("--exponents", help="Show all Lyapunov exponents, with their standard errors.")
-    ] = False,
-    out: Out = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    starts: int = STARTS,
+    seed: int | None = options.SEED,
+    exponents: bool = EXPONENTS,
+    out: str | None = options.OUT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """List the motions on which disturbances end: rest, rub, periodic orbits and irregular bouncing.
 
@@ -44,7 +44,7 @@ def attractors(
         from carom.studies.document import attractors_document
 
         fastest = case.requirement.own(case.parameters.scales).kick
-        found = find_attractors(case, count=starts, seed=seed, fastest=fastest, progress=tell)
+        found = find_attractors(case, count=starts, seed=seed or 0, fastest=fastest, progress=tell)
         known = [exponents_of(case, entry) for entry in found]
         document = attractors_document(rotor_of(case), found, known if exponents else None) if as_json or out else {}
         if out is not None:

@@ -4,40 +4,76 @@ from __future__ import annotations
 
 import hashlib
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from carom.cli import basin_options as options
+from carom.cli import options
+from carom.cli.options import option
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import check_output, console, print_document, progress
+from carom.outcome import InputError
 
 if TYPE_CHECKING:
-    from carom.basins import GainChange, GainMap
-    from carom.disturbances import Plan
-    from carom.models import Rotor
-    from carom.progress import Reporter
+    from carom.disturbances import Disturbance, Plan
+    from carom.parameters import Case
+
+CELLS, RELEASES, STARTS = 60, 360, 10_000
+MOST_STARTS = 5_000_000
+"""More would not fit into the memory of a common computer; use a sweep for larger sets."""
+_OTHERS = {
+    "kick-plane": "SPEED",
+    "state": "SPEED",
+    "release": "fixed|rotating|rolling",
+    "slice": "",
+}
+"""Kinds of disturbances without an option of their own, and what may follow them."""
+KICK = option(
+    "SPEED",
+    "Kicks up to this speed in all directions, such as '50 mm/s'; by default up to the one to be survived: stated in [survive], or of a fall "
+    "through the clearance.",
+)
+SHOCK = option(
+    "PEAK[,DURATION]", "Half-sine shocks of the base in all directions with peaks up to this, such as '20 g, 5 ms'."
+)
+BLADE_LOSS = option(
+    "CHANGE[,0,NODE]",
+    "Losses of a blade at all phases that change the unbalance by this, such as '5000 g mm' or '0.1 mm', of a flexible machine at a node: "
+    "'5000 g mm, 0, 7'.",
+)
+OTHERS = option(
+    "KIND[,SIZE]",
+    "Other disturbances: kick-plane or state up to a speed, such as 'state, 50 mm/s'; release from the wall, fixed (the default), rotating or "
+    "rolling, such as 'release, rolling'; slice, released at rest anywhere.",
+    "--disturbance",
+)
+GRID = option("NxM", "Cells of size and direction, or of x and y; N for releases and losses of a blade.")
+SAMPLE = option("N", "Instead of a grid: a seeded sample of this size.")
+GAINS = option("NxM", "Map the share that comes back over two parameters.")
+PLANE = option(
+    "NAME,NAME",
+    "With --gains: the two parameters, by default stiffness,damping, of a flexible machine proportional,derivative; or what a machine file "
+    "states them by, such as proportional_gain,derivative_gain.",
+)
+WANTED = option("SHARE", "With --gains: share that must come back after the least change; by default 0.99.")
 
 
 def basins(
-    machine: MachineFile,
-    settings: Settings = None,
-    disturbance: options.Kind = "kick",
-    grid: options.Cells = None,
-    instant: options.Instant = None,
-    starts: options.Starts = None,
-    seed: options.Seed = None,
-    fastest: options.Fastest = None,
-    peak: options.Peak = None,
-    duration: options.Duration = None,
-    change: options.Change = None,
-    node: options.Node = None,
-    release: options.Release = None,
-    gains: options.GainsWanted = None,
-    plane: options.Plane = None,
-    x: options.FirstRange = None,
-    y: options.SecondRange = None,
-    wanted: options.Wanted = None,
-    out: Out = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    kick: str | None = KICK,
+    shock: str | None = SHOCK,
+    blade_loss: str | None = BLADE_LOSS,
+    disturbance: str | None = OTHERS,
+    grid: str | None = GRID,
+    instant: str | None = options.INSTANT,
+    starts: int | None = SAMPLE,
+    seed: int | None = options.SEED,
+    gains: str | None = GAINS,
+    plane: str | None = PLANE,
+    x: str | None = options.FIRST_RANGE,
+    y: str | None = options.SECOND_RANGE,
+    wanted: float | None = WANTED,
+    out: str | None = options.OUT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.
 
@@ -45,44 +81,50 @@ def basins(
     dimensionless. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
     """
     with progress("loading") as tell:
+        from carom.cli.starts import read_cells, read_plane, refuse_without
         from carom.loading import load
 
         case = load(machine, settings or ())
-        sizes = {
-            "fastest": fastest,
-            "peak": peak,
-            "duration": duration,
-            "change": change,
-            "node": node,
-            "release": release,
-        }
-        plan = options.at_instant(options.read_plan(case, disturbance, sizes, grid, starts, seed), instant, case)
-        asked = options.read_gains(case, gains, plane, x, y, wanted)
-        check_output(out)
-        source = _source(machine, settings)
-        from carom.basins import map_basins, smallest_loss
+        ways = {"--kick": kick, "--shock": shock, "--blade-loss": blade_loss, "--disturbance": disturbance}
+        plan = _plan(case, _model(case, ways), grid, starts, seed, instant)
+        if gains is None:
+            refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y, "--wanted": wanted})
+        from carom.basins import least_gain_change, map_basins, map_gains, smallest_loss
+        from carom.basins.changes import WANTED
         from carom.basins.document import basin_document
         from carom.basins.families import has_sizes
+        from carom.basins.gains import usual_gains
         from carom.closed_forms import harmless_kick
         from carom.models import rotor_of
 
-        rotor, share = rotor_of(case), 0.45 if asked is None else 0.2
+        rotor, share = rotor_of(case), 0.45
+        if gains is not None:
+            share, wanted = 0.2, WANTED if wanted is None else wanted
+            shape = read_cells("--gains", gains, 2, least=2, most=MOST_STARTS)
+            if not 0.0 < wanted <= 1.0:
+                raise InputError("--wanted", wanted, "must be a share above 0 and at most 1, such as 0.99")
+            asked = read_plane(case, "--plane", plane or ",".join(usual_gains(rotor)), x, y)
+        check_output(out)
+        source = _source(machine, settings)
         step = tell.part(0.0, share, f"following {plan.count} starts")
         basin = map_basins(rotor, plan, source=source, progress=step)
         harmless, smallest = harmless_kick(rotor), None
         if harmless > 0.0 and has_sizes(plan.model):
             smallest = smallest_loss(rotor, plan.model, progress=tell.part(share, 2.0 * share))
-        found, least = (None, None) if asked is None else _map(rotor, plan, asked, source, tell)
-        if found is None or asked is None:
-            document = basin_document(basin, smallest, harmless)
-        else:
-            document = basin_document(basin, smallest, harmless, found, least, asked.wanted, asked.told_by)
+        over: tuple[Any, ...] = ()
+        if gains is not None:
+            ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.9)}
+            found, least = map_gains(rotor, plan, asked.names, **ways_of), None  # type: ignore[arg-type]
+            if all(found.present):
+                least = least_gain_change(found, wanted, progress=tell.part(0.9, 0.97))
+            over = (found, least, wanted, asked.told_by)
+        document = basin_document(basin, smallest, harmless, *over)
         if out is not None:
             tell(0.97, "drawing")
             with output_directory(out, case) as output:
                 output.figure("basins", basin.plot(smallest))
                 basin.save(output.directory / "basins.nc")
-                if found is not None and asked is not None:
+                if over:
                     output.figure("gain-map", found.plot(least, told_by=asked.told_by))
                     found.save(output.directory / "gains.nc")
                 output.document("basins", document)
@@ -92,28 +134,72 @@ def basins(
         from carom.cli.basin_tables import print_basin, print_gains
 
         print_basin(console(), basin, smallest, harmless)
-        if found is not None and asked is not None:
-            print_gains(console(), found, least, asked.wanted, asked.told_by)
+        if over:
+            print_gains(console(), *over)
     say_where(out)
 
 
-def _map(
-    rotor: Rotor, plan: Plan, asked: options.Gains, source: dict[str, str], tell: Reporter
-) -> tuple[GainMap, GainChange | None]:
-    from carom.basins import least_gain_change, map_gains
+def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:
+    """The kind of disturbance that the options describe, with its largest size."""
+    from carom.cli.starts import read_positive
+    from carom.disturbances import MODELS, VelocityKick
+    from carom.disturbances.single import read_single
 
-    found = map_gains(
-        rotor,
-        plan,
-        asked.names,
-        ranges=asked.ranges,
-        shape=asked.shape,
-        source=source,
-        progress=tell.part(0.33, 0.9),
-    )
-    if not all(found.present):
-        return found, None
-    return found, least_gain_change(found, asked.wanted, progress=tell.part(0.9, 0.97))
+    scales, usual = case.parameters.scales, case.requirement.own(case.parameters.scales).kick
+    chosen = {name: text for name, text in ways.items() if text is not None}
+    if len(chosen) > 1:
+        raise InputError(*list(chosen.items())[1], f"not allowed with {next(iter(chosen))}: one kind at a time")
+    if not chosen:
+        return VelocityKick(usual)
+    ((name, text),) = chosen.items()
+    if name != "--disturbance":
+        single = read_single(MODELS[name.removeprefix("--")], text, scales, name)
+        if single.values[-1]:
+            raise InputError(name, text, "must be without an angle: all directions are tried")
+        if name != "--kick":
+            return single.model
+        if not single.values[0] > 0.0:
+            raise InputError(name, text, "must be a velocity above 0")
+        return VelocityKick(single.values[0])
+    kind, _, size = (part.strip() for part in text.partition(","))
+    if kind not in _OTHERS or (size and not _OTHERS[kind]):
+        forms = (f"{each}[,{more}]" if more else each for each, more in _OTHERS.items())
+        raise InputError(name, text, f"must be one of: {', '.join(forms)}")
+    if kind == "release":
+        if size not in ("", *_OTHERS[kind].split("|")):
+            raise InputError(name, text, f"must be release,{_OTHERS[kind]}")
+        return MODELS[kind](size or "fixed")  # type: ignore[call-arg]
+    if kind == "slice":
+        return MODELS[kind]()
+    return MODELS[kind](read_positive(name, size, "velocity", scales) if size else usual)  # type: ignore[call-arg]
+
+
+def _plan(
+    case: Case, model: Disturbance, grid: str | None, starts: int | None, seed: int | None, instant: str | None
+) -> Plan:
+    """Which of these disturbances are followed: on a grid, or a sample of them."""
+    from carom.cli.starts import read_cells, read_instant
+    from carom.disturbances import Grid, Sample
+    from carom.models import rotor_of
+
+    drawn, dimensions = starts is not None or model.kind == "state", len(model.coordinates)
+    if grid is not None and starts is not None:
+        raise InputError("--starts", starts, "not allowed with --grid")
+    if seed is not None and not drawn:
+        raise InputError("--seed", seed, "allowed only for a sample: give --starts too")
+    if instant is not None and drawn:
+        raise InputError("--instant", instant, "allowed only with a grid: the starts of a sample come at any instant")
+    if grid is not None and drawn:
+        raise InputError("--grid", grid, "not allowed for states, which have four coordinates: give --starts")
+    if drawn:
+        count = STARTS if starts is None else starts
+        if not 1 <= count <= MOST_STARTS:
+            raise InputError("--starts", count, f"must be a whole number from 1 to {MOST_STARTS}")
+        return Sample(model, count, seed or 0)
+    cells = (RELEASES,) if dimensions == 1 else (CELLS, CELLS)
+    if grid is not None:
+        cells = read_cells("--grid", grid, dimensions, least=1, most=MOST_STARTS)
+    return Grid(model, cells, None if instant is None else read_instant(instant, rotor_of(case)))
 
 
 def _source(machine: str, settings: list[str] | None) -> dict[str, str]:

@@ -2,75 +2,59 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
+from carom.cli import options
+from carom.cli.options import flag, option
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import check_output, console, print_document, progress
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Diagram
-    from carom.models import Axis, Rotor
-    from carom.parameters import Parameters
+    from carom.models import Axis
 
-Impacts = Annotated[
-    int,
-    typer.Option(
-        metavar="N",
-        min=1,
-        max=64,
-        help="Follow orbits with at most N impacts a period; those with several are searched, and some may be missing.",
-    ),
-]
-Virtual = Annotated[
-    bool,
-    typer.Option(
-        "--virtual",
-        help="Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions.",
-    ),
-]
-Lasting = Annotated[
-    bool,
-    typer.Option(
-        "--lasting",
-        help="Also follow periodic motions with a phase of rub, to where lasting contact begins or becomes permanent.",
-    ),
-]
-Sampled = Annotated[
-    int,
-    typer.Option(
-        metavar="N",
-        min=0,
-        max=10_000,
-        help="Simulate N disturbances at each of 31 values and show where they settle: bouncing, rub, rolling and so on.",
-    ),
-]
-Seed = Annotated[
-    int | None, typer.Option(metavar="N", min=0, help="Seed of these disturbances, by default 0; with --attractors.")
-]
+IMPACTS = option(
+    "N",
+    "Follow orbits with at most N impacts a period; those with several are searched, and some may be missing.",
+    default=1,
+    min=1,
+    max=64,
+)
+VIRTUAL = flag(
+    "--virtual", "Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions."
+)
+LASTING = flag(
+    "--lasting",
+    "Also follow periodic motions with a phase of rub, to where lasting contact begins or becomes permanent.",
+)
+SAMPLED = option(
+    "N",
+    "Simulate N disturbances at each of 31 values and show where they settle: bouncing, rub, rolling and so on.",
+    default=0,
+    min=0,
+    max=10_000,
+)
+FROM = option("A", "First value of the parameter, dimensionless or with a unit.", "--from", default=...)
+TO = option("B", "Last value of the parameter.", "--to", default=...)
+NODES = option("N", "Number of grid points per axis that determine the regions.", default=24, min=2, max=400)
 AROUND = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
 
 
 def bifurcations(
-    machine: MachineFile,
-    along: Annotated[
-        str, typer.Option(metavar="NAME", help="Parameter to vary, such as gamma, speed, damping or stiffness.")
-    ],
-    start: Annotated[
-        str, typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit.")
-    ],
-    end: Annotated[str, typer.Option("--to", metavar="B", help="Last value of the parameter.")],
-    settings: Settings = None,
-    impacts: Impacts = 1,
-    virtual: Virtual = False,
-    lasting: Lasting = False,
-    attractors: Sampled = 0,
-    seed: Seed = None,
-    out: Out = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    along: str = options.ALONG,
+    start: str = FROM,
+    end: str = TO,
+    settings: list[str] | None = options.SETTINGS,
+    impacts: int = IMPACTS,
+    virtual: bool = VIRTUAL,
+    lasting: bool = LASTING,
+    attractors: int = SAMPLED,
+    seed: int | None = options.SEED,
+    out: str | None = options.OUT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Find the bifurcations along one parameter.
 
@@ -117,24 +101,16 @@ def bifurcations(
 
 
 def regions(
-    machine: MachineFile,
-    plane: Annotated[
-        str, typer.Option(metavar="NAME,NAME", help="The two parameters, such as gamma,omega or speed,damping.")
-    ] = "gamma,omega",
-    x: Annotated[
-        str | None,
-        typer.Option("--x", metavar="A,B", help="Range of the first parameter, by default around its value."),
-    ] = None,
-    y: Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second parameter.")] = None,
-    settings: Settings = None,
-    grid: Annotated[
-        int,
-        typer.Option(metavar="N", min=2, max=400, help="Number of grid points per axis that determine the regions."),
-    ] = 24,
-    virtual: Virtual = False,
-    lasting: Lasting = False,
-    out: Out = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    plane: str = options.PLANE,
+    x: str | None = options.FIRST_RANGE,
+    y: str | None = options.SECOND_RANGE,
+    settings: list[str] | None = options.SETTINGS,
+    grid: int = NODES,
+    virtual: bool = VIRTUAL,
+    lasting: bool = LASTING,
+    out: str | None = options.OUT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Map the plane of two parameters: curves of bifurcations, their meeting points, and the regions between them.
 
@@ -145,19 +121,18 @@ def regions(
     with progress("loading") as tell:
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
+        from carom.cli.starts import read_plane
         from carom.loading import load
-        from carom.models import axis, rotor_of
+        from carom.models import rotor_of
+        from carom.models.axes import usual_range
 
         case = load(machine, settings or ())
         model = rotor_of(case)
         subject = model.parameters if model.has_closed_forms else model
-        names = [name.strip() for name in plane.split(",")]
-        if len(names) != 2:
-            raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
-        axes = axis(subject, names[0]), axis(subject, names[1])
+        axes, given, _ = read_plane(case, "--plane", plane, x, y)
         ranges = [
-            _range(subject, varied, option, given)
-            for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
+            limits or usual_range(varied, subject.value(varied.name), name, AROUND)
+            for varied, limits, name in zip(axes, given, ("--x", "--y"), strict=True)
         ]
         check_output(out)
         found = map_regions(
@@ -180,17 +155,6 @@ def regions(
 
         print_map(console(), found)
     say_where(out)
-
-
-def _range(subject: Parameters | Rotor, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
-    """Return the range of a parameter: as given, or around its present value."""
-    if given is not None:
-        from carom.cli.starts import read_range
-
-        return read_range(option, given, varied)
-    from carom.models.axes import usual_range
-
-    return usual_range(varied, subject.value(varied.name), option, AROUND)
 
 
 def _shown(varied: Axis, value: float) -> str:

@@ -1,80 +1,97 @@
-"""``carom drop``: what a drop asks of the touchdown bearing."""
+"""``carom drop``: what a drop asks of the touchdown bearing, once or over a plane of two numbers."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Any
 
-import typer
-
-from carom.cli import release_options as options
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.cli import options
+from carom.cli.options import option
+from carom.cli.output import output_directory, say_where
+from carom.cli.terminal import check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from carom.motions.drops import Drop
-    from carom.motions.loads import DropLoads
-    from carom.motions.reduction_errors import ReductionError
+    from carom.basins import DropMap
+    from carom.cli.beginnings import Beginning
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
 _DRAWN = 20_000
 """Impacts and steps of contact that are drawn: figures need them all at once."""
+CELLS = (24, 16)
+MOST_CELLS = 100_000
+"""Each takes some hundredths of a second to some seconds: more would be a typing error."""
+WHIRL = option(
+    "RADIUS,SPEED[,ANGLE]",
+    "Begin in a whirl about the centre, such as '0.1 mm,-80 Hz,30 deg': its speed (below 0: backward) and where it is, in the fixed frame.",
+)
+PHASE = option(
+    "ANGLE",
+    "Angle from the direction of the fall to the unbalance at the release, in the sense of rotation, such as '90 deg'; by default that of the machine.",
+)
+RACE_SPEED = option("SPEED", "Speed of the race at the release, such as '500 rpm'; by default it stands still.")
+MAP = option(
+    "NAME,NAME",
+    "Drop it at each point of a plane: phase, regained_after or race_speed of the release, or parameters of the machine, such as 'phase,speed'.",
+    "--map",
+)
+GRID = option("NxM", "With --map: numbers of values, by default 24x16.")
+OUT = option("DIR", "Write figures, drop.json and drop.html to this directory.")
 
 
 def drop(
-    machine: MachineFile,
-    settings: Settings = None,
-    start: options.ReleaseStart = None,
-    kick: options.ReleaseKick = None,
-    whirl: options.ReleaseWhirl = None,
-    phase: options.Phase = None,
-    race_speed: options.RaceSpeed = None,
-    regained_after: options.RegainedAfter = None,
-    until: options.DropUntil = None,
-    plane: options.Mapped = None,
-    grid: options.Grid = None,
-    x: options.FirstRange = None,
-    y: options.SecondRange = None,
-    out: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Write figures, drop.json and drop.html to this directory.")
-    ] = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    start: str | None = options.START,
+    kick: str | None = options.KICK,
+    whirl: str | None = WHIRL,
+    phase: str | None = PHASE,
+    race_speed: str | None = RACE_SPEED,
+    regained_after: str | None = options.REGAINED_AFTER,
+    until: str | None = options.UNTIL,
+    plane: str | None = MAP,
+    grid: str | None = GRID,
+    x: str | None = options.FIRST_RANGE,
+    y: str | None = options.SECOND_RANGE,
+    out: str | None = OUT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Drop a machine on its touchdown bearing: forces, depth, heat, whirl and race, against its limits.
 
     Levitation is lost, and the rotor falls by its weight: by [gravity], or by 9.81 m/s² downward, which the bias currents carry before. With --out it also writes
     figures, drop.json and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
     """
-    from carom.cli.drop_map import map_plane, read_plane
-    from carom.cli.drops import read_release
-    from carom.cli.starts import read_time
+    from carom.basins.drops import RELEASED
+    from carom.cli.beginnings import released
+    from carom.cli.starts import read_cells, read_plane, read_time, refuse_without
     from carom.loading import load
 
     case = load(machine, settings or ())
     check_output(out)
     ways = {"--start": start, "--kick": kick, "--whirl": whirl}
-    released = read_release(case, ways, regained_after, phase=phase, race_speed=race_speed, called="the release")
-    asked = read_plane(case, plane, grid, x, y)
+    begins = released(case, ways, regained_after, phase, race_speed, called="the release")
+    if plane is None:
+        refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
+    asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
     end = None if until is None else read_time(until, case.parameters.scales)
-    if asked is not None:
-        map_plane(case, released, asked, end, out, as_json=as_json)
+    if asked:
+        shape = CELLS if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
+        _map(case, begins, {"names": asked.names, "ranges": asked.ranges, "shape": shape, "until": end}, out, as_json)
     else:
-        _drop_once(case, released, end, out, as_json=as_json)
+        _drop_once(case, begins, end, out, as_json)
 
 
-def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *, as_json: bool) -> None:
+def _drop_once(case: Case, begins: Beginning, end: float | None, out: str | None, as_json: bool) -> None:
     """Follow one drop, write its report, and tell what the bearing bears."""
-    from carom.studies.drops import release
-
+    page = None
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        rotor, state, echo = release(case, released)
+        rotor, state, echo = begins.apply(case)
         from carom.motions import follow_loads, simulate
         from carom.studies.drops import DropStudy
 
         loads = follow_loads(rotor, state, end, progress=tell if out is None else tell.part(0.0, 0.4))
-        found, page = DropStudy(case, echo, loads, _reduction(case, released, loads)), None
+        found = DropStudy(case, echo, loads, begins.reduction_error(case, loads))
         if out is not None:
             from carom.report import write_drop_report
 
@@ -82,38 +99,77 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
             page = write_drop_report(found, motion, out, progress=tell.part(0.4, 1.0))
     if as_json:
         print_document(found.document())
-        if page is not None:
-            console(errors=True).print(f"Report: {page}", soft_wrap=True)
-        return
-    _print(console(), found, page)
+    else:
+        _print_drop(console(), found)
+    if page is not None:
+        console(errors=as_json).print(f"Report: {page}", soft_wrap=True)
+    elif not as_json:
+        console().print("Figures, drop.json and drop.html: add --out DIR")
 
 
-def _reduction(case: Case, released: Drop, loads: DropLoads) -> ReductionError | None:
-    """Error of the reduction of a flexible machine along this drop."""
-    from carom.cli.drops import error_along
-    from carom.studies.drops import release
-
-    return error_along(case, loads, lambda finer: release(finer, released))
-
-
-def _print(console: Console, found: DropStudy, page: Path | None) -> None:
+def _print_drop(screen: Console, found: DropStudy) -> None:
     """Print what was done, how it ended, the loads of each plane, and the limits."""
     from rich.text import Text
 
-    from carom.cli.load_tables import print_checks, print_tables
+    from carom.cli.motion_tables import print_checks, print_tables
     from carom.cli.tables import TEXT_WIDTH
 
-    width = min(console.width, TEXT_WIDTH)
-    console.print(f"{found.echo.words}.", width=width)
-    console.print(Text(found.headline, style="bold"), width=width)
-    print_tables(console, found.tables)
-    print_checks(console, found.checks)
+    width = min(screen.width, TEXT_WIDTH)
+    screen.print(f"{found.echo.words}.", width=width)
+    screen.print(Text(found.headline, style="bold"), width=width)
+    print_tables(screen, found.tables)
+    print_checks(screen, found.checks)
     for each in (found.loads.magnets, found.reduction):
         if each is not None and each.words:
-            console.print()
-            console.print(each.words, width=width)
-    console.print()
-    if page is None:
-        console.print("Figures, drop.json and drop.html: add --out DIR")
+            screen.print()
+            screen.print(each.words, width=width)
+    screen.print()
+
+
+def _map(case: Case, begins: Beginning, asked: dict[str, Any], out: str | None, as_json: bool) -> None:
+    """Drop the machine over the plane, write figure, dataset and document, and tell how the drops end."""
+    from carom.basins import map_drops
+    from carom.basins.document import drop_map_document
+
+    with progress("following drops (the kernels are compiled on first use)") as tell:
+        found = map_drops(case, begins.release, **asked, progress=tell if out is None else tell.part(0.0, 0.95))
+        document = {"name": case.name, **drop_map_document(found)}
+        if out is not None:
+            with output_directory(out, case) as output:
+                output.figure("drop-map", found.plot())
+                found.save(output.directory / "drop-map.nc")
+                output.document("drop-map", document)
+    if as_json:
+        print_document(document)
     else:
-        console.print(f"Report: {page}", soft_wrap=True)
+        _print_map(console(), found)
+    say_where(out)
+
+
+def _print_map(screen: Console, found: DropMap) -> None:
+    """Print how the drops end, what they ask of the bearing, and how many exceed its limits."""
+    from carom.basins.drops import MEASURES
+    from carom.cli.fitting import fitted, plain_table
+    from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
+    from carom.parameters.told import number
+
+    index, exists = found.dataset["motion"].values, found.exists
+    screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
+    unit, words = MEASURES[found.hardest]
+    most, when = f"{words} ({unit})", "at rest or whirling since (median)"
+    table = plain_table("", "how they end", "drops", "share", most, when, right=("drops", "share", most, when))
+    for name, share in found.fractions.items():
+        here = index == found.motions.index(name)
+        loads, since = (found.dataset[each].values[here] for each in (found.hardest, "settled_at"))
+        known = sorted(since[~(since != since)].tolist())
+        ends = [number(float(each), 3) for each in (loads.min(), loads.max())]
+        told = f"{number(1e3 * known[len(known) // 2], 3)} ms" if known else ""
+        table.add_row(name.words, str(int(here.sum())), f"{100.0 * share:.3g} %", " to ".join(ends), told)
+    screen.print(fitted(screen, table))
+    screen.print(f"Hardest: {found.worst}.")
+    for load, limit in found.limits.items():
+        over = int(found.exceeding(load).sum())
+        said = f"exceeded by {over} of {int(exists.sum())}" if over else "kept by all"
+        screen.print(f"Limit of {LIMIT_FIELDS[load].words}, {LoadLimits.told(load, limit)}: {said}.")
+    if not exists.all():
+        screen.print(f"{int((~exists).sum())} of {exists.size} machines cannot levitate, and are not dropped.")

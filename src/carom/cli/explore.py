@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import sys
 from importlib.util import find_spec
-from typing import Annotated
 
 import typer
 
-from carom.cli.terminal import Settings, console
+from carom.cli.options import SETTINGS, option
+from carom.cli.terminal import console
 from carom.outcome import CaromError
 
-_PORT = 5006
+MACHINE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file; by default the example machine.")
+PORT = option("P", "Port on this machine; 0 for any that is free.", default=5006)
+BROWSER = option(None, "Open the page in the browser.", "--browser/--no-browser", default=True)
 
 
 def explore(
-    machine: Annotated[
-        str | None, typer.Argument(metavar="[MACHINE.toml]", help="The machine file; by default the example machine.")
-    ] = None,
-    settings: Settings = None,
-    port: Annotated[int, typer.Option(metavar="P", help="Port on this machine; 0 for any that is free.")] = _PORT,
-    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
+    machine: str | None = MACHINE,
+    settings: list[str] | None = SETTINGS,
+    port: int = PORT,
+    browser: bool = BROWSER,
 ) -> None:
     """Explore a machine on an interactive page: move a gain, see which kicks come back, and watch any of them.
 

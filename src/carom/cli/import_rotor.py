@@ -3,31 +3,27 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from carom.cli.terminal import AsJson, print_document, progress
+from carom.cli.options import AS_JSON, option
+from carom.cli.terminal import print_document, progress
+
+SOURCE = typer.Argument(
+    metavar="SOURCE",
+    help="A Python program that makes a rotor with ROSS (.py), what ROSS has saved (.toml, .json), or matrices (.npz, .mat).",
+)
+OUT = option("ROTOR.npz", "Write the matrices to this file.", "--out", "-o", default=...)
+NAME = option("NAME", "Name of the rotor in the program, or of a function that returns it.")
+PYTHON = option("PYTHON", "Python of an environment with ROSS, by default the present one.")
 
 
 def import_rotor(
-    source: Annotated[
-        str,
-        typer.Argument(
-            metavar="SOURCE",
-            help="A Python program that makes a rotor with ROSS (.py), what ROSS has saved (.toml, .json), or matrices (.npz, .mat).",
-        ),
-    ],
-    out: Annotated[str, typer.Option("--out", "-o", metavar="ROTOR.npz", help="Write the matrices to this file.")],
-    name: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Name of the rotor in the program, or of a function that returns it."),
-    ] = None,
-    python: Annotated[
-        str | None,
-        typer.Option(metavar="PYTHON", help="Python of an environment with ROSS, by default the present one."),
-    ] = None,
-    as_json: AsJson = False,
+    source: str = SOURCE,
+    out: str = OUT,
+    name: str | None = NAME,
+    python: str | None = PYTHON,
+    as_json: bool = AS_JSON,
 ) -> None:
     """Import a rotor of ROSS, or matrices, and print a machine file to start from.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import dataclasses
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from rich.console import Console
@@ -14,13 +15,15 @@ from rich.text import Text
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
-from carom.cli.tables import complex_words
-from carom.motions import TouchLog, Trajectory, touchdown_loads
+from carom.cli.tables import TEXT_WIDTH, complex_words
+from carom.motions import TouchLog, Trajectory, drop_loads, touchdown_loads
 from carom.motions.contacts import yields
 from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
-from carom.parameters.told import number, told_angle
-from carom.studies import Wording, check_loads
+from carom.parameters.told import number, told, told_angle
+from carom.studies import LoadCheck, Wording, check_loads
+from carom.studies.load_checks import checks_of_planes
+from carom.studies.load_tables import load_tables
 from carom.studies.wording import counted, listed, no_rigid_wall
 
 if TYPE_CHECKING:
@@ -28,6 +31,51 @@ if TYPE_CHECKING:
 
 FIRST_EVENTS, LAST_EVENTS = 20, 8
 """Numbers of contacts shown at the beginning and at the end of a long log."""
+
+
+_FIRST = {"drop": "The fall:", "shock": "During the shock:"}
+"""What the first stage of a motion is called, by the kind of the disturbance."""
+_SINCE = {"drop": "the release", "shock": "the shock began", "kick": "the kick", "blade-loss": "the loss"}
+"""From what times count."""
+
+
+def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> None:
+    """Print how a motion after a disturbance of a kind ended, and its contacts, stage by stage; then what the bearing bears in all."""
+    together = len(motion.parts) > 1 or len(motion.at_each) > 1 or yields(motion.rotor.system, motion.plane)
+    for part in motion.parts:
+        if len(motion.parts) > 1:
+            console.print()
+            begun = f"From {told(part.begins, 'time', case.parameters.scales)}:"
+            console.print(begun if part.begins else _FIRST.get(kind, "From the beginning:"))
+        print_motion(console, case, part, loads=not together)
+    found = drop_loads(motion) if together else None
+    if found is not None and any(plane.contacts or plane.contact_time for plane in found.planes):
+        print_tables(console, load_tables(found, _SINCE.get(kind, "the start")))
+        print_checks(console, checks_of_planes(found, case.limits))
+
+
+def print_tables(console: Console, tables: Iterable[tuple[str, list[tuple[str, str]]]]) -> None:
+    """Print the rows of each plane under its title."""
+    for title, rows in tables:
+        console.print()
+        if title:
+            console.print(Text(title, style="bold"))
+        table = Table.grid(padding=(0, 2, 0, 0))
+        table.add_column(no_wrap=True)
+        table.add_column()
+        for label, words in rows:
+            table.add_row(Text(f"  {label}"), Text(words))
+        console.print(table, width=min(console.width, TEXT_WIDTH))
+
+
+def print_checks(console: Console, checks: Iterable[LoadCheck]) -> None:
+    """Print loads against the limits that are stated; nothing if none is."""
+    for place, check in enumerate(checks):
+        if not place:
+            console.print()
+            console.print(Text("Limits of the touchdown bearing", style="bold"))
+        words = Text(f"  {check.words}", style="bold" if check.exceeded else "")
+        console.print(words, width=min(console.width, TEXT_WIDTH))
 
 
 def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: bool = True) -> None:
@@ -118,7 +166,7 @@ def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory)
 
 def _events(say: Wording, motion: Trajectory) -> Table:
     """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    speed, impulse, slip = (told(1.0).partition(" ")[2] for told in (say.velocity, say.impulse, say.slip))
+    speed, impulse, slip = (size(1.0).partition(" ")[2] for size in (say.velocity, say.impulse, say.slip))
     time = f"time, {'ms' if say.scales else '1/Ω'}"
     speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
     normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"

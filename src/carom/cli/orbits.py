@@ -2,108 +2,101 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
-import typer
-
-from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.cli import options
+from carom.cli.options import option
+from carom.cli.terminal import console, print_document, progress
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
-    from carom.parameters import Case
+    from carom.closed_forms.yielding_walls import SlippingWhirl
+    from carom.models import Rotor
+
+LONGEST_PERIOD = option("T", "Search only periods up to T, in 1/Omega or with a unit; by default all.")
+IMPACTS = option(
+    "N",
+    "List orbits with at most N impacts a period, with lasting contact too; those with several are searched.",
+    min=1,
+)
+GUESSES = option(
+    "N",
+    "Guesses of that search for each number of impacts; 1500 by default, fewer for a rotor of many states.",
+    min=1,
+)
 
 
 def orbits(
-    machine: MachineFile,
-    settings: Settings = None,
-    longest_period: Annotated[
-        str | None,
-        typer.Option(metavar="T", help="Search only periods up to T, in 1/Omega or with a unit; by default all."),
-    ] = None,
-    impacts: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            min=1,
-            help="List orbits with at most N impacts a period, with lasting contact too; those with several are searched.",
-        ),
-    ] = None,
-    guesses: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            min=1,
-            help="Guesses of that search for each number of impacts; 1500 by default, fewer for a rotor of many states.",
-        ),
-    ] = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    longest_period: str | None = LONGEST_PERIOD,
+    impacts: int | None = IMPACTS,
+    guesses: int | None = GUESSES,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """List equilibria and periodic orbits, stable or not.
 
-    Lists all orbits with one impact a period, with the argument that there are no more, of a flexible machine the steady motions; or, with --impacts N, the
-    orbits with at most N impacts that are known or that a search finds, with what it tried.
+    Lists all orbits with one impact a period, with the argument that there are no more, of a machine without closed forms the steady motions; or, with
+    --impacts N, the orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
+    from carom.cli.starts import read_time
     from carom.loading import load
     from carom.models import rotor_of
 
     case = load(machine, settings or ())
-    if impacts is not None:
-        _search(case, impacts, guesses, as_json)
-        return
-    model = rotor_of(case)
-    model.system.refuse_non_stationary()
-    if not model.has_closed_forms:
-        _print_steady(case, longest_period, as_json)
-        return
-    longest = None
-    if longest_period is not None:
-        from carom.cli.starts import read_time
-
-        longest = read_time(longest_period, case.parameters.scales, "--longest-period")
+    model, exact = rotor_of(case), False
+    if impacts is None:
+        model.system.refuse_non_stationary()
+        exact = model.has_closed_forms
+    if longest_period is not None and not exact:
+        allowed = "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid wall, without weight or limits"
+        raise InputError("--longest-period", longest_period, allowed)
+    longest = longest_period and read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
-        from carom.closed_forms.equilibria import find_equilibria
-        from carom.models import jeffcott
-        from carom.orbits.single_impact import find_orbits, orbits_within_reach
-        from carom.studies import orbits_document
+        from carom.closed_forms.equilibria import steady_motions
+        from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
+        from carom.results import record
+        from carom.studies import found_orbits_document, orbits_document
 
-        tell(0.3)
-        rotor = jeffcott(case.parameters)
-        steady = find_equilibria(rotor).members
-        found = orbits_within_reach(rotor) if longest is None else find_orbits(rotor, longest)
+        if impacts is not None:
+            found = find_orbits(case, impacts=impacts, guesses=guesses, progress=tell)
+            document = found_orbits_document(case.parameters, found)
+        else:
+            tell(0.3)
+            steady, whirls = steady_motions(model), [] if exact else _whirls(model)
+            if exact:
+                found = orbits_within_reach(model) if longest is None else find_orbits(model, longest)
+            else:
+                found = OrbitSet.none(model)
+            document = orbits_document(model, steady, found, case.machine)
+            for entry, each in zip(document["equilibria"], steady, strict=True):
+                entry["touchdown_bearings"] = [place + 1 for place in each.planes]
+            document["whirls"] = [
+                {"touchdown_bearing": place + 1, **record(each, "speed radius: normal_force: slips", model.scales)}
+                for place, each in whirls
+            ]
     if as_json:
-        print_document(orbits_document(case.parameters, steady, found, case.machine))
+        print_document(document)
         return
-    from carom.cli.tables import print_orbits
+    from carom.cli.tables import print_found_orbits, print_orbits
 
-    print_orbits(console(), case, steady, found)
-
-
-def _print_steady(case: Case, longest_period: str | None, as_json: bool) -> None:
-    """Print the steady motions of a flexible machine."""
-    from carom.cli.steady import print_steady, steady_document
-
-    if longest_period is not None:
-        raise InputError(
-            "--longest-period",
-            longest_period,
-            "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid wall, without weight or limits",
-        )
-    if as_json:
-        print_document(steady_document(case))
-        return
-    print_steady(console(), case)
+    if impacts is not None:
+        print_found_orbits(console(), case, found)
+    else:
+        print_orbits(console(), case, steady, found, whirls)
 
 
-def _search(case: Case, impacts: int, guesses: int | None, as_json: bool) -> None:
-    """Print the orbits with at most a number of impacts."""
-    with progress("orbits (the kernels are compiled on first use)") as tell:
-        from carom.orbits.single_impact import find_orbits
-        from carom.studies import found_orbits_document
+def _whirls(rotor: Rotor) -> list[tuple[int, SlippingWhirl]]:
+    """Slipping backward whirls at each compliant touchdown bearing, of the rotor without its unbalance, with its force in ``m c_r Ω²``; none under weight or on races that turn."""
+    from carom.closed_forms.statics import exponent_of
+    from carom.closed_forms.yielding_walls import slipping_whirls
 
-        found = find_orbits(case, impacts=impacts, guesses=guesses, progress=tell)
-    if as_json:
-        print_document(found_orbits_document(case.parameters, found))
-        return
-    from carom.cli.tables import print_found_orbits
-
-    print_found_orbits(console(), case, found)
+    if rotor.system.forced is not None or rotor.system.races is not None:
+        return []
+    return [
+        (place, replace(whirl, normal_force=whirl.normal_force * float(rotor.system.arrays.masses[place])))
+        for place, contact in enumerate(rotor.system.contacts)
+        if contact.wall.stiffness
+        for whirl in slipping_whirls(rotor, contact.wall.stiffness, exponent_of(contact.wall), plane=place)
+    ]

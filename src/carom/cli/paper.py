@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
-from carom.cli.terminal import AsJson, check_output, console, print_document, progress
+from carom.cli.options import AS_JSON, option
+from carom.cli.terminal import check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -14,12 +13,10 @@ if TYPE_CHECKING:
     from carom.reproductions.mora2014 import Reproduction
 
 
-def paper(
-    out: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Write figures 2 to 6, paper.json and table.md to this directory.")
-    ] = None,
-    as_json: AsJson = False,
-) -> None:
+OUT = option("DIR", "Write figures 2 to 6, paper.json and table.md to this directory.")
+
+
+def paper(out: str | None = OUT, as_json: bool = AS_JSON) -> None:
     """Reproduce the paper carom builds on: its figures and numbers.
 
     Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number it prints is compared with

@@ -6,94 +6,111 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.cli.proof_options import (
-    CELLS,
-    CERTIFICATE,
-    Along,
-    Check,
-    File,
-    From,
-    Impacts,
-    KicksUpTo,
-    LongestPeriod,
-    MostImpacts,
-    Out,
-    ShocksUpTo,
-    StatesUpTo,
-    TimeLimit,
-    To,
-    UnbalanceUpTo,
-)
-from carom.cli.terminal import AsJson, Settings, check_output, console, print_document, progress
+import typer
+
+from carom.cli import options
+from carom.cli.options import option
+from carom.cli.terminal import check_output, console, print_document, progress
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
     from carom.progress import Reporter
     from carom.proofs import Claim, Proof
 
-KICKS, SHOCKS, STEPS, STATES = "--kicks-up-to", "--shocks-up-to", "--unbalance-up-to", "--states-up-to"
-"""Options of theorems about what comes back."""
+CERTIFICATE, CELLS = "proof.json", "cells.json"
+"""Names of the certificate, and of the cells of kicks found so far, in the directory given."""
 DRAWN = "kicks"
 """Theorem that has a figure."""
-PICTURE, SAMPLED = "proven-kicks", (160, 160)
-"""Name of the figure of kicks, and in how many of them the basin below it is sampled."""
+PICTURE, SAMPLED = "figures/proven-kicks", (160, 160)
+"""The figure of kicks, and in how many of them the basin below it is sampled."""
 _DRAWING = 0.95
 """Share of the bar after which it is drawn."""
+_RANGE = ("--along", "--from", "--to")
+_ALLOWED = {
+    "": ("--longest-period", "--impacts", *_RANGE, "--time-limit"),
+    "--kicks-up-to": (*_RANGE, "--most-impacts", "--time-limit"),
+    "--shocks-up-to": ("--most-impacts", "--time-limit"),
+    "--unbalance-up-to": ("--most-impacts", "--time-limit"),
+    "--states-up-to": (),
+}
+"""Options of theorems about what comes back, and what may stand beside each; first of those about equilibria and orbits."""
+
+FILE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file.")
+LONGEST_PERIOD = option("T", "Look only for periods up to T, in 1/Omega; by default for all.")
+IMPACTS = option(
+    "N", "Prove orbits with at most N impacts a period, those with several that a search finds; by default 1."
+)
+ALONG = option(
+    "NAME",
+    "Prove points and orbits along a parameter instead, --from A --to B; with --kicks-up-to which kicks come back for all its values, or for "
+    "all of a box if all three are given two or three times.",
+)
+FROM = option("A", "First value of the parameter, dimensionless or with a unit.", "--from")
+TO = option("B", "Last value of the parameter.", "--to")
+KICKS = option("SPEED", "Prove instead which kicks out of levitation up to SPEED come back.")
+SHOCKS = option("PEAK,TIME", "The same of half-sine shocks of the base with peaks up to PEAK, such as '20 g, 0.5 ms'.")
+STEPS = option(
+    "CHANGE",
+    "The same of steps to the unbalance of the machine, by changes up to CHANGE, such as '20 um' or '500 g mm'.",
+)
+STATES = option("SPEED", "Prove instead that all states inside the clearance up to SPEED come back.")
+MOST_IMPACTS = option("N", "Leave open what may have more than N impacts; by default 12.")
+TIME_LIMIT = option("T", "End the search after T, such as '2 h'; by default 10 min, along a parameter never.")
+OUT = option(
+    "DIR",
+    f"Write the certificate, {CERTIFICATE}, to this directory, and of kicks the figure; with --check the figure alone.",
+)
+CHECK = option("FILE", "Verify a certificate instead; no machine file is needed.")
 
 
 def prove(
-    machine: File = None,
-    settings: Settings = None,
-    longest_period: LongestPeriod = None,
-    impacts: Impacts = 1,
-    along: Along = None,
-    start: From = None,
-    stop: To = None,
-    kicks_up_to: KicksUpTo = None,
-    shocks_up_to: ShocksUpTo = None,
-    unbalance_up_to: UnbalanceUpTo = None,
-    states_up_to: StatesUpTo = None,
-    most_impacts: MostImpacts = None,
-    time_limit: TimeLimit = None,
-    out: Out = None,
-    check: Check = None,
-    as_json: AsJson = False,
+    machine: str | None = FILE,
+    settings: list[str] | None = options.SETTINGS,
+    longest_period: str | None = LONGEST_PERIOD,
+    impacts: int | None = IMPACTS,
+    along: list[str] | None = ALONG,
+    start: list[str] | None = FROM,
+    stop: list[str] | None = TO,
+    kicks_up_to: str | None = KICKS,
+    shocks_up_to: str | None = SHOCKS,
+    unbalance_up_to: str | None = STEPS,
+    states_up_to: str | None = STATES,
+    most_impacts: int | None = MOST_IMPACTS,
+    time_limit: str | None = TIME_LIMIT,
+    out: str | None = OUT,
+    check: str | None = CHECK,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or what comes back.
 
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
-    sizes = {KICKS: kicks_up_to, SHOCKS: shocks_up_to, STEPS: unbalance_up_to, STATES: states_up_to}
-    limits = {"most_impacts": most_impacts, "time_limit": time_limit}
-    ranges = {
+    theorems = dict(zip(list(_ALLOWED)[1:], (kicks_up_to, shocks_up_to, unbalance_up_to, states_up_to), strict=True))
+    sizes = {name: size for name, size in theorems.items() if size is not None}
+    limits = {"--most-impacts": most_impacts, "--time-limit": time_limit}
+    others = {
         "--longest-period": longest_period,
-        "--along": along or None,
-        "--from": start or None,
-        "--to": stop or None,
+        "--impacts": impacts,
+        **dict(zip(_RANGE, (along, start, stop), strict=True)),
     }
+    given = {name: value for name, value in {**others, **limits}.items() if value not in (None, [], ())}
     with progress("loading") as tell:
         check_output(out)
         part = tell.part(0.0, _DRAWING)
         if check is not None:
-            others = (machine, *sizes.values(), *limits.values(), *ranges.values())
-            if settings or impacts != 1 or any(other is not None for other in others):
+            if machine is not None or settings or sizes or given:
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
             proof = _checked(check, out, part)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
-        elif asked := [option for option, size in sizes.items() if size is not None]:
-            refused = [longest_period] if asked == [KICKS] else [*ranges.values()]
-            if len(asked) > 1 or impacts != 1 or any(other is not None for other in refused):
-                raise InputError(asked[0], shown(sizes[asked[0]]), "cannot be combined with options of other theorems")
-            box = _intervals(along, start, stop)
-            proof = _prove_return(machine, asked[0], sizes[asked[0]] or "", settings or (), limits, box, out, part)
         else:
-            box = _intervals(along, start, stop)
-            _refuse_limits({**limits, "time_limit": None})
-            if len(box) > 1:
-                raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
-            proof = _prove_motions(machine, settings or (), longest_period, impacts, box, time_limit, part)
+            theorem = next(iter(sizes), "")
+            for name, value in [*list(sizes.items())[1:], *given.items()]:
+                if name not in _ALLOWED[theorem]:
+                    beside = theorem or "theorems about equilibria and orbits"
+                    raise InputError(name, shown(value), f"cannot be combined with {beside}")
+            proof = _proven(machine, settings or (), theorem, sizes.get(theorem, ""), given, out, part)
         if out is not None:
             _write(proof, Path(out), None if check else machine, tell)
     if as_json:
@@ -103,7 +120,7 @@ def prove(
     if check is None and out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
     if out is not None and proof.theorem == DRAWN:
-        console().print(f"Figure: {_picture(Path(out))}.svg", soft_wrap=True)
+        console().print(f"Figure: {Path(out) / PICTURE}.svg", soft_wrap=True)
 
 
 def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
@@ -116,61 +133,36 @@ def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
     return proof
 
 
-def _refuse_limits(limits: dict[str, Any]) -> None:
-    """Refuse limits of a search through cells where there is none."""
-    if any(limit is not None for limit in limits.values()):
-        told = f"or {SHOCKS} or {STEPS} is needed by --most-impacts"
-        raise InputError(KICKS, None, told)
-
-
-def _prove_motions(
+def _proven(
     machine: str,
     settings: Iterable[str],
-    longest_period: str | None,
-    impacts: int,
-    box: dict[str, tuple[str, str]],
-    time_limit: str | None,
-    tell: Reporter,
-) -> Proof:
-    """Prove equilibria and orbits, of one machine or along a parameter."""
-    from carom.proofs import prove as prove_machine
-
-    along, interval = next(iter(box.items()), (None, None))
-    return prove_machine(
-        machine,
-        settings,
-        longest_period=longest_period,
-        impacts=impacts,
-        along=along,
-        interval=interval,
-        time_limit=time_limit,
-        progress=tell,
-    )
-
-
-def _prove_return(
-    machine: str,
-    option: str,
-    largest: str,
-    settings: Iterable[str],
-    limits: dict[str, Any],
-    box: dict[str, tuple[str, str]],
+    theorem: str,
+    size: str,
+    given: dict[str, Any],
     out: str | None,
     tell: Reporter,
 ) -> Proof:
-    """Prove what returns to levitation, of kicks for all machines of a box; of cells, with a directory go on from those in it."""
-    from carom.proofs import prove_kicks, prove_shocks, prove_states, prove_unbalance_steps
+    """Prove a theorem; one about cells goes on from those in the directory, if there is one."""
+    from carom import proofs
 
-    if option == STATES:
-        _refuse_limits(limits)
-        return prove_states(machine, largest, settings, progress=tell)
-    store = None if out is None else Path(out) / CELLS
+    box = _intervals(*(given.pop(name, None) for name in _RANGE))
+    more = {name.removeprefix("--").replace("-", "_"): value for name, value in given.items()}
+    if not theorem:
+        if len(box) > 1:
+            raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
+        along, interval = next(iter(box.items()), (None, None))
+        return proofs.prove(machine, settings, along=along, interval=interval, progress=tell, **more)
+    if theorem == "--states-up-to":
+        return proofs.prove_states(machine, size, settings, progress=tell)
     if out is not None:
         Path(out).mkdir(parents=True, exist_ok=True)
-    given: dict[str, Any] = {name: value for name, value in limits.items() if value is not None}
-    given |= {"along": box} if box else {}
-    search: Any = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
-    return search(machine, largest, settings, store=store, progress=tell, **given)
+        more["store"] = Path(out) / CELLS
+    searches: dict[str, Any] = {
+        "--kicks-up-to": proofs.prove_kicks,
+        "--shocks-up-to": proofs.prove_shocks,
+        "--unbalance-up-to": proofs.prove_unbalance_steps,
+    }
+    return searches[theorem](machine, size, settings, progress=tell, **more, **({"along": box} if box else {}))
 
 
 def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -> None:
@@ -181,13 +173,6 @@ def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -
     if proof.theorem == DRAWN:
         tell(_DRAWING, "drawing")
         _draw(proof, Path(machine or "certificate").stem, directory)
-
-
-def _picture(directory: Path) -> Path:
-    """The figure of kicks, without its endings."""
-    from carom.files.directory import FIGURES
-
-    return directory / FIGURES / PICTURE
 
 
 def _draw(proof: Proof, name: str, directory: Path) -> None:
@@ -205,7 +190,7 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
         told = [f"{key} {number(value)}" for key, value in kicks.rotor.parameters.as_dict().items()]
     basin = map_cells(kicks.rotor, Grid(KickPlane(kicks.largest), SAMPLED))
     with plots.heading(f"{name}: {', '.join(told)}"):
-        plots.save(kicks.plot(basin), _picture(directory))
+        plots.save(kicks.plot(basin), directory / PICTURE)
 
 
 def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str] | None) -> dict[str, tuple[str, str]]:
@@ -218,8 +203,8 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
     if len(set(names)) < len(names):
         raise InputError("--along", shown(names), "names each parameter once")
     for name, first, last in zip(names, starts, stops, strict=True):
-        for option, end in (("--from", first), ("--to", last)):
-            check_exact(option, end, name)
+        for side, end in (("--from", first), ("--to", last)):
+            check_exact(side, end, name)
     return {name: (first, last) for name, first, last in zip(names, starts, stops, strict=True)}
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
+from carom.cli import options
+from carom.cli.options import option
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import check_output, console, print_document, progress
 from carom.outcome import STEADY_WORDS, InputError
 
 if TYPE_CHECKING:
@@ -18,29 +18,23 @@ if TYPE_CHECKING:
     from carom.studies.response import UnbalanceResponse
 
 
+FROM = option(
+    "SPEED", "Lowest speed, such as '500 rpm'; by default a range around critical and present speed.", "--from"
+)
+TO = option("SPEED", "Highest speed, such as '12000 rpm'.", "--to")
+OPERATING = option(
+    "A,B", "Lowest and highest operating speed, for the separation margin; by default the present speed."
+)
+
+
 def response(
-    machine: MachineFile,
-    settings: Settings = None,
-    start: Annotated[
-        str | None,
-        typer.Option(
-            "--from",
-            metavar="SPEED",
-            help="Lowest speed, such as '500 rpm'; by default a range around critical and present speed.",
-        ),
-    ] = None,
-    end: Annotated[
-        str | None, typer.Option("--to", metavar="SPEED", help="Highest speed, such as '12000 rpm'.")
-    ] = None,
-    operating: Annotated[
-        str | None,
-        typer.Option(
-            metavar="A,B",
-            help="Lowest and highest operating speed, for the separation margin; by default the present speed.",
-        ),
-    ] = None,
-    out: Out = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    start: str | None = FROM,
+    end: str | None = TO,
+    operating: str | None = OPERATING,
+    out: str | None = options.OUT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Show the response to the unbalance over speed: amplitude, phase, critical speed, and where the rotor touches.
 

@@ -2,121 +2,107 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
-
-from carom.cli import release_options as options
+from carom.cli import options
+from carom.cli.options import flag, option
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import check_output, console, print_document, progress
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
-    from carom.disturbances.echo import Echo
-    from carom.models import Rotor
-    from carom.motions.starts import State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
     from carom.progress import Reporter
 
+DROP = flag(
+    "--drop",
+    "Levitation is lost at levitation, or at what --start or --kick gives, and the rotor falls, by 9.81 m/s² without [gravity].",
+)
+CSV = option("FILE", "Write the contact log as CSV.", "--csv")
+NETCDF = option("FILE", "Write the contact log as netCDF.", "--netcdf")
+
 
 def simulate(
-    machine: MachineFile,
-    settings: Settings = None,
-    start: options.Start = None,
-    kick: options.Kick = None,
-    shock: options.Shock = None,
-    blade_loss: options.BladeLoss = None,
-    instant: options.Instant = None,
-    drop: options.Dropped = False,
-    regained_after: options.BackAfter = None,
-    until: options.Until = None,
-    out: Out = None,
-    csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as CSV.")] = None,
-    netcdf: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as netCDF.")] = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    start: str | None = options.START,
+    kick: str | None = options.KICK,
+    shock: str | None = options.SHOCK,
+    blade_loss: str | None = options.BLADE_LOSS,
+    instant: str | None = options.INSTANT,
+    drop: bool = DROP,
+    regained_after: str | None = options.REGAINED_AFTER,
+    until: str | None = options.UNTIL,
+    out: str | None = options.OUT,
+    csv: str | None = CSV,
+    netcdf: str | None = NETCDF,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Simulate one motion and log its contacts.
 
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
-    from carom.cli.drops import error_along, read_release
+    from carom.cli import logs
+    from carom.cli.beginnings import one_of, released
     from carom.cli.starts import read_time
     from carom.loading import load
 
     case = load(machine, settings or ())
     check_output(out)
-    logs = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
-    _check_logs(logs)
+    for name, path in (("--csv", csv), ("--netcdf", netcdf)):
+        if path is not None:
+            logs.check_file(name, path)
     if regained_after is not None and not drop:
         raise InputError("--regained-after", regained_after, "allowed only with --drop")
     if instant is not None and drop:
-        raise InputError(
-            "--instant", instant, "not allowed with --drop; carom drop --phase sets where the unbalance is"
-        )
+        allowed = "not allowed with --drop; carom drop --phase sets where the unbalance is"
+        raise InputError("--instant", instant, allowed)
     ways = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
+    begins = released(case, ways, regained_after) if drop else one_of(ways, instant)
     with progress("simulating (the kernels are compiled on first use)") as tell:
         end = None if until is None else read_time(until, case.parameters.scales)
-        released = read_release(case, ways, regained_after) if drop else None
-
-        def read(case: Case) -> tuple[Rotor, State, Echo]:
-            if released is None:
-                return _read(case, ways, instant)
-            from carom.studies.drops import release
-
-            return release(case, released)
-
-        rotor, given, echo = read(case)
-        motion = _follow(rotor, given, end, tell if out is None else tell.part(0.0, 0.4))
+        rotor, state, echo = begins.apply(case)
         from carom.motions import drop_loads
+        from carom.motions.simulation import simulate as follow
 
-        _write_logs(logs, motion)
+        motion = follow(rotor, state, end, progress=tell if out is None else tell.part(0.0, 0.4))
+        if csv is not None:
+            logs.write_csv(motion, csv)
+        if netcdf is not None:
+            logs.write_netcdf(motion, netcdf)
         loads = drop_loads(motion)
-        beside = {"magnets": loads.magnets, "reduction": error_along(case, loads, read)}
+        beside = {"magnets": loads.magnets, "reduction": begins.reduction_error(case, loads)}
         known = {name: found for name, found in beside.items() if found is not None}
-        document = _document(case, motion, echo) | {name: found.document() for name, found in known.items()}
+        document = {"disturbance": echo.document(case.parameters.scales), **_document(case, motion)}
+        document |= {name: found.document() for name, found in known.items()}
         if out is not None:
             _write(out, case, motion, document, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
     if as_json:
         print_document(document)
     else:
-        _tell(case, motion, echo, [found.words for found in known.values()])
+        from carom.cli.motion_tables import print_parts
+
+        console().print(f"{echo.words}.")
+        print_parts(console(), case, motion, echo.kind)
+        for words in filter(None, (found.words for found in known.values())):
+            console().print()
+            console().print(words)
     say_where(out)
 
 
-def _check_logs(logs: dict[str, str]) -> None:
-    """Refuse early files of contact logs, by their option, that cannot be written."""
-    for option, path in logs.items():
-        from carom.cli.logs import check_file
+def _document(case: Case, motion: Trajectory) -> dict[str, Any]:
+    """The document of a motion: of all its stages if it has several, with times from its beginning."""
+    from carom.models import rotor_of
+    from carom.studies import trajectory_document
 
-        check_file(option, path)
-
-
-def _write_logs(logs: dict[str, str], motion: Trajectory) -> None:
-    """Write the contact logs that are asked for."""
-    for option, path in logs.items():
-        from carom.cli.logs import write_csv, write_netcdf
-
-        (write_csv if option == "--csv" else write_netcdf)(motion, path)
-
-
-def _tell(case: Case, motion: Trajectory, echo: Echo, beside: list[str]) -> None:
-    """Print the motion for people, and what else is known of it."""
-    from carom.cli.drops import print_parts
-
-    console().print(f"{echo.words}.")
-    print_parts(console(), case, motion, echo.kind)
-    for words in filter(None, beside):
-        console().print()
-        console().print(words)
-
-
-def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
-    """What was done to the rotor, then its motion."""
-    from carom.cli.drops import motion_document
-
-    return {"disturbance": echo.document(case.parameters.scales)} | motion_document(case, motion)
+    document = trajectory_document(motion, case.limits)
+    if case.gravity:
+        gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
+        document |= rotor_of(case).document() | {"gravity": gravity}
+    if case.touchdown:
+        document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
+    return document
 
 
 def _write(
@@ -156,47 +142,3 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
         return motion, ""
     rotor = motion.rotor
     return follow(rotor, motion.start, until_decayed(rotor, motion.time)), "returns to levitation"
-
-
-def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Rotor, State, Echo]:
-    """Read the machine that moves, its start and what was taken; refuse wrong input before the rotor is made."""
-    from carom.cli.starts import read_instant, read_start
-    from carom.disturbances import BaseShock, BladeLoss, VelocityKick, echo
-    from carom.disturbances.single import read_single
-
-    scales = case.parameters.scales
-    chosen = {option: text for option, text in ways.items() if text is not None}
-    if len(chosen) != 1:
-        given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
-        allowed = (
-            "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK[,DURATION[,ANGLE]], "
-            "--blade-loss CHANGE[,PHASE[,NODE]] and --drop"
-        )
-        raise InputError("--start", given, allowed)
-    ((option, text),) = chosen.items()
-    if option != "--start":
-        kinds = {"--kick": VelocityKick, "--shock": BaseShock, "--blade-loss": BladeLoss}
-        single, rotor = read_single(kinds[option], text, scales, option), _rotor(case)
-        single = replace(single, instant=read_instant(given_instant, rotor))
-        try:
-            return *single.stages(rotor), echo.echo_of(single, rotor)
-        except InputError as problem:
-            if problem.field in ("kick", "disturbance"):
-                raise InputError(option, text, f"{problem.allowed}; use --start") from None
-            raise
-    state, rotor = read_start(text, scales, case.touchdown is not None and case.touchdown.yields), _rotor(case)
-    instant = read_instant(given_instant, rotor)
-    said = echo.echo_of_start(state, rotor.unbalance_phase, scales)
-    return rotor, replace(state, time=instant), echo.echo_at(said, rotor, instant)
-
-
-def _rotor(case: Case) -> Rotor:
-    from carom.models import rotor_of
-
-    return rotor_of(case)
-
-
-def _follow(rotor: Rotor, start: State, end: float | None, tell: Reporter) -> Trajectory:
-    from carom.motions.simulation import simulate as follow
-
-    return follow(rotor, start, end, progress=tell)

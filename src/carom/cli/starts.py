@@ -8,8 +8,12 @@ What cannot be read raises an :class:`~carom.outcome.InputError` that names the 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from decimal import Decimal
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.disturbances.single import split_text
 from carom.outcome import InputError, together
@@ -22,9 +26,9 @@ from carom.parameters import (
     own_time,
     read_quantity,
     read_size,
-    read_unbalance,
 )
-from carom.parameters.terms import SETTABLE, set_by
+from carom.parameters.fields import unknown_name
+from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
     from carom.models import Axis, Rotor
@@ -63,7 +67,7 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
 def read_whirl(text: str, scales: Scales | None) -> Whirl:
     """Read ``RADIUS,SPEED`` or ``RADIUS,SPEED,ANGLE``: a whirl about the centre, in the fixed frame; backward with a negative speed."""
     radius, speed, *angle = split_text("--whirl", text, (2, 3), _WHIRL)
-    place = _angle("--whirl", angle[0], scales) if angle else 0.0
+    place = read_angle("--whirl", angle[0], scales) if angle else 0.0
     sizes = _size("--whirl", radius, "length", scales), _size("--whirl", speed, "speed", scales)
     if not 0.0 <= sizes[0] <= 1.0:
         raise InputError("--whirl", text, "must have a radius from 0 to the clearance")
@@ -80,22 +84,17 @@ def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> f
     if not rotor.depends_on_instant:
         allowed = "allowed only under weight, with limits of the magnetic bearings, or where bearings act differently in two directions"
         raise InputError(option, text, allowed)
-    return _angle(option, text, rotor.scales)
+    return read_angle(option, text, rotor.scales)
 
 
-def read_phase(option: str, text: str, scales: Scales | None) -> float:
-    """Read an angle, in rad."""
-    return _angle(option, text, scales)
+def read_angle(option: str, text: str, scales: Scales | None) -> float:
+    """Read an angle, in rad; zero needs no unit."""
+    return _size(option, text, "angle", scales) if text.strip("0.") else 0.0
 
 
 def read_speed(option: str, text: str, scales: Scales | None) -> float:
     """Read an angular speed, which may be negative, in ``Ω``."""
     return _size(option, text, "speed", scales)
-
-
-def _angle(option: str, text: str, scales: Scales | None) -> float:
-    """Read an angle, in rad; zero needs no unit."""
-    return _size(option, text, "angle", scales) if text.strip("0.") else 0.0
 
 
 def _size(option: str, text: str, kind: str, scales: Scales | None) -> float:
@@ -119,21 +118,9 @@ def read_time(text: str, scales: Scales | None, option: str = "--until") -> floa
 
 def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> float:
     """Read a length, velocity, acceleration or time above 0, in units of the equations."""
-    return _above_zero(option, text, kind, _size(option, text, kind, scales))
-
-
-def _above_zero(option: str, text: str, kind: str, size: float) -> float:
+    size = _size(option, text, kind, scales)
     if not size > 0:
-        article = "an" if kind[0] in "aeiou" else "a"
-        raise InputError(option, text, f"must be {article} {kind} above 0")
-    return size
-
-
-def read_loss(option: str, text: str, scales: Scales | None) -> float:
-    """Read a change of the unbalance, such as ``5000 g mm``, or of the eccentricity, in clearances."""
-    size = read_unbalance(option, text, scales).own(scales)
-    if not size > 0.0:
-        raise InputError(option, text, "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm")
+        raise InputError(option, text, f"must be {'an' if kind[0] in 'aeiou' else 'a'} {kind} above 0")
     return size
 
 
@@ -173,22 +160,107 @@ def read_ends(start: str, end: str, varied: Axis) -> tuple[float, float]:
     return _ascending("--to", end, allowed, [read_value("--from", start, varied), read_value("--to", end, varied)])
 
 
-def read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
-    """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
-    allowed = f"must be two different values of {entry} with a comma between them"
-    ends = [_stated(option, part, case, entry) for part in split_text(option, text, (2,), allowed)]
-    return _ascending(option, text, allowed, ends)
-
-
 def _ascending(option: str, text: str, allowed: str, ends: list[float]) -> tuple[float, float]:
     if ends[0] == ends[1]:
         raise InputError(option, text, allowed)
     return min(ends), max(ends)
 
 
-def _stated(option: str, text: str, case: Case, entry: str) -> float:
-    try:
-        read_quantity(_of_command_line(SETTABLE[entry]), text)
-        return float(getattr(case.replace(**{entry: text}).machine, set_by(entry)))
-    except InputError as problem:
-        raise InputError(option, problem.errors[0].value, f"{entry} {problem.errors[0].allowed}") from None
+def refuse_without(needed: str, given: Mapping[str, Any]) -> None:
+    """Refuse options that belong to one that is not given."""
+    for option, value in given.items():
+        if value is not None:
+            raise InputError(option, value, f"allowed only with {needed}")
+
+
+def read_cells(option: str, text: str, dimensions: int, least: int, most: int) -> tuple[int, ...]:
+    """Read a number of cells such as ``60x60``."""
+    match = re.fullmatch("[x×X]".join([r"\s*([0-9]{1,30})\s*"] * dimensions), text)
+    cells = tuple(int(number) for number in match.groups()) if match else ()
+    if not match or min(cells) < least:
+        words = f"{dimensions} whole number{'s'[: dimensions - 1]} of at least {least}"
+        raise InputError(option, text, f"must be {words}, such as {'60x60' if dimensions == 2 else '360'}")
+    if (total := math.prod(cells)) > most:
+        raise InputError(option, text, f"makes {total} cells; at most {most} are allowed")
+    return cells
+
+
+class PlaneRead(NamedTuple):
+    """Two parameters to vary, a range of each where one is given, and the machine that states them as the option does."""
+
+    axes: tuple[Axis, Axis]
+    ranges: tuple[tuple[float, float] | None, tuple[float, float] | None]
+    told_by: Case
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Names of both parameters."""
+        return self.axes[0].name, self.axes[1].name
+
+
+def read_plane(
+    case: Case, option: str, given: str, x: str | None, y: str | None, others: Mapping[str, Axis] = MappingProxyType({})
+) -> PlaneRead:
+    """Read two names, of parameters or of what a machine file states them by, with ``--x`` and ``--y``; ``others`` can be varied too."""
+    entries = [name.strip() for name in given.split(",")]
+    names = [set_by(entry) if entry in TERMS and entry not in case.parameters.varied else entry for entry in entries]
+    if len(names) != 2 or names[0] == names[1]:
+        raise InputError(option, given, "must be two names with a comma between them, such as stiffness,damping")
+    pairs = zip(entries, names, strict=True)
+    axes = [others.get(name) or _varied(case, option, given, entry, name, others) for entry, name in pairs]
+    ranges, told_by = [], case
+    for end, text, entry, varied, other in zip(("--x", "--y"), (x, y), entries, axes, reversed(names), strict=True):
+        if entry == varied.name:
+            ranges.append(None if text is None else read_range(end, text, varied))
+            continue
+        if other in TERMS[entry].needs:
+            allowed = f"{entry} changes with {other}, which is the other parameter; use {varied.name}"
+            raise InputError(option, given, allowed)
+        told_by = _stated_by(told_by, option, given, entry)
+        ranges.append(None if text is None else _read_entry_range(end, text, told_by, entry))
+    return PlaneRead((axes[0], axes[1]), (ranges[0], ranges[1]), told_by)
+
+
+def _varied(case: Case, option: str, given: str, entry: str, name: str, others: Mapping[str, Axis]) -> Axis:
+    """The parameter that an entry states; what states none alone is refused, with why."""
+    from carom.models import axis
+
+    varied = case.parameters.varied
+    if name in varied:
+        return axis(case.parameters, name)
+    known = [*others, *varied, *(term for term, (sets, *_) in TERMS.items() if sets in varied)]
+    if entry in HELPER_FIELDS:
+        words = HELPER_FIELDS[entry].words
+        allowed = f"{entry} ({words}) is no parameter of the rotor by itself; allowed: {', '.join(known)}"
+    elif entry in TERMS:
+        allowed = f"{entry} sets {name} of a machine in SI units; this one has {', '.join(varied)}"
+    else:
+        allowed = f"{entry}: {unknown_name(entry, None, dict.fromkeys(known), 'what can be varied').allowed}"
+    raise InputError(option, given, allowed)
+
+
+def _stated_by(case: Case, option: str, given: str, entry: str) -> Case:
+    """The same machine with a field stated by this entry, as ``--set`` would; its value changes by rounding alone."""
+    machine = case.machine
+    if machine is None or entry in machine.given.get(set_by(entry), {}):
+        return case
+    needed = (set_by(entry), *TERMS[entry].needs)
+    if missing := [name for name in needed if getattr(machine, name) is None]:
+        allowed = f"{entry} needs {' and '.join(missing)}, which the machine file does not state"
+        raise InputError(option, given, allowed)
+    exact = (Decimal(repr(getattr(machine, name))) for name in needed)
+    return case.replace(**{entry: float(TERMS[entry].entry(*exact))})
+
+
+def _read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
+    """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
+    allowed = f"must be two different values of {entry} with a comma between them"
+    ends = []
+    for part in split_text(option, text, (2,), allowed):
+        try:
+            read_quantity(_of_command_line(SETTABLE[entry]), part)
+            ends.append(float(getattr(case.replace(**{entry: part}).machine, set_by(entry))))
+        except InputError as problem:
+            first = problem.errors[0]
+            raise InputError(option, first.value, f"{entry} {first.allowed}") from None
+    return _ascending(option, text, allowed, ends)

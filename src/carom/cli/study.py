@@ -2,65 +2,47 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from carom.cli import options
+from carom.cli.options import flag, option
+from carom.cli.terminal import check_output, console, print_document, progress
 
-import typer
-
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+KICK = option("SPEED", "A velocity kick that the machine must survive, such as '100 mm/s'.")
+SHOCK = option(
+    "PEAK,DURATION", "A half-sine shock of the base that it must survive, such as '5 g, 11 ms'; 11 ms if left out."
+)
+BLADE_LOSS = option(
+    "CHANGE",
+    "A loss of a blade that it must survive: by how much it changes the unbalance, such as '2000 g mm', or the eccentricity; at any phase.",
+)
+NODE = option("NODE", "The node of a flexible machine at which the blade is lost.")
+OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
+PROVE = flag(
+    "--prove", "Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof]."
+)
+ALONG = option(
+    "NAME",
+    "A parameter along which recovery is searched and a change is looked for, such as 'speed', 'friction' or 'derivative'; may be repeated. By "
+    "default damping and stiffness, or the gains of the magnetic bearings.",
+)
+TIME_LIMIT = option(
+    "T",
+    "Follow no further motions after T, such as '2 min', and say what was not reached; with --prove it also ends the proof of kicks, by "
+    "default after 30 s.",
+)
 
 
 def study(
-    machine: MachineFile,
-    settings: Settings = None,
-    kick: Annotated[
-        str | None,
-        typer.Option(metavar="SPEED", help="A velocity kick that the machine must survive, such as '100 mm/s'."),
-    ] = None,
-    shock: Annotated[
-        str | None,
-        typer.Option(
-            metavar="PEAK,DURATION",
-            help="A half-sine shock of the base that it must survive, such as '5 g, 11 ms'; 11 ms if left out.",
-        ),
-    ] = None,
-    blade_loss: Annotated[
-        str | None,
-        typer.Option(
-            metavar="CHANGE",
-            help="A loss of a blade that it must survive: by how much it changes the unbalance, such as '2000 g mm', or the eccentricity; "
-            "at any phase.",
-        ),
-    ] = None,
-    blade_loss_node: Annotated[
-        int | None, typer.Option(metavar="NODE", help="The node of a flexible machine at which the blade is lost.")
-    ] = None,
-    out: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory.")
-    ] = None,
-    prove: Annotated[
-        bool,
-        typer.Option(
-            "--prove",
-            help="Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof].",
-        ),
-    ] = False,
-    along: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME",
-            help="A parameter along which recovery is searched and a change is looked for, such as 'speed', 'friction' or 'derivative'; "
-            "may be repeated. By default damping and stiffness, or the gains of the magnetic bearings.",
-        ),
-    ] = None,
-    time_limit: Annotated[
-        str | None,
-        typer.Option(
-            metavar="T",
-            help="Follow no further motions after T, such as '2 min', and say what was not reached; with --prove it also ends the "
-            "proof of kicks, by default after 30 s.",
-        ),
-    ] = None,
-    as_json: AsJson = False,
+    machine: str = options.MACHINE,
+    settings: list[str] | None = options.SETTINGS,
+    kick: str | None = KICK,
+    shock: str | None = SHOCK,
+    blade_loss: str | None = BLADE_LOSS,
+    blade_loss_node: int | None = NODE,
+    out: str | None = OUT,
+    prove: bool = PROVE,
+    along: list[str] | None = ALONG,
+    time_limit: str | None = TIME_LIMIT,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
 

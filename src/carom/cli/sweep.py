@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
-from carom.cli.terminal import AsJson, InterruptionError, Settings, check_output, console, print_document, progress
+from carom.cli import options
+from carom.cli.options import flag, option
+from carom.cli.terminal import InterruptionError, check_output, console, print_document, progress
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
@@ -18,30 +20,25 @@ _DRAWN = ("recovered", "smallest_unrecovered_kick", "zone", "stable_orbits", "le
 _MOST_AXES = 2
 
 
+FILE = typer.Argument(metavar="SWEEP.toml", help="The sweep file.")
+OUT = option("STORE", "Directory of the results (Zarr); an existing sweep is resumed.", default=...)
+WORKERS = option("N", "Processes on this machine; by default one for each core.", min=1)
+THREADS = flag("--threads", "Threads of one process instead of processes.")
+SCHEDULER = option("ADDRESS", "Compute on a Dask cluster: address or file of its scheduler.")
+RETRY_FAILED = flag("--retry-failed", "Compute chunks with failed points again.")
+FIGURES = option("DIR", "Draw maps of the results, as SVG and PNG, in the folder figures of this directory.")
+
+
 def sweep(
-    file: Annotated[str, typer.Argument(metavar="SWEEP.toml", help="The sweep file.")],
-    out: Annotated[
-        str, typer.Option(metavar="STORE", help="Directory of the results (Zarr); an existing sweep is resumed.")
-    ],
-    settings: Settings = None,
-    workers: Annotated[
-        int | None, typer.Option(metavar="N", min=1, help="Processes on this machine; by default one for each core.")
-    ] = None,
-    threads: Annotated[bool, typer.Option("--threads", help="Threads of one process instead of processes.")] = False,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="ADDRESS", help="Compute on a Dask cluster: address or file of its scheduler."),
-    ] = None,
-    retry_failed: Annotated[
-        bool, typer.Option("--retry-failed", help="Compute chunks with failed points again.")
-    ] = False,
-    figures: Annotated[
-        str | None,
-        typer.Option(
-            metavar="DIR", help="Draw maps of the results, as SVG and PNG, in the folder figures of this directory."
-        ),
-    ] = None,
-    as_json: AsJson = False,
+    file: str = FILE,
+    out: str = OUT,
+    settings: list[str] | None = options.SETTINGS,
+    workers: int | None = WORKERS,
+    threads: bool = THREADS,
+    scheduler: str | None = SCHEDULER,
+    retry_failed: bool = RETRY_FAILED,
+    figures: str | None = FIGURES,
+    as_json: bool = options.AS_JSON,
 ) -> None:
     """Sweep a grid of machines: a study, or the basins of disturbances, at each point.
 

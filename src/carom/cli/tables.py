@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +14,8 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.fitting import fitted, plain_table
-from carom.results import in_a_line
+from carom.outcome import Outcome
+from carom.parameters.told import number
 from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
@@ -25,13 +27,15 @@ from carom.studies.summaries import (
     motion_rows,
     simple_motion_rows,
 )
-from carom.studies.wording import counted
+from carom.studies.wording import counted, listed
 
 if TYPE_CHECKING:
-    from carom.closed_forms.equilibria import Equilibrium
+    from carom.closed_forms.equilibria import SteadyMotion
+    from carom.closed_forms.yielding_walls import SlippingWhirl
+    from carom.models import Rotor
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
-    from carom.parameters import Case
+    from carom.parameters import Case, Scales
 
 MOST_NUMBERS = 40
 """Number of orbits above which the tables of numbers leave out virtual ones."""
@@ -97,25 +101,56 @@ def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> 
     console.print(table, width=min(console.width, TEXT_WIDTH))
 
 
-def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet) -> None:
-    """Print equilibria and orbits, in units of the equations and in SI units."""
-    _print_parameters(console, case)
-    rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
-    motions = _motions(rows, "Equilibria and orbits with one impact a period", console.width)
-    console.print(fitted(console, motions))
+def print_orbits(
+    console: Console,
+    case: Case,
+    equilibria: tuple[SteadyMotion, ...],
+    orbits: OrbitSet,
+    whirls: Sequence[tuple[int, SlippingWhirl]],
+) -> None:
+    """Print equilibria and orbits, in units of the equations and in SI units; of compliant bearings slipping whirls too."""
+    rotor, say = orbits.rotor, Wording(case.parameters.scales)
+    _print_head(console, case, rotor)
+    rows = simple_motion_rows(equilibria, orbits, say, most_virtual=40)
+    if len(rotor.system.rest) > 1:
+        for place, each in enumerate(equilibria):
+            at = f" at touchdown bearing {listed([str(plane + 1) for plane in each.planes])}" if each.planes else ""
+            rows[place] = dataclasses.replace(rows[place], name=f"{rows[place].name}{at}")
+    for plane, whirl in whirls:
+        name = (
+            f"{Outcome.BACKWARD_WHIRL.words} at touchdown bearing {plane + 1}, {_frequency(whirl.speed, rotor.scales)}"
+        )
+        ends = "stability not judged" if whirl.slips else "rolls before it gets there"
+        size = f"r = {say.radius(whirl.radius)}"
+        rows.append(MotionRow(f"{name}; {ends}", "undecided", size=size, force=say.force(whirl.normal_force)))
+    exact = rotor.has_closed_forms
+    title = "Equilibria and orbits with one impact a period" if exact else "Steady motions"
+    console.print(fitted(console, _motions(rows, title, console.width)))
     _print_left_out(console, orbits, most_virtual=40)
     _print_numbers(console, [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS])
     console.print()
-    console.print(orbits.argument)
+    console.print(orbits.argument if exact else f"{_why_only(rotor)} Orbits with impacts are searched by --impacts N.")
+
+
+def _why_only(rotor: Rotor) -> str:
+    """Which motions are no steady ones of a rotor without closed forms."""
+    if rotor.system.is_anisotropic:
+        return "Rubs and whirls are no steady motions where bearings act differently in two directions; attractors finds where motions end."
+    if rotor.system.races is not None:
+        return "Rubs and whirls on a race that turns are steady only where its torques balance: they are orbits, if there are any."
+    if rotor.system.forced is not None:
+        return "Under weight rubs and whirls are no steady motions: leave it out by --set gravity=0 to see them."
+    return "Whirls are those of the rotor without unbalance; in each only the bearing named touches, and others are not asked."
+
+
+def _frequency(speed: float, scales: Scales | None) -> str:
+    """A speed of whirl."""
+    return f"{number(speed * scales.speed / math.tau, 4)} Hz" if scales else f"{number(speed, 4)} Ω"
 
 
 def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
     """Print the orbits with at most a number of impacts."""
-    if found.rotor.has_closed_forms:
-        _print_parameters(console, case)
-    else:
-        console.print(Text(f"{case.name}: {found.rotor.words or in_a_line(found.rotor)}"))
-        console.print()
+    _print_head(console, case, found.rotor)
     if len(found):
         title = f"Orbits with at most {counted(found.impacts, 'impact')} a period"
         motions = plain_table(title, "orbit", "period", "state", "word", no_wrap=("orbit", "period"))
@@ -132,10 +167,11 @@ def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
     console.print(found.argument)
 
 
-def _print_parameters(console: Console, case: Case) -> None:
-    """Print the name and the dimensionless parameters of a machine."""
+def _print_head(console: Console, case: Case, rotor: Rotor) -> None:
+    """Print the name of a machine, and its dimensionless parameters or what it is in words."""
     parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
-    console.print(Text(f"{case.name}: {parameters}"))
+    words = parameters if rotor.has_closed_forms else rotor.words
+    console.print(Text(f"{case.name}: {words}" if words else case.name))
     console.print()
 
 

@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
+from carom.cli.options import option
 from carom.outcome import InputError, shown
 
 TEMPLATES = ("planar", "rigid", "flexible")
 """Kinds of machines, of which each has a file in the folder ``templates``: one mass in a plane, one that tilts, one that bends."""
 
 
-def template(
-    kind: Annotated[
-        str,
-        typer.Argument(
-            metavar="KIND", help="Kind of machine: planar (one mass), rigid (it tilts) or flexible (it bends)."
-        ),
-    ],
-    out: Annotated[
-        str | None, typer.Option("--out", "-o", metavar="FILE", help="Write it to this new file, not to the screen.")
-    ] = None,
-) -> None:
+KIND = typer.Argument(
+    metavar="KIND", help="Kind of machine: planar (one mass), rigid (it tilts) or flexible (it bends)."
+)
+OUT = option("FILE", "Write it to this new file, not to the screen.", "--out", "-o")
+
+
+def template(kind: str = KIND, out: str | None = OUT) -> None:
     """Print a machine file with every entry explained, which loads as it is: copy it, and replace what is yours."""
     if kind not in TEMPLATES:
         raise InputError("KIND", shown(kind), f"one of {', '.join(TEMPLATES)}")

@@ -6,28 +6,12 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from carom.progress import Reporter, bar
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-MachineFile = Annotated[str, typer.Argument(metavar="MACHINE.toml", help="The machine file.")]
-Settings = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="NAME=VALUE",
-        help="Set a parameter, with units or dimensionless, such as 'damping=2000 N s/m' or gamma=0.1; repeatable.",
-    ),
-]
-Out = Annotated[
-    str | None, typer.Option("--out", metavar="DIR", help="Write figures and numbers (JSON) to this directory.")
-]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 
 WIDTH = 80
 """Width of texts and tables, in columns, if the output is no terminal and ``COLUMNS`` is not set."""

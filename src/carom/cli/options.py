@@ -1,0 +1,66 @@
+"""Options that several commands share, and how an option is declared: where values go, and what they are."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+
+def option(metavar: str | None, words: str, *names: str, default: Any = None, **limits: Any) -> Any:
+    """An option as the default of an argument of a command; its value is text, a number or a list as that argument is annotated."""
+    return typer.Option(default, *names, metavar=metavar, help=words, **limits)
+
+
+def flag(name: str, words: str) -> Any:
+    """An option without a value."""
+    return option(None, words, name, default=False)
+
+
+MACHINE = typer.Argument(metavar="MACHINE.toml", help="The machine file.")
+SETTINGS = option(
+    "NAME=VALUE",
+    "Set a parameter, with units or dimensionless, such as 'damping=2000 N s/m' or gamma=0.1; repeatable.",
+    "--set",
+)
+OUT = option("DIR", "Write figures and numbers (JSON) to this directory.")
+AS_JSON = flag("--json", "Print one JSON object and nothing else.")
+
+START = option(
+    "RE,IM,VRE,VIM", "Begin at this position and velocity, co-rotating frame; in c_r and c_r Omega, or with units."
+)
+KICK = option(
+    "SPEED[,ANGLE]",
+    "Begin with a velocity kick out of levitation, such as '50 mm/s,30 deg'; the angle counts in the sense of rotation from the x axis that "
+    "turns with the shaft, as the phase of the unbalance does.",
+)
+SHOCK = option(
+    "PEAK[,DURATION[,ANGLE]]",
+    "Begin with a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg', the angle from the same axis as it lies when the "
+    "shock begins; the motion is logged from then on.",
+)
+BLADE_LOSS = option(
+    "CHANGE[,PHASE[,NODE]]",
+    "Begin with the loss of a blade at levitation: by how much the unbalance changes, at which phase relative to that before it, and at which "
+    "node of a flexible machine, such as '5000 g mm,30 deg'.",
+)
+INSTANT = option(
+    "ANGLE",
+    "Angle by which the shaft has turned when it happens, such as '90 deg'. It matters under weight, with limits of the magnetic bearings and "
+    "where bearings act differently in two directions. By default 0 of one motion: then the x axis that turns with the shaft passes that of the "
+    "room; of many each has an instant of its own.",
+)
+REGAINED_AFTER = option("T", "Time after the release at which levitation is back, such as '50 ms'; by default never.")
+UNTIL = option(
+    "T", "Follow a motion to this time, in 1/Omega or with a unit; by default until it is known where it ends."
+)
+
+ALONG = option("NAME", "Parameter to vary, such as gamma, speed, damping or stiffness.", default=...)
+PLANE = option(
+    "NAME,NAME",
+    "Two parameters, such as speed,damping, or what a machine file states them by, such as proportional_gain,derivative_gain.",
+    default="gamma,omega",
+)
+FIRST_RANGE = option("A,B", "Range of the first parameter, by default around its present value.", "--x")
+SECOND_RANGE = option("C,D", "Range of the second parameter.", "--y")
+SEED = option("S", "Seed of the sample, by default 0.", min=0)
