@@ -10,7 +10,7 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Rotor
-        from carom.motions.drops import Drop
+    from carom.motions.drops import Drop
     from carom.motions.loads import DropLoads
     from carom.motions.reduction_errors import ReductionError
     from carom.parameters import Case
@@ -84,7 +84,6 @@ def released(
     """How levitation is lost, at the state that one of some ways gives; wrong input is refused before kernels are loaded."""
     from carom.cli.starts import read_angle, read_kick, read_positive, read_speed, read_start, read_whirl
     from carom.motions.drops import Drop
-    from carom.motions.loads import DropLoads
 
     scales = case.parameters.scales
     readers: dict[str, Any] = {"--start": read_start, "--kick": read_kick, "--whirl": read_whirl}
