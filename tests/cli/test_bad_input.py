@@ -398,7 +398,7 @@ def test_no_control_character_of_an_error_nobody_thought_of_is_told(monkeypatch,
 
 @pytest.mark.parametrize("option", ["--csv", "--netcdf"])
 def test_logs_that_cannot_be_written(carom, machine, option, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.cli.simulate._follow", _raise(AssertionError("simulated in vain")))
+    monkeypatch.setattr("carom.motions.simulation.simulate", _raise(AssertionError("simulated in vain")))
     special = [path for path in ("/dev/null", "/proc/log") if Path(path).parent.is_dir()]
     for path in (tmp_path, tmp_path / "none" / "log", tmp_path / ("x" * 300), "", "a\0b", *special):
         assert_refused(carom("simulate", machine, "--kick", "1 mm/s", "--until", "1", option, path), option)
