@@ -99,10 +99,10 @@ def basins(
 
         rotor, share = rotor_of(case), 0.45
         if gains is not None:
-            share, wanted = 0.2, WANTED if wanted is None else wanted
+            share, goal = 0.2, WANTED if wanted is None else wanted
             shape = read_cells("--gains", gains, 2, least=2, most=MOST_STARTS)
-            if not 0.0 < wanted <= 1.0:
-                raise InputError("--wanted", wanted, "must be a share above 0 and at most 1, such as 0.99")
+            if not 0.0 < goal <= 1.0:
+                raise InputError("--wanted", goal, "must be a share above 0 and at most 1, such as 0.99")
             asked = read_plane(case, "--plane", plane or ",".join(usual_gains(rotor)), x, y)
         check_output(out)
         source = _source(machine, settings)
@@ -116,8 +116,8 @@ def basins(
             ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.9)}
             found, least = map_gains(rotor, plan, asked.names, **ways_of), None  # type: ignore[arg-type]
             if all(found.present):
-                least = least_gain_change(found, wanted, progress=tell.part(0.9, 0.97))
-            over = (found, least, wanted, asked.told_by)
+                least = least_gain_change(found, goal, progress=tell.part(0.9, 0.97))
+            over = (found, least, goal, asked.told_by)
         document = basin_document(basin, smallest, harmless, *over)
         if out is not None:
             tell(0.97, "drawing")
@@ -196,7 +196,7 @@ def _plan(
         if not 1 <= count <= MOST_STARTS:
             raise InputError("--starts", count, f"must be a whole number from 1 to {MOST_STARTS}")
         return Sample(model, count, seed or 0)
-    cells = (RELEASES,) if dimensions == 1 else (CELLS, CELLS)
+    cells: tuple[int, ...] = (RELEASES,) if dimensions == 1 else (CELLS, CELLS)
     if grid is not None:
         cells = read_cells("--grid", grid, dimensions, least=1, most=MOST_STARTS)
     return Grid(model, cells, None if instant is None else read_instant(instant, rotor_of(case)))

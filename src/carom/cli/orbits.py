@@ -52,7 +52,9 @@ def orbits(
     if longest_period is not None and not exact:
         allowed = "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid wall, without weight or limits"
         raise InputError("--longest-period", longest_period, allowed)
-    longest = longest_period and read_time(longest_period, case.parameters.scales, "--longest-period")
+    longest = None
+    if longest_period is not None:
+        longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
         from carom.closed_forms.equilibria import steady_motions
         from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
