@@ -169,7 +169,7 @@ def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
 
 def _print_head(console: Console, case: Case, rotor: Rotor) -> None:
     """Print the name of a machine, and its dimensionless parameters or what it is in words."""
-    parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
+    parameters = ", ".join(f"{symbol} = {value}" for symbol, value in dimensionless_rows(case))
     words = parameters if rotor.has_closed_forms else rotor.words
     console.print(Text(f"{case.name}: {words}" if words else case.name))
     console.print()

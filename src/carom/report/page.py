@@ -25,8 +25,6 @@ from carom.studies.levitation_facts import frequency_words
 from carom.studies.part_rows import part_rows
 from carom.studies.summaries import (
     MotionRow,
-    dimensionless_rows,
-    machine_rows,
     motion_rows,
     range_rows,
     share_rows,
@@ -85,10 +83,8 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         findings=[
             entry for entry in paragraphs(study.facts) if entry[0] not in ("What would change it", "Not covered")
         ],
-        machine=machine_rows(study.case),
-        parts=part_rows(study.case, study.reduced.machine) if study.reduced else [],
+        machine=part_rows(study.case, study.reduced.machine) if study.reduced else study.case.rows(),
         whirls=_whirls(study.levitating),
-        dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),
         holding=_holding(study),
         left_out=sum(not orbit.admissible for orbit in study.orbits),

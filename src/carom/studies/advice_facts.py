@@ -15,7 +15,6 @@ from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import event_words
 from carom.studies.study_data import StudyData
-from carom.studies.verdict import judged
 from carom.studies.wording import Wording, counted, entry_words, present_values
 
 CHANGES = ("Change", "Or")
@@ -48,9 +47,6 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
     if machine is not None:
         told += [f"{name} {told_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")]
     yield _fact(", ".join(told), "Machine")
-    verb = "levitates, with sag and whirl out to" if study.heavy else "levitates at"
-    levitates = f"{verb} {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
-    yield _fact(levitates if study.levitates else judged(study)[1].lower(), "Now", "closed form")
     kind = recommended.kind
     if kind in _NO_CHANGE:
         unfinished = kind == "no-change-found" and not all(
@@ -70,9 +66,6 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         text = f"{say.name(name)} {say.value(name, own)} is {number(100.0 * margin.share, 2)} % {side} {say.value(name, end)}, {_where(margin.edge)}"
         values = say.in_both(name, present=own) | margin.document(say)
         yield _fact(text, "Margin", evidence_of(margin.edge), values, detail=True)
-    kicks, *others = say.required(study.required)
-    tried = "; ".join([f"velocity {kicks} out of levitation", *others])
-    yield _fact(f"{tried}; faster or other disturbances were not tested", "Disturbances")
     of_now = "" if study.proof is None else ", and what is proven is so of the present values, not of the change"
     yield _fact(f"{_HOW_SURE}{of_now}.", "How sure")
 

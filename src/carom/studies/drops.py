@@ -62,15 +62,12 @@ class DropStudy(Result):
     def headline(self) -> str:
         """How the motion ended, and up to when it was followed."""
         say, loads = Wording(self.case.parameters.scales), self.loads
-        how = ""
-        if (since := loads.settled_at) is not None:
-            how = f", since {say.time(since)} after the release"
-        elif loads.outcome is not Outcome.LEVITATED and loads.outcome.settled:
-            how = ", and goes on"
         if loads.outcome is Outcome.BEYOND_MODEL:
             return f"Beyond the model since {say.time(loads.time)} after the release: {loads.outcome.meaning}"
         if not loads.outcome.settled:
             return f"Followed for {say.time(loads.time)}, and not settled by then ({loads.outcome.words})."
+        goes_on = "" if loads.outcome is Outcome.LEVITATED else ", and goes on"
+        how = goes_on if loads.settled_at is None else f", since {say.time(loads.settled_at)} after the release"
         name = MotionName(loads.outcome).words
         return f"{name[0].upper()}{name[1:]}{how}; followed for {say.time(loads.time)}."
 

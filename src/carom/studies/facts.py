@@ -47,10 +47,6 @@ class Fact:
         disturbances; stated by the user; chosen by carom.  ``None`` where the text says it.
     values : mapping
         Its numbers, as plain data for JSON.
-    motions : tuple of str
-        The motions it is about.
-    disturbances : str
-        Kind of the disturbances it rests on; empty if it rests on none.
     detail : bool
         Whether it belongs to the last fact before it that is no detail.
     """
@@ -60,8 +56,6 @@ class Fact:
     label: str = ""
     evidence: Evidence | None = None
     values: Mapping[str, Any] = field(default_factory=dict)
-    motions: tuple[str, ...] = ()
-    disturbances: str = ""
     detail: bool = False
 
     @property
@@ -71,7 +65,7 @@ class Fact:
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
-        return record(self, "topic label text evidence values motions disturbances detail")
+        return record(self, "topic label text evidence values detail")
 
 
 def about(facts: Sequence[Fact], topic: Topic) -> tuple[Fact, ...]:

@@ -26,7 +26,7 @@ from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import read_quantity
 from carom.parameters.fields import RPM
-from carom.results import fields_of, in_a_line
+from carom.results import in_a_line, record
 from carom.rotors import find_whirls
 from carom.studies.critical_speeds import criticals_of, exact_criticals
 from carom.studies.levitating import WHIRLS, speeds_of_response
@@ -41,6 +41,9 @@ AROUND = (0.25, 1.5)
 """Default range: these multiples of the smaller and of the larger one of critical and operating speed."""
 ALL_AROUND = (0.05, 1.5)
 """The same where no critical speed is known before, in multiples of the operating speeds."""
+ONE_MASS = "half_power_si=half_power damping_ratio natural_frequency_si=natural_frequency"
+CRITICAL = "bearing amplification_factor=factor speed_si=speed amplitude_si=amplitude"
+SEPARATION = "side actual required met"
 NARROWED = 1e-6
 """Relative width to which ends of stretches without a closed form are bisected."""
 
@@ -208,10 +211,8 @@ def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:
 
 def _document(response: UnbalanceResponse) -> dict[str, Any]:
     """Return the document of a response over speed: speeds in rad/s and rpm, amplitudes in clearances and in m."""
-    free, margin, rubs = response.contact_free, response.separation, response.rubs
+    free, rubs = response.contact_free, response.rubs
     highest = max(response.criticals, key=lambda each: each.amplitude, default=None)
-    numbers = ("amplification_factor", "damping_ratio", "half_power", "natural_frequency")
-    own = dict.fromkeys(numbers) if free is None else fields_of(free, *numbers)
     return {
         "name": response.case.name,
         "carom": version("carom"),
@@ -219,17 +220,13 @@ def _document(response: UnbalanceResponse) -> dict[str, Any]:
         "speeds_si": list(response.interval),
         "present": _at(response, response.present) | {"steady": response.steady_at_present._asdict()},
         "critical": None if highest is None else _at(response, highest.speed),
-        "half_power_si": None if own["half_power"] is None else list(own["half_power"]),
         "amplification_factor": highest.factor if highest else None,
-        "damping_ratio": own["damping_ratio"],
-        "natural_frequency_si": own["natural_frequency"],
+        **(record(free, ONE_MASS) if free else {}),
         "criticals": [
-            fields_of(each, "bearing", amplification_factor="factor", speed_si="speed", amplitude_si="amplitude")
-            | {"rpm": each.speed / RPM, "separation": fields_of(each.separation, "side", "actual", "required", "met")}
+            record(each, CRITICAL) | {"rpm": each.speed / RPM, "separation": record(each.separation, SEPARATION)}
             for each in response.criticals
         ],
         "operating_si": list(response.operating),
-        "separation": None if margin is None else fields_of(margin, "side", "actual", "required", "met"),
         "zone_limits": list(response.case.zones.limits),
         "zones": [_stretch(entry) | {"zone": entry.what or None} for entry in response.zones],
         "exceeds_api_617": [_stretch(entry) for entry in response.exceeds_api_617 if entry.what],
@@ -239,7 +236,6 @@ def _document(response: UnbalanceResponse) -> dict[str, Any]:
             "speed_si": response.speeds.tolist(),
             "amplitude": response.amplitude.tolist(),
             "peak_to_peak_si": response.peak_to_peak_si.tolist(),
-            "lag": response.lag.tolist(),
             "api_617_limit_si": vibration_limit(response.speeds).tolist(),
         },
         "touchdowns": _bearings(response.whirl),

@@ -16,7 +16,7 @@ from carom.arguments import checked
 from carom.closed_forms import SpeedResponse, SynchronousResponse, synchronous_response
 from carom.parameters import Case, Scales
 from carom.results import Result
-from carom.studies.critical_speeds import Critical, Separation
+from carom.studies.critical_speeds import Critical
 from carom.studies.standards import vibration_limit
 
 
@@ -158,15 +158,9 @@ class ResponseData(Result):
         """Index of the touchdown bearing at which sag and whirl come closest to it at the present speed."""
         return int(self.now.reach[0].argmax())
 
-    @property
-    def lag(self) -> np.ndarray:
-        """Angle by which the contact-free displacement lags the unbalance, rad, shape (n,); at the bearing where it is largest at the present speed."""
-        largest = int((self.now.touchdowns.major / self.now.clearances)[0].argmax())
-        return np.asarray(self.whirl.lags[:, largest])
-
     @cached_property
     def lags(self) -> np.ndarray:
-        """The same at each touchdown bearing without jumps over the speed, from −π/2 to 3π/2 at the lowest one, shape (n, P)."""
+        """Angle by which the contact-free displacement lags the unbalance at each touchdown bearing, rad, without jumps over the speed, from −π/2 to 3π/2 at the lowest one; shape (n, P)."""
         whole = np.unwrap(self.whirl.lags, axis=0)
         turns = np.floor((whole[0] + 0.5 * np.pi) / (2.0 * np.pi))
         return np.asarray(whole - 2.0 * np.pi * turns)
@@ -217,12 +211,6 @@ class ResponseData(Result):
         values = np.arctan2(self.peak_to_peak_si, vibration_limit(self.speeds)) - 0.25 * math.pi
         edges = crossings(self.speeds, values, over)
         return stretches_between(self.interval, edges, lambda speed: over(speed) > 0.0)
-
-    @property
-    def separation(self) -> Separation | None:
-        """Separation of the operating speeds from the critical speed that keeps it least; ``None`` without a critical speed."""
-        margins = [each.separation for each in self.criticals]
-        return min(margins, key=lambda each: each.actual - each.required if each.required else math.inf, default=None)
 
 
 def crossings(speeds: np.ndarray, values: np.ndarray, function: Callable[[float], float]) -> list[float]:

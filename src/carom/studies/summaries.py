@@ -16,10 +16,9 @@ from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.outcome import STEADY_WORDS
-from carom.parameters import ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Parameters
+from carom.parameters import Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.named import own_numbers
-from carom.parameters.told import told_entry
 from carom.studies.endings import motion_words
 from carom.studies.kinds import LABELS
 from carom.studies.proven import is_proven
@@ -28,16 +27,6 @@ from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.verdict import SURVIVED, condition_of, survived_cells
 from carom.studies.wording import Wording, counted, no_rigid_wall
-
-
-@dataclass(frozen=True)
-class ValueRow:
-    """A parameter: symbol, description, and value with its unit."""
-
-    symbol: str
-    words: str
-    value: str
-
 
 State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
 
@@ -60,6 +49,8 @@ class MotionRow:
     trials: str = ""
     """Number of disturbances that ended there."""
     remark: str = ""
+    multipliers: str = ""
+    """Non-trivial ones of an orbit, where they are told."""
 
 
 MOTIONS: dict[Motion, str] = {
@@ -118,26 +109,10 @@ def _share_back(share: Share) -> str:
     return f"{percent(share.fraction)} ({share.count:,} of {share.total:,}; {interval})"
 
 
-def machine_rows(case: Case) -> list[ValueRow]:
-    """Return the rows of the machine in SI units; empty if only dimensionless numbers are known."""
-    machine = case.machine
-    if machine is None:
-        return []
-    helpers = [name for name in HELPER_FIELDS if name in type(machine).model_fields]
-    if machine.force_current_factor is None and machine.force_limit is None:
-        helpers.remove("magnetic_bearings")
-    found = {name: getattr(machine, name) for name in (*MACHINE_FIELDS, *helpers)} | machine.controller_gains
-    return [
-        ValueRow(ENTRIES[name].symbol, ENTRIES[name].words, told_entry(name, value, 6))
-        for name, value in found.items()
-        if value is not None
-    ]
-
-
-def dimensionless_rows(case: Case) -> list[ValueRow]:
-    """Return the rows of the dimensionless parameters."""
-    numbers, fields = own_numbers(case.parameters).items(), case.parameters.varied
-    return [ValueRow(fields[name].symbol, fields[name].words, f"{value:.6g}") for name, value in numbers]
+def dimensionless_rows(case: Case) -> list[tuple[str, str]]:
+    """Return the dimensionless parameters: symbols and values."""
+    fields = case.parameters.varied
+    return [(fields[name].symbol, f"{value:.6g}") for name, value in own_numbers(case.parameters).items()]
 
 
 def motion_rows(study: StudyData) -> list[MotionRow]:

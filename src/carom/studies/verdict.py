@@ -90,13 +90,12 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
     if study.survives is not None:
         for name, values in study.survives.document().items():
             entry: SmallestLoss = getattr(study.survives, name)
-            motions = () if entry.outcome is None else (entry.outcome.label,)
-            yield _fact(_survived(study, name, entry), LABELS[name], None, values, motions, name)
+            yield _fact(_survived(study, name, entry), LABELS[name], None, values)
     if study.share is not None and study.share.total:
         words, values = f"{study.share.words}, weighted by area", study.share.document
-        yield _fact(words, "Share", "sampled", values, disturbances="kick")
+        yield _fact(words, "Share", "sampled", values)
     if study.kicks is not None:
-        yield _fact(study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks), disturbances="kick")
+        yield _fact(study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks))
     yield from _others(study)
     gone, total = study.attractors, len(study.attractors.disturbances)
     if count := sum(entry.count for entry in gone if entry.name.outcome is Outcome.BEYOND_MODEL):
@@ -161,20 +160,18 @@ def lost_to(study: StudyData, name: Kind, found: SmallestLoss) -> str:
 
 def _others(study: StudyData) -> Iterator[Fact]:
     """Motions besides levitation that can hold the rotor, whether a disturbance reached them or not."""
-    holds: list[tuple[str, tuple[str, ...]]] = []
+    holds: list[str] = []
     if any(rub.status != "virtual" for rub in study.rubs):
-        stable = "stable " if study.stable_rub else ""
-        holds.append((f"a {stable}{STEADY_WORDS['rub']}", (Outcome.FORWARD_RUB.label,)))
-    if names := tuple(orbit.name for orbit in study.stable_orbits):
-        holds.append((names[0].words if len(names) == 1 else f"{len(names)} kinds of {REGULAR_BOUNCING}", names))
+        holds.append(f"a {'stable ' if study.stable_rub else ''}{STEADY_WORDS['rub']}")
+    if orbits := study.stable_orbits:
+        holds.append(orbits[0].name.words if len(orbits) == 1 else f"{len(orbits)} kinds of {REGULAR_BOUNCING}")
     rolls = study.known.rolls
     if rolls.holds if rolls else any(each.name.outcome is Outcome.ROLLING for each in study.attractors):
-        holds.append((Outcome.ROLLING.words, (Outcome.ROLLING.label,)))
+        holds.append(Outcome.ROLLING.words)
     if holds:
         there = f"{'besides levitation ' if study.levitates else ''}there {'are' if len(holds) > 1 else 'is'}"
-        evidence: Evidence = "searched" if study.stable_orbits else "closed form" if rolls else "sampled"
-        motions = tuple(motion for _, several in holds for motion in several)
-        yield _fact(f"{there} {listed([words for words, _ in holds])}", "Coexisting", evidence, motions=motions)
+        evidence: Evidence = "searched" if orbits else "closed form" if rolls else "sampled"
+        yield _fact(f"{there} {listed(holds)}", "Coexisting", evidence)
 
 
 def judged(study: StudyData) -> tuple[Level, str, str]:

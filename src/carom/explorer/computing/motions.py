@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, replace
 
 from carom.closed_forms import find_equilibria
 from carom.closed_forms.exact_results import exact_results
@@ -19,13 +19,6 @@ NO_ORBITS = (
 """What is said in place of orbits that are not known in closed form."""
 
 
-@dataclass(frozen=True)
-class TableRow(MotionRow):
-    """A motion, with the non-trivial multipliers of an orbit as text."""
-
-    multipliers: str = ""
-
-
 @dataclass(frozen=True, eq=False)
 class MotionTable:
     """Steady motions and single-impact orbits.
@@ -36,7 +29,7 @@ class MotionTable:
         Why no orbit is missing, or which were not searched.
     """
 
-    rows: tuple[TableRow, ...]
+    rows: tuple[MotionRow, ...]
     argument: str
 
 
@@ -47,13 +40,11 @@ def table_of(rotor: Rotor) -> MotionTable:
     """
     if not exact_results(rotor).orbits:
         steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
-        return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), NO_ORBITS)
+        return MotionTable(tuple(steady), NO_ORBITS)
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
     rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))
-    return MotionTable(
-        tuple(TableRow(**asdict(row), multipliers=texts.get(row.name, "")) for row in rows), orbits.argument
-    )
+    return MotionTable(tuple(replace(row, multipliers=texts.get(row.name, "")) for row in rows), orbits.argument)
 
 
 def _multipliers(orbit: Orbit) -> str:
