@@ -67,7 +67,6 @@ def corner():
 SLOWEST = (
     "studies/test_assembly.py",
     "sweeps/test_running.py",
-    "bifurcations/test_rubbing.py",
     "explorer/test_browser.py",
     "explorer/test_stage.py",
     "cli/test_basins.py",

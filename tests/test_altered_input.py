@@ -111,7 +111,6 @@ ODD = (
         "map_basins",
         "settle",
         "attractors.MotionName.of",
-        "orbits.Kind.of_phase",
         "parameters.Numbers.of",
         "parameters.Parameters.from_attributes",
     ],

@@ -111,8 +111,6 @@ CALLS = {
     "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
     "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,
     "orbits.period_condition": lambda m: cm.orbits.period_condition(m, np.array([1.0, 2.0])),
-    "orbits.rubbing_orbits": lambda m: cm.orbits.rubbing_orbits(m, longest=10.0, samples=2),
-    "orbits.stroboscopic_map": lambda m: cm.orbits.stroboscopic_map(m, START, 1.0),
     "studies.check_recovery": lambda m: cm.studies.check_recovery(m, [Sample(VelocityKick(0.5), 3)]),
     "studies.find_recovery": lambda m: cm.studies.find_recovery(
         m, "gamma", [Sample(VelocityKick(0.5), 3)], within=(0.5, 1.0)
@@ -148,7 +146,6 @@ GENERAL = {
     "models.rotor_of",
     "attractors.known_starts",
     "basins.map_cells",
-    "orbits.orbit_near",
     "studies.check_recovery",
     "studies.find_recovery",
     "studies.study",

@@ -100,7 +100,7 @@ def test_bouncing_with_rub_repeats_an_orbit_with_lasting_contact():
     assert ended.multiplicity == motion.multiplicity
     assert ended.orbit.stable
     assert ended.orbit.admissible
-    assert not ended.orbit.word.flies
+    assert not ended.orbit.flies
     times = motion.segment_starts[1:][motion.is_impact]
     assert ended.period == pytest.approx(motion.time - times[-motion.multiplicity], rel=1e-9)
 

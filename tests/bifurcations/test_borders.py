@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
-from carom.bifurcations.neighbours import NEIGHBOURS
+from carom.bifurcations.neighbours import BORDERS
 from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -37,14 +37,14 @@ def stopped() -> Bifurcation:
 
 def test_the_orbit_on_the_border_solves_the_equations_of_both_words():
     point = located("grazing", 0.08267)
-    word, start = NEIGHBOURS["grazing"](point.orbit)
-    assert (word.impacts, len(start.durations)) == (3, 3)
+    word, start = BORDERS["grazing"](point.orbit)
+    assert (len(word), len(start.durations)) == (3, 3)
     assert start.durations.sum() == pytest.approx(point.orbit.period, abs=1e-12)
     more = orbit_near(point.orbit.rotor, word, start)
     assert more is not None
     # At a grazing impact the speed is the root of the error of its height.
     assert abs(more.margins.approach) < 1e-5
-    back, again = NEIGHBOURS["vanishing-impact"](more)
+    back, again = BORDERS["vanishing-impact"](more)
     assert back == point.orbit.word
     assert again.durations.sum() == pytest.approx(point.orbit.period, abs=1e-5)
 
@@ -99,7 +99,7 @@ def test_no_orbit_is_constructed_beyond_other_points():
     with pytest.raises(InputError, match="special point"):
         switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="another flight"):
-        NEIGHBOURS["vanishing-impact"](find_orbits(PAPER)["B1,d"])
+        BORDERS["vanishing-impact"](find_orbits(PAPER)["B1,d"])
 
 
 # ------------------------------------------------------------------------- special points of three impacts
@@ -154,7 +154,7 @@ def test_the_orbit_attracts_between_these_points_and_repels_outside():
 def test_the_doubled_branch_of_three_impacts_is_found():
     (point,) = [each for each in resonant().special if each.kind == "period-doubling"]
     branch = switch(point, (0.0865, 0.089))
-    assert branch.word.impacts == 6
+    assert len(branch.word) == 6
     assert "period-halving" in branch.stops
     assert len(doubled().word) == 2
 

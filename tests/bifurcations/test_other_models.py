@@ -17,7 +17,7 @@ from carom.bifurcations.samples import _impacts
 from carom.disturbances import Grid, VelocityKick
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import InputError, Outcome
+from carom.outcome import Outcome
 
 RANGE = (0.2, 0.5)
 
@@ -54,7 +54,6 @@ def test_a_diagram_shows_equilibria_and_where_disturbances_settle(monkeypatch):
     rotor = single().model
     diagram = cm.find_bifurcations(rotor, "friction", (0.1, 0.2), attractors=3)
     assert {sample.value for sample in diagram.attractors} >= {0.1, 0.2}
-    assert diagram.rubbing == ()
     assert diagram.rolling.values.size == 0
     for branch in diagram.equilibria:
         for value, force, admissible in zip(branch.values, branch.normal_force, branch.admissible, strict=True):
@@ -87,9 +86,3 @@ def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_ro
     for kind, value in shared:
         assert min(abs(each.value - value) for each in found.points if each.kind == kind) < 1e-9
     found.plot()
-
-
-def test_lasting_contact_in_diagrams_of_other_models_is_refused():
-    with pytest.raises(InputError, match="the planar rotor") as caught:
-        cm.find_bifurcations(tilting().model, "gamma", RANGE, lasting=True)
-    assert "\n" not in str(caught.value)

@@ -8,12 +8,11 @@ from functools import cache
 import mpmath
 import numpy as np
 import pytest
-from linear_rotors import touchdowns
 
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.bifurcations.word_equations import Family
-from carom.models import from_matrices, jeffcott
+from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
@@ -22,7 +21,7 @@ from carom.orbits.shooting import Start, closed_flights, links_of
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from tests.machines import PAPER
-from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state, tilting_too
+from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state
 
 DOUBLING = 0.0833814175
 """Damping at which B1,d doubles its period."""
@@ -218,38 +217,6 @@ def test_no_branch_begins_at_a_fold():
         switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="interval"):
         continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.2, 0.3))
-
-
-def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
-    rotor = tilting_too(0.005)
-    planar = find_orbits(PAPER)["B1,d"]
-    before = planar.section.state
-    node = np.array([[before.position, 0.0, before.velocity, 0.0]])
-    orbit = orbit_near(rotor, planar.word, Start(node, planar.durations))
-    assert isinstance(orbit, Orbit)
-    branch = continue_orbit(orbit, "restitution", (0.93, 0.97))
-    assert branch.name == "P1,1"
-    with pytest.raises(CaromError, match="no closed form"):
-        _ = branch.closed
-    assert branch.stops == ("parameter limit", "parameter limit")
-    assert branch.admissible.all()
-    for at in branch.orbits[::4]:
-        motion = at.trajectory(3.0)
-        assert abs(motion.at_plane(np.array([motion.time]))[0][0] - at.position) < 1e-8
-
-
-def test_the_planar_rotor_by_its_matrices_has_the_same_special_points():
-    """Extrema of the radius too: it is the system that has them, not the description of the rotor."""
-    matrices = {"mass": [[1.0]], "damping": [[PAPER.gamma]], "stiffness": [[PAPER.omega**2]]}
-    law = {"touchdowns": touchdowns([[1.0]], [PAPER.mu], [PAPER.d], [PAPER.radius_ratio + 1.0])}
-    linear = from_matrices(**matrices, **law, forcing=[PAPER.rho * np.exp(1j * PAPER.phi)])
-    start = find_orbits(PAPER)["B1,d"]
-    orbit = orbit_near(linear, start.word, Start(start.nodes, start.durations))
-    assert orbit is not None
-    known = {point.kind: point.value for point in single().special}
-    found = {point.kind: point.value for point in continue_orbit(orbit, "gamma", (0.075, 0.11)).special}
-    assert set(found) == {"radius-extremum", "period-doubling"}
-    assert found == pytest.approx(known, rel=1e-11)
 
 
 def test_extrema_of_the_radius_where_friction_stops_the_slip():

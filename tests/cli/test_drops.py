@@ -147,21 +147,6 @@ def test_bad_drops_get_one_line(carom, arguments, words):
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2", "--lasting"),
-    ],
-)
-def test_other_commands_name_gravity_and_what_works(carom, arguments):
-    command, *options = arguments
-    code, out, err = carom(command, MACHINE, *options)
-    assert (code, out) == (2, "")
-    assert err.startswith("carom: machine = a rotor under gravity: needs a rotor without gravity")
-    assert "carom.map_basins of kicks" in err
-    assert err.count("\n") == 1
-
-
 @pytest.mark.parametrize("options", [("--shock", "10 g, 5 ms, 30 deg"), ("--blade-loss", "200 g mm, 40 deg")])
 def test_other_disturbances_of_a_heavy_rotor_begin_at_its_levitation(carom, options):
     found = document(carom("simulate", MACHINE, *options, "--json"))

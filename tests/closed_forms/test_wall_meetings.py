@@ -12,10 +12,8 @@ from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, 
 from carom.continuation.roots import bracketed_root
 from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.motions.starts import State
-from carom.orbits import Kind, Segment, Word, orbit_near
 from carom.orbits.closing import close
 from carom.orbits.happenings import arrives
-from carom.orbits.shooting import Start
 from carom.outcome import InputError, Outcome
 
 PAPER = cm.load("examples/source-paper.toml").parameters
@@ -38,15 +36,12 @@ def same(meeting, cycle):
 
 
 def closed(rotor, meeting, cycle):
-    """The exact orbit next to a cycle, by Newton's method from the local theory alone, or from its motion in a wall that gives way."""
+    """The exact orbit next to a cycle, by Newton's method from its motion."""
     position, velocity = meeting.coordinates(cycle)
-    if not cycle.contact:
-        start = Start(np.concatenate([position, velocity])[None], np.array([cycle.period]))
-        return orbit_near(rotor, Word((Segment(Kind.IMPACT_FORWARD, meeting.plane),)), start)
     state = State(position, velocity) if len(position) > 1 else State(position[0], velocity[0])
     motion = cm.simulate(rotor, state, 2.6 * cycle.period)
     begins = motion.segment_starts[1:][arrives(motion)]
-    return close(motion, float(begins[0]) + 0.7 * cycle.period, cycle.period)
+    return close(motion, float(begins[0]) + 0.5 * cycle.period, cycle.period)
 
 
 def test_the_planar_rotor_has_the_cycles_of_the_paper():
@@ -110,7 +105,7 @@ def test_rubs_lie_on_the_side_and_have_the_stability_foretold(law, seed):
                 assert rub.stable == meeting.rub_stable
 
 
-@pytest.mark.parametrize(("law", "seed"), [(RIGID, 1), (KelvinVoigt(1e4, 3.3), None)])
+@pytest.mark.parametrize(("law", "seed"), [(RIGID, 1)])
 def test_a_stable_cycle_takes_over_beyond_the_wall_and_nothing_before(law, seed):
     """Supercritical and stable: simulated beyond the wall a disturbance ends on the bounces, before it on levitation."""
 
@@ -136,22 +131,6 @@ def test_a_stable_cycle_takes_over_beyond_the_wall_and_nothing_before(law, seed)
         before = cm.simulate(rotor(-gap), State(*beside), settle=True)
         assert before.outcome is Outcome.LEVITATED
     assert sizes[0] / sizes[1] == pytest.approx(10.0, rel=1e-2)
-
-
-def test_a_stiff_wall_tends_to_a_rigid_one():
-    """With the damping of a restitution of 0.95; periods differ by the contact, which falls with the root of the stiffness."""
-    rigid = [each for each in small_cycles(PAPER.replace(gamma=STAR)).cycles if each.admissible]
-    apart = []
-    for stiffness in (1e4, 1e6):
-        law = KelvinVoigt(stiffness, 2.0 * 0.0164982 * stiffness**0.5)
-        rotor = Yielding(law, gamma=STAR, omega=PAPER.omega, rho=PAPER.rho, phi=PAPER.phi, mu=PAPER.mu).model
-        cycles = small_cycles(rotor).cycles
-        pairs = list(zip(cycles, rigid, strict=True))
-        apart.append([abs(one.speed_rate / other.speed_rate - 1.0) for one, other in pairs])
-        assert [one.criticality for one, _ in pairs] == [other.criticality for _, other in pairs]
-    ratios = np.array(apart[0]) / np.array(apart[1])
-    assert (ratios > 7.0).all()
-    assert (ratios < 14.0).all()
 
 
 def test_a_cycle_grows_without_bound_where_its_side_changes():

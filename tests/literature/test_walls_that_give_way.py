@@ -5,7 +5,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.closed_forms import internal_resonance
 from carom.models import KelvinVoigt, Touchdown, from_matrices
 from carom.parameters.restitution import damping_ratio_of, dissipation_of, restitution_of_dissipation
 
@@ -36,11 +35,6 @@ def test_damping_of_the_source_paper_s_restitution():
 
 # Zilli, Williams and Ewins 2015; Shaw et al. 2016: an overhung rotor in a frictionless ring; times in 1/ω₀, lengths in clearances.
 POLAR_INERTIA, DAMPING_RATIO, RING, UNBALANCE = 0.143, 0.01, 10.0, 0.9 * 0.353
-
-
-@pytest.mark.parametrize(("backward", "forward", "speed"), [(2, 1, 3.3208483), (3, 1, 2.1800217), (3, 2, 5.8348738)])
-def test_internal_resonances_of_the_overhung_rotor(backward, forward, speed):
-    assert round(internal_resonance(POLAR_INERTIA, backward, forward), 7) == speed
 
 
 def test_synchronous_rubs_of_the_overhung_rotor():

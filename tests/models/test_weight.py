@@ -108,7 +108,6 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
     [
         cm.find_equilibria,
         cm.find_orbits,
-        lambda machine: cm.find_bifurcations(machine, "gamma", (0.1, 0.2), lasting=True),
         exact_rotor_of,
         lambda machine: rotor_of(machine).refuse_forces(),
     ],

@@ -26,7 +26,7 @@ def orbits(machine: Parameters, most: int, guesses: int) -> Iterator[Orbit]:
     """Admissible orbits with one impact of period up to 40, and those with up to a number of impacts that a search finds."""
     yield from (orbit for orbit in find_orbits(machine, 40.0) if orbit.admissible)
     found = find_orbits(machine, impacts=most, guesses=guesses)
-    yield from (orbit for orbit in found if orbit.impacts > 1 and orbit.word.flies)
+    yield from (orbit for orbit in found if orbit.impacts > 1 and orbit.flies)
 
 
 def distances(orbit: Orbit, seed: int, periods: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Impact and stroboscopic maps against simulation, matrix exponentials, many digits and finite differences."""
+"""The impact map against simulation, matrix exponentials, many digits and finite differences."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ import pytest
 from compilation import sized
 from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
 
-from carom import State, find_equilibria, find_orbits, simulate
+from carom import find_equilibria, find_orbits, simulate
 from carom.models import jeffcott
 from carom.orbits import Section, impact_map
-from carom.orbits.maps import stroboscopic_map
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
 
@@ -236,74 +235,3 @@ def grazing_bracket(flight) -> tuple[float, float]:
 def test_only_a_rotor_that_meets_the_wall_is_mapped(speed, words):
     with pytest.raises(InputError, match=words):
         impact_map(jeffcott(PAPER), Section(0.0, speed, 0.0))
-
-
-# -------------------------------------------------------------------------------------------- stroboscopic map
-
-
-def final_state(rotor, state: np.ndarray, period: float) -> np.ndarray:
-    end = simulate(rotor, State(complex(state[0], state[1]), complex(state[2], state[3])), period).final
-    return np.array([end.position.real, end.position.imag, end.velocity.real, end.velocity.imag])
-
-
-def state_differences(rotor, start: State, period: float, step: float) -> np.ndarray:
-    at = np.array([start.position.real, start.position.imag, start.velocity.real, start.velocity.imag])
-
-    def central(move: float) -> np.ndarray:
-        ends = [final_state(rotor, at + way, period) - final_state(rotor, at - way, period) for way in move * np.eye(4)]
-        return np.array(ends).T / (2.0 * move)
-
-    return (4.0 * central(step / 2) - central(step)) / 3.0
-
-
-@pytest.mark.parametrize(
-    ("period", "impacts"), [(0.5, 0), (3.0, 1), (20.0, 10)], ids=["no impact", "one impact", "many impacts"]
-)
-def test_stroboscopic_jacobian_agrees_with_differences(period, impacts):
-    rotor = jeffcott(PAPER)
-    start = State(0.3 + 0.1j, 0.5 - 0.2j)
-    mapped = stroboscopic_map(rotor, start, period)
-    assert len(mapped.trajectory.contacts) == impacts
-    assert mapped.trajectory.outcome is Outcome.TIME_REACHED
-    jacobian = state_differences(rotor, start, period, 1e-4)
-    np.testing.assert_allclose(mapped.jacobian, jacobian, atol=1e-6 * np.abs(jacobian).max())
-
-
-def test_stroboscopic_jacobian_through_stopped_slip():
-    parameters = PAPER.replace(radius_ratio=0.3, mu=1.0)
-    rotor = jeffcott(parameters)
-    start = State(0.3 + 0.1j, 0.9 - 0.2j)
-    mapped = stroboscopic_map(rotor, start, 10.0)
-    assert mapped.trajectory.contacts.sticks.any()
-    jacobian = state_differences(rotor, start, 10.0, 1e-4)
-    np.testing.assert_allclose(mapped.jacobian, jacobian, atol=1e-6 * (1.0 + np.abs(jacobian).max()))
-
-
-def test_stroboscopic_jacobian_of_free_flight_is_the_matrix_exponential():
-    mapped = stroboscopic_map(jeffcott(PAPER), State(0.1j, 0.05 + 0j), 0.7)
-    columns = []
-    for unit in ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j)):
-        end, speed = fly(PAPER.replace(rho=0.0), *unit, 0.7)
-        columns.append([end.real, end.imag, speed.real, speed.imag])
-    np.testing.assert_allclose(mapped.jacobian, np.array(columns).T, atol=1e-13)
-
-
-@pytest.mark.parametrize("name", ["B1,a", "B1,b", "B1,c", "B1,d"])
-@pytest.mark.parametrize("share", [0.2, 0.7])
-def test_over_a_period_the_eigenvalues_are_the_multipliers_and_one(name, share):
-    """One for a shift along the orbit; wherever on the orbit one starts."""
-    rotor = jeffcott(PAPER)
-    orbit = find_orbits(rotor)[name]
-    motion = orbit.trajectory(1.0)
-    position, velocity = motion.at(np.array([share * orbit.period]))
-    mapped = stroboscopic_map(rotor, State(complex(position[0]), complex(velocity[0])), orbit.period)
-    assert len(mapped.trajectory.contacts) == 1
-    found, expected = np.poly(mapped.jacobian), np.poly([1.0, *orbit.multipliers.values])
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max() / orbit.radial_speed)
-
-
-def test_stroboscopic_map_stops_at_chatter():
-    parameters = PAPER.replace(gamma=0.05, d=0.5)
-    mapped = stroboscopic_map(jeffcott(parameters), State(0.5 + 0.0j, 0.1j), 500.0)
-    assert mapped.trajectory.outcome is Outcome.CHATTER
-    assert mapped.trajectory.time < 500.0

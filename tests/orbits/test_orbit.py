@@ -5,23 +5,21 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-from linear_rotors import touchdowns
 
-from carom.models import Rotor, from_matrices, jeffcott
+from carom.models import Rotor, jeffcott
 from carom.motions import State, simulate
-from carom.orbits import find_orbits, impact_map, rubbing_orbits
+from carom.orbits import find_orbits, impact_map
 from carom.orbits.admissibility import why_virtual
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, margins_of, orbit_near, same_orbit
-from carom.orbits.recognising import orbit_of_motion, segments_of
+from carom.orbits.recognising import impacts_between, orbit_of_motion
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError, InputError
+from carom.outcome import InputError
 from tests.compilation import sized
 from tests.machines import PAPER, exact_matrix, random_parameters
 
 DOUBLED = PAPER.replace(gamma=0.083)
-CHATTERING = PAPER.replace(omega=0.334, rho=0.416, d=0.49, gamma=0.18, mu=0.287)
 
 
 def two_impacts() -> Orbit:
@@ -144,88 +142,6 @@ def test_a_stable_orbit_attracts_and_an_unstable_one_repels():
         assert (apart[-1] < 0.9 * apart[10]) is orbit.stable
 
 
-def test_an_orbit_with_lasting_contact_closes_from_a_start_beside_it():
-    (known,) = rubbing_orbits(CHATTERING)
-    rotor = jeffcott(CHATTERING)
-    orbit = orbit_near(rotor, known.word, Start(known.nodes, known.durations * 1.00001))
-    assert orbit is not None
-    assert orbit.admissible
-    assert orbit.rotor is rotor
-    assert orbit.segments == "lift land slide+"
-    assert orbit.impacts == 0
-    assert orbit.period == pytest.approx(known.period, rel=1e-12)
-    # Two directions do not survive the contact.
-    assert np.abs(orbit.multipliers.values[1:]).max() < 1e-12
-    assert orbit.margins.normal_force > 0.0
-    assert np.isinf(orbit.margins.slip)
-    with pytest.raises(CaromError, match="trajectory"):
-        orbit.path(np.array([0.0]))
-
-
-def tilting_too(coupling: float) -> Rotor:
-    """The paper's machine with a tilt that stiffness couples to its motion, and a second plane that stays free."""
-    return from_matrices(
-        mass=np.diag([1.0, 0.5]),
-        damping=np.diag([PAPER.gamma, 0.08]),
-        stiffness=np.array([[PAPER.omega**2, coupling], [coupling, 0.9]]),
-        gyroscopic=np.diag([0.0, 0.2]),
-        forcing=np.array([PAPER.rho * np.exp(1j * PAPER.phi), 0.0]),
-        touchdowns=touchdowns(
-            np.array([[1.0, 0.0], [0.3, 0.4]]), [PAPER.mu] * 2, [PAPER.d] * 2, [PAPER.radius_ratio + 1.0] * 2
-        ),
-    )
-
-
-@pytest.mark.jit_only
-def test_contact_after_a_chatter_is_of_the_kind_that_its_slip_says():
-    """The chatter of this orbit ends while it slips forward: it neither rolls nor slides backward then."""
-    (known,) = rubbing_orbits(CHATTERING)
-    start = Start(known.nodes, known.durations)
-    assert str(known.word) == "lift land slide+"
-    assert why_virtual(known.rotor, known.word, start) == ""
-    for kind in (Kind.ROLL, Kind.SLIDE_BACKWARD):
-        segments = [kind if segment.kind is Kind.SLIDE_FORWARD else segment.kind for segment in known.word]
-        reason = why_virtual(known.rotor, Word.of(*segments), start)
-        assert reason.startswith("segment 2 of 3: land would end with the slip")
-        assert reason.endswith(f"not with {kind.label}")
-
-
-def test_orbits_of_a_rotor_with_two_coordinates_and_two_planes():
-    planar = find_orbits(PAPER)["B1,d"]
-    before = planar.section.state
-    apart = tilting_too(0.0)
-    node = np.array([before.position, 0.0, before.velocity, 0.0])
-    alone = orbit_near(apart, planar.word, Start(node[None], planar.durations))
-    assert alone is not None
-    assert alone.admissible
-    assert alone.period == pytest.approx(planar.period, abs=1e-12)
-    values = alone.multipliers.values
-    assert len(values) == 7
-    for expected in planar.multipliers.values:
-        assert np.abs(values - expected).min() < 1e-10
-    coupled = tilting_too(0.005)
-    for impacts in (1, 3):
-        start = Start(np.repeat(node[None], impacts, 0), np.repeat(planar.durations, impacts))
-        orbit = orbit_near(coupled, planar.word.repeated(impacts), start)
-        assert orbit is not None
-        assert orbit.admissible
-        assert len(orbit.word) == 1
-        assert orbit.links.size < 1e-13
-        assert abs(orbit.period - planar.period) > 1e-6
-    # The simulation returns to it, and approaches it from beside.
-    motion = orbit.trajectory(5.0)
-    again, _ = motion.at_plane(np.array([motion.time]))
-    assert abs(again[0] - orbit.position) < 1e-9
-    assert orbit.stable
-    beside = simulate(coupled, State(orbit.departure.position, 1.0001 * orbit.departure.velocity), settle=True)
-    closed = orbit_of_motion(beside)
-    assert beside.multiplicity == 1
-    assert closed is not None
-    assert closed.period == pytest.approx(orbit.period, rel=1e-9)
-    assert closed.radial_speed == pytest.approx(abs(orbit.radial_speed), rel=1e-8)
-    assert abs(closed.multipliers.values[0]) == pytest.approx(abs(orbit.multipliers.values[0]), rel=1e-6)
-
-
 def test_where_the_word_is_not_what_the_machine_does():
     one = find_orbits(PAPER)["B1,d"]
     start = Start(one.nodes, one.durations)
@@ -304,7 +220,7 @@ def test_without_friction_the_direction_of_the_slip_makes_no_other_word():
     motion = simulate(smooth, State(0.9 + 0j, 1.0 - 2.0j), 20.0)
     slips = smooth.parameters.radius_ratio + 1.0 + motion.contacts.angular_speed
     assert slips[0] < 0.0
-    word, start = segments_of(motion, 0, 1)
+    word, start = impacts_between(motion, 0, 1)
     assert str(word) == "impact+"
     at_wall = links_of(smooth, word, start).arrivals[0]
     assert at_wall == pytest.approx(smooth.system.states_of(motion.arrivals[1:2])[0], abs=1e-9)

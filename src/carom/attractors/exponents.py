@@ -10,8 +10,7 @@ from carom.arguments import Count, checked
 from carom.attractors.groups import Attractor
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Rotor, Subject, rotor_of
-from carom.orbits.exponents import LOST, LyapunovExponents, lyapunov_exponents, orbit_exponents
-from carom.orbits.word import Kind
+from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.outcome import CaromError, Outcome
 
 MEASURED = 20_000
@@ -55,14 +54,10 @@ def _exact(rates: np.ndarray, along: float = math.nan, time: float = math.inf) -
 
 def _rolling(rotor: Rotor, attractor: Attractor) -> LyapunovExponents | None:
     """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor on a rigid wall does."""
-    directions = 2 * len(rotor.system.exponents) - 1
-    # The phase of a weight is not left alone by a delay.
-    if rotor.system.arrays.stiffness.any() or rotor.system.forced is not None:
-        return None
     # On an elastic wall bounces fade at a finite rate.
-    if directions > LOST[Kind.ROLL] or attractor.period is None or (rotor.system.arrays.restitution == 1.0).any():
+    if not rotor.has_closed_forms or attractor.period is None or rotor.system.arrays.restitution[0] == 1.0:
         return None
-    return _exact(np.array([0.0, *[-np.inf] * directions]), 0.0, attractor.period)
+    return _exact(np.array([0.0, -np.inf, -np.inf, -np.inf]), 0.0, attractor.period)
 
 
 def _rubbing(rotor: Rotor, attractor: Attractor) -> LyapunovExponents | None:

@@ -16,7 +16,7 @@ from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.happenings import arrives, first_of_period
 from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
+from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.simulated import SimulatedOrbit
 from carom.outcome import Outcome, Phase
 from carom.results import Result
@@ -55,22 +55,22 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     Periodic bouncing and whirls that slide are closed to their orbits (:mod:`carom.orbits.recognising`).  Motions that approach one orbit
     then have the same one, however far from it they were when found to be periodic.
     """
-    outcome, motion = motion.outcome, seen_in_contact(motion)
-    if not motion.rotor.has_closed_forms:
-        return _settled_elsewhere(motion)
-    if outcome is Outcome.ROLLING:
-        return SettledMotion(
-            motion, outcome, period=2.0 * math.pi / float(motion.rotor.system.arrays.surface_speed[motion.plane])
-        )
-    if outcome not in REPEATING:
-        resting = outcome is Outcome.LEVITATED or (
-            outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME
-        )
-        whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
-        turn = _turn_time(motion) if whirling else None
-        whirl = orbit_of_whirl(motion, turn) if turn is not None else None
-        return SettledMotion(motion, outcome, 0, whirl, whirl.period if whirl is not None else turn, resting)
-    return _bouncing(motion, orbit_of_motion(motion)) if motion.multiplicity else SettledMotion(motion, outcome)
+    outcome, count, motion = motion.outcome, motion.multiplicity, seen_in_contact(motion)
+    system = motion.rotor.system
+    if outcome is Outcome.LEVITATED:
+        resting = system.forced is None
+        return SettledMotion(motion, outcome, period=None if resting else 2.0 * math.pi, synchronous=resting)
+    if outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME:
+        return SettledMotion(motion, outcome, synchronous=True)
+    if outcome is Outcome.ROLLING and motion.rotor.has_closed_forms:
+        return SettledMotion(motion, outcome, period=2.0 * math.pi / float(system.arrays.surface_speed[motion.plane]))
+    orbit = orbit_of_motion(motion)
+    if count:
+        return _bouncing(motion, orbit)
+    if outcome in REPEATING or not outcome.settled:
+        return SettledMotion(motion, outcome)
+    turn = None if system.is_time_dependent else _turn_time(motion)
+    return SettledMotion(motion, outcome, 0, orbit, orbit.period if orbit is not None else turn)
 
 
 def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> SettledMotion:
@@ -80,23 +80,6 @@ def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> Settl
     if orbit is None:
         return SettledMotion(motion, outcome, count, period=span)
     return SettledMotion(motion, outcome, max(1, round(count * orbit.period / span)), orbit, orbit.period)
-
-
-def _settled_elsewhere(motion: Trajectory) -> SettledMotion:
-    """What a motion repeats of another machine than the planar rotor in a rigid bearing."""
-    outcome, count = motion.outcome, motion.multiplicity
-    if outcome is Outcome.LEVITATED:
-        resting = motion.rotor.system.forced is None
-        return SettledMotion(motion, outcome, period=None if resting else 2.0 * math.pi, synchronous=resting)
-    if outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME:
-        return SettledMotion(motion, outcome, synchronous=True)
-    orbit = orbit_of_motion(motion)
-    if not count and (outcome in REPEATING or not outcome.settled):
-        return SettledMotion(motion, outcome)
-    if not count:
-        turn = None if motion.rotor.system.is_time_dependent else _turn_time(motion)
-        return SettledMotion(motion, outcome, 0, orbit, orbit.period if orbit is not None else turn)
-    return _bouncing(motion, orbit)
 
 
 def seen_in_contact(motion: Trajectory) -> Trajectory:

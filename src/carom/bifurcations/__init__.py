@@ -15,7 +15,6 @@
 ``windows``             ranges of a parameter in which orbits are motions
 ``curve_results``       a curve of bifurcations in two parameters, and points on it
 ``curves``              following such a curve
-``word_curves``         those of orbits of any word
 ``conditions``          orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
 ``passing``             whether a known curve passes through a point
 ``planes``              the plane of two parameters

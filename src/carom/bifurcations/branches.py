@@ -54,7 +54,7 @@ class OrbitBranch(Result):
     shown: ClassVar[tuple[str, ...]] = (
         "parameter",
         "name",
-        "word",
+        "segments",
         "values",
         "period",
         "radial_speed",
@@ -92,9 +92,14 @@ class OrbitBranch(Result):
         return self.axis.name
 
     @property
+    def segments(self) -> str:
+        """The word as text."""
+        return str(self.word)
+
+    @property
     def impacts(self) -> int:
         """Impacts per period."""
-        return self.word.impacts
+        return len(self.word)
 
     @cached_property
     def closed(self) -> tuple[Solution, ...]:
@@ -116,7 +121,7 @@ class OrbitBranch(Result):
     def numbers_at(self, value: float) -> Numbers:
         """Parameters of the planar rotor at a value of the parameter; with negative ``mu`` for orbits with backward slip."""
         numbers = Numbers.of(self.rotor.parameters).moved(self.parameter, value)
-        return with_slip(numbers, self.word[0].kind.sense)
+        return with_slip(numbers, self.word[0].sense)
 
     @cached_property
     def orbits(self) -> tuple[Orbit, ...]:
@@ -141,22 +146,17 @@ class OrbitBranch(Result):
     def _at_wall(self) -> np.ndarray:
         """:func:`speeds_at` of each orbit, shape (m, segments)."""
         nodes = [unpack(unknowns, len(self.word)).nodes for unknowns in self.unknowns]
-        if self.rotor.rates(self.parameter) is not None:  # the contact planes stay
-            planes = np.tile(self.word.planes, len(self))
-            return speeds_at(self.rotor, planes, np.concatenate(nodes)).reshape(len(self), -1)
-        pairs = zip(self.values.tolist(), nodes, strict=True)
-        return np.array([speeds_at(self.axis.move(self.rotor, p), self.word.planes, each) for p, each in pairs])
+        return speeds_at(np.concatenate(nodes)).reshape(len(self), -1)
 
     @property
     def radial_speeds(self) -> np.ndarray:
         """``ṙ`` just before each impact in ``c_r Ω``, shape (m, n)."""
-        return self._at_wall.real[:, self.word.arrives]
+        return self._at_wall.real
 
     @property
     def radial_speed(self) -> np.ndarray:
-        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,); ``nan`` without impacts."""
-        first: np.ndarray = self.radial_speeds[:, 0] if self.impacts else np.full(len(self), np.nan)
-        return first
+        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,)."""
+        return self.radial_speeds[:, 0]
 
     @property
     def angular_speed(self) -> np.ndarray:
@@ -191,7 +191,7 @@ class OrbitBranch(Result):
         rotor, found = rotor or self.axis.move(self.rotor, value), []
         for i, share in passing(self.values, value):
             guess = unpack((1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1], len(self.word))
-            start = closed_flights(rotor, self.word, guess) if self.word.flies else None
+            start = closed_flights(rotor, self.word, guess)
             if start is None:
                 links = converged(rotor, self.word, guess)
                 start = guess if links is None else links.start
@@ -204,11 +204,9 @@ def orbit_at(rotor: Rotor, word: Word, unknowns: np.ndarray, name: OrbitName | C
     return Orbit.from_links(rotor, word, links_of(rotor, word, unpack(unknowns, len(word))), name)
 
 
-def speeds_at(rotor: Rotor, planes: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` at nodes (m, 2n or, with weight, 2n + 1), as real and imaginary part, shape (m,)."""
-    n = nodes.shape[1] // 2
-    rows = rotor.system.planes[planes]
-    position, velocity = np.einsum("mn,mn->m", rows, nodes[:, :n]), np.einsum("mn,mn->m", rows, nodes[:, n : 2 * n])
+def speeds_at(nodes: np.ndarray) -> np.ndarray:
+    """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` at nodes (m, 2), as real and imaginary part, shape (m,)."""
+    position, velocity = nodes.T
     speeds: np.ndarray = velocity / position
     return speeds.real * np.abs(position) + 1j * speeds.imag
 

@@ -23,8 +23,6 @@ from carom.bifurcations.conditions import (
 from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_curves import continue_word_curve
-from carom.bifurcations.word_equations import TESTS as OF_WORDS
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.outcome import InputError
@@ -83,7 +81,7 @@ KINDS: dict[str, _Kind] = {
 
 def can_be_followed(point: Bifurcation) -> bool:
     """Whether :func:`continue_curve` knows equations for a bifurcation."""
-    return point.kind in (KINDS if point.shot is None else OF_WORDS)
+    return point.shot is None and point.kind in KINDS
 
 
 @checked
@@ -95,15 +93,11 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
     virtual side.
 
-    A special point of an orbit of any word, of any linear rotor, has the unknowns of multiple shooting
-    (:mod:`carom.bifurcations.word_curves`).
-
     Parameters
     ----------
     bifurcation : Bifurcation
         A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of
-        :data:`KINDS`; for an orbit with lasting contact also ``"permanent-contact"``, ``"cone-limit"``, ``"lift-off"`` or,
-        without chatter, ``"slide-stop"``.
+        :data:`KINDS`.
 
     Raises
     ------
@@ -127,7 +121,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     ('edge of the plane', 'edge of the plane')
     """
     if bifurcation.shot is not None:
-        return continue_word_curve(bifurcation, plane, steps)
+        raise InputError("bifurcation", f"{bifurcation.kind} of {bifurcation.name}", "one of an orbit with one impact")
     kind, base = bifurcation.kind, bifurcation.numbers
     if base.mu < 0.0:
         raise InputError("bifurcation", f"{kind} of {bifurcation.name}", "one of an orbit with forward slip")

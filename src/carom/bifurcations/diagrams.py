@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -22,12 +22,10 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
-from carom.bifurcations.words import continue_orbit, renamed
-from carom.models import Rotor, Subject, exact_rotor_of, jeffcott, rotor_of
+from carom.bifurcations.words import continue_orbit
+from carom.models import Rotor, Subject, jeffcott, rotor_of
 from carom.models.axes import Axis, Ends, axis, read_interval
-from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
-from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Impacts
 from carom.orbits.searched import Searched
 from carom.orbits.single_impact import find_orbits
@@ -66,8 +64,6 @@ class Diagram(Result):
         Orbits with several impacts a period that a search and special points of other branches lead to; empty unless asked for.
     search : Searched or None
         How much was searched for them; of other models than the planar rotor also for those with one.
-    rubbing : tuple of OrbitBranch
-        Periodic motions with a stretch of lasting contact; empty unless asked for.
     points : tuple of Bifurcation
         In ascending order of the parameter.
     attractors : tuple of AttractorSample
@@ -89,7 +85,6 @@ class Diagram(Result):
     orbits: tuple[Any, ...]
     several: tuple[Any, ...]
     search: Searched | None
-    rubbing: tuple[OrbitBranch, ...]
     points: tuple[Bifurcation, ...]
     attractors: tuple[AttractorSample, ...] = ()
     disturbances: DisturbanceSet | None = None
@@ -156,7 +151,6 @@ def find_bifurcations(
     *,
     impacts: Impacts = 1,
     virtual: bool = False,
-    lasting: bool = False,
     attractors: Whole = 0,
     seed: Seed = 0,
     progress: ShowProgress = None,
@@ -181,8 +175,6 @@ def find_bifurcations(
         at 9 values finds.  Unlike the orbits with one impact, some with several may be missing.
     virtual : bool
         Follow all orbits, including those of higher pairs that are virtual at all of these values.
-    lasting : bool
-        Follow periodic motions with a stretch of lasting contact too, up to the onset of lasting contact.
     attractors : int
         Disturbances (:class:`~carom.attractors.DisturbanceSet`) to simulate at each of 31 values, to show where they
         settle: irregular bouncing, orbits with several impacts, rolling and so on.  None by default.
@@ -193,7 +185,7 @@ def find_bifurcations(
     ------
     InputError
         Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` that is no whole
-        number from 1 to 64, or ``lasting`` with another model than the planar rotor.
+        number from 1 to 64.
 
     See Also
     --------
@@ -208,14 +200,13 @@ def find_bifurcations(
     >>> [point.kind for point in diagram.points if point.name == "B1,d"]
     ['fold']
     """
-    model = exact_rotor_of(machine) if lasting else rotor_of(machine)
+    model = rotor_of(machine)
     model.system.refuse_non_stationary()
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
-    follow = _follow_known if model.has_closed_forms else _follow_simulated
-    found = follow(model, along, limits, tell.part(0.0, followed), impacts=impacts, virtual=virtual, lasting=lasting)
+    orbits, several, search = _branches(model, along, limits, tell.part(0.0, followed), impacts, virtual=virtual)
     disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
     samples: tuple[AttractorSample, ...] = ()
     if disturbances:
@@ -225,97 +216,52 @@ def find_bifurcations(
         axis=along,
         interval=limits,
         equilibria=equilibrium_branches(model, along, limits),
+        rolling=rolling_branch(model, along, limits),
+        orbits=orbits,
+        several=several,
+        search=search,
+        points=_points(model, along, limits, [*orbits, *several]),
         attractors=samples,
         disturbances=disturbances,
-        **found._asdict(),
     )
 
 
 def special_points(
-    parameters: Parameters, parameter: str, interval: tuple[float, float], *, virtual: bool, lasting: bool
+    parameters: Parameters, parameter: str, interval: tuple[float, float], *, virtual: bool
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
-    along = axis(parameters, parameter)
-    return _follow_known(jeffcott(parameters), along, interval, Reporter(), virtual=virtual, lasting=lasting).points
+    along, model = axis(parameters, parameter), jeffcott(parameters)
+    return _points(model, along, interval, _branches(model, along, interval, Reporter(), virtual=virtual)[0])
 
 
-class _Followed(NamedTuple):
-    """Branches of rolling, orbits and motions with lasting contact, and the special points of all motions."""
-
-    rolling: RollingBranch
-    orbits: tuple[Any, ...] = ()
-    several: tuple[Any, ...] = ()
-    search: Searched | None = None
-    rubbing: tuple[OrbitBranch, ...] = ()
-    points: tuple[Bifurcation, ...] = ()
+def _points(model: Rotor, along: Axis, limits: tuple[float, float], branches: Sequence[Any]) -> tuple[Bifurcation, ...]:
+    """Special points of all motions; where a branch ends by halving its period, in a doubling of another, it is one point."""
+    points = steady_points(model.parameters, along, limits) if model.has_closed_forms else []
+    points += [point for branch in branches for point in branch.special if point.kind != HALVING]
+    return tuple(sorted(points, key=lambda point: point.value))
 
 
-def _follow_known(
-    model: Any,
-    along: Axis,
-    limits: tuple[float, float],
-    tell: Reporter,
-    *,
-    impacts: int = 1,
-    virtual: bool,
-    lasting: bool,
-) -> _Followed:
-    """Follow the branches that :func:`find_bifurcations` is asked for, of a model whose orbits with one impact have closed forms."""
+def _branches(
+    model: Rotor, along: Axis, limits: tuple[float, float], tell: Reporter, impacts: int = 1, *, virtual: bool
+) -> tuple[tuple[Any, ...], tuple[Any, ...], Searched | None]:
+    """Branches of orbits with one impact a period, those of others, and what was searched."""
+    if not model.has_closed_forms:
+        found, search = simulated_branches(model, along, limits, impacts, tell)
+        single = tuple(branch for branch in found if branch.impacts == 1)
+        return single, tuple(branch for branch in found if branch.impacts != 1), search
     branches: list[OrbitBranch] = []
-    rubbing: list[OrbitBranch] = []
-    single = tell.part(0.0, 1.0 if impacts == 1 else SINGLE_SHARE)
+    part = tell.part(0.0, 1.0 if impacts == 1 else SINGLE_SHARE)
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
-        here = along.move(model, value)
-        for orbit in _orbits(here):
+        for orbit in _orbits(along.move(model, value)):
             wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_orbit(orbit, along.name, limits))
-        for motion in rubbing_orbits(here) if lasting else ():
-            if not any(lies_on(motion, value, branch) for branch in rubbing):
-                branch = continue_orbit(motion, along.name, limits, virtual=virtual)
-                rubbing.append(renamed(branch, RubbingName(motion.impacts, len(rubbing) + 1)))
-        single((done + 1) / SAMPLES)
-    several: tuple[OrbitBranch, ...] = ()
-    search: Searched | None = None
-    if impacts > 1:
-        rest = tell.part(SINGLE_SHARE, 1.0)
-        several, search = searched_branches(model, along, limits, impacts, branches, virtual=virtual, tell=rest)
-    points = [
-        *steady_points(model.parameters, along, limits),
-        *(point for branch in branches for point in branch.special),
-        *_special(several),
-        *(point for branch in rubbing for point in branch.special),
-    ]
-    points.sort(key=lambda point: point.value)
-    rolling = rolling_branch(model, along, limits)
-    return _Followed(rolling, tuple(branches), several, search, tuple(rubbing), tuple(points))
-
-
-def _follow_simulated(
-    model: Rotor,
-    along: Axis,
-    limits: tuple[float, float],
-    tell: Reporter,
-    *,
-    impacts: int,
-    virtual: bool,
-    lasting: bool,
-) -> _Followed:
-    """Follow the branches of the periodic motions of any machine that a search finds; all are motions, with lasting contact or without."""
-    found, search = simulated_branches(model, along, limits, impacts, tell)
-    points, nothing = [point for branch in found for point in branch.special], np.empty(0)
-    return _Followed(
-        RollingBranch(nothing, nothing, nothing > 0.0),
-        tuple(branch for branch in found if branch.impacts == 1),
-        tuple(branch for branch in found if branch.impacts != 1),
-        search,
-        points=tuple(sorted(points, key=lambda point: point.value)),
-    )
-
-
-def _special(several: Sequence[OrbitBranch]) -> list[Bifurcation]:
-    """Special points of branches; where one ends by halving its period, in a doubling of another, it is one point."""
-    return [point for branch in several for point in branch.special if point.kind != HALVING]
+        part((done + 1) / SAMPLES)
+    if impacts == 1:
+        return tuple(branches), (), None
+    rest = tell.part(SINGLE_SHARE, 1.0)
+    several, searched = searched_branches(model, along, limits, impacts, branches, virtual=virtual, tell=rest)
+    return tuple(branches), several, searched
 
 
 def _orbits(rotor: Rotor) -> Iterator[Orbit]:

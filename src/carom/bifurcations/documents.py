@@ -13,7 +13,6 @@ from carom.bifurcations.simulated import SimulatedBranch
 from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
-from carom.orbits.rubbing import lift_off_of
 from carom.orbits.searched import Searched
 from carom.parameters import Scales
 from carom.results import fields_of
@@ -50,7 +49,6 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
             for branch in diagram.equilibria
         ],
         "rolling": fields_of(diagram.rolling, "values", "largest_force", "holds"),
-        "rubbing": [_rubbing(branch) for branch in diagram.rubbing],
         "attractors": [
             fields_of(
                 sample, "value", "name", "outcome", "whirl", "count", "share", "radial_speeds", known_starts="known"
@@ -109,21 +107,6 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
         ],
         **fields_of(found, "everywhere", "lost"),
     }
-
-
-def _rubbing(branch: OrbitBranch) -> dict[str, Any]:
-    """A branch of motions with lasting contact, and the lift-off of each."""
-    lifts = [lift_off_of(orbit) for orbit in branch.orbits]
-    columns = {"impacts": "impacts", "contact_time": "contact_time", "lift_off_angle": "angle"}
-    return (
-        {"whirl": "forward" if lifts[0].whirl > 0 else "backward"}
-        | fields_of(branch, "values", "period")
-        | {key: [getattr(lift, name) for lift in lifts] for key, name in columns.items()}
-        | {"landing_force": [lift.landing_force for lift in lifts]}
-        | {"multiplier": [float(orbit.multipliers.values[0].real) for orbit in branch.orbits]}
-        | fields_of(branch, "admissible", "stable", ends="stops")
-        | _word(branch)
-    )
 
 
 def _word(orbit: Orbit | OrbitBranch | SimulatedBranch | None) -> dict[str, Any]:

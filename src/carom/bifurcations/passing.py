@@ -7,9 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from carom.bifurcations.curve_results import Curve
-from carom.bifurcations.curves import KINDS
 from carom.bifurcations.points import Bifurcation
-from carom.orbits.names import CountedName
 
 CLOSE = 5e-4
 """Distance from a curve, in widths of the plane, within which a point lies on it: ten times that from its chords."""
@@ -21,7 +19,7 @@ SAMPLES = 9
 
 def passes(curve: Curve, point: Bifurcation) -> bool:
     """Whether a bifurcation lies on a curve: the curve must pass close by with the same orbit."""
-    place = curve.plane.place_of(point.numbers if point.shot is None else point.shot.rotor)
+    place = curve.plane.place_of(point.numbers)
     return curve.kind == point.kind and _lies_on(curve, place, point.period, point.radial_speed)
 
 
@@ -30,20 +28,13 @@ def _lies_on(curve: Curve, place: Sequence[float], period: float, speed: float) 
     ahead = np.diff(points, axis=0)
     share = np.clip(((here - points[:-1]) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-300), 0.0, 1.0)
     distance = np.linalg.norm(points[:-1] + share[:, None] * ahead - here, axis=1)
-    # Onsets of lasting contact are not refined: a curve deviates from a chord by less than an eighth of its length.
-    near = np.flatnonzero(distance <= (CLOSE if _is_refined(curve) else 0.125 * np.linalg.norm(ahead, axis=1)))
-    for i in near:
+    for i in np.flatnonzero(distance <= CLOSE):
         weights = np.array([1.0 - share[i], share[i]])
-        # Equilibria have neither period nor radial speed, bouncing with rub has no radial speed.
+        # Equilibria have neither period nor radial speed.
         other = abs(weights @ curve.periods[i : i + 2] - period) >= SAME_PERIOD * period
         if not (other or abs(weights @ curve.radial_speeds[i : i + 2] - speed) >= SAME_SPEED):
             return True
     return False
-
-
-def _is_refined(curve: Curve) -> bool:
-    """Whether a curve has so many points that it lies close to its chords."""
-    return curve.kind in KINDS and not any(isinstance(name, CountedName) for name in curve.orbits)
 
 
 def with_curve(curves: Sequence[Curve], new: Curve) -> list[Curve]:

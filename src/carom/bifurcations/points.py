@@ -23,11 +23,7 @@ HALVING = "period-halving"
 """Where both halves of a period become equal: the orbit is one of half the period there, at its period doubling."""
 HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
 """Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
-ONSET, PERMANENT = "contact-onset", "permanent-contact"
-CONTACT_CHANGES = ("cone-limit", "slide-stop", "lift-off")
-"""Special points at which lasting contact changes its kind."""
-OF_CONTACT = (ONSET, PERMANENT, *CONTACT_CHANGES)
-"""Special points of words with lasting contact; the first also of impacts without rebound."""
+ONSET = "contact-onset"
 STEADY: dict[str, MotionKind] = {WALL: "contact-free", FOLD: "rub", ROLLING: "rolling"}
 """Special points of steady motions, and the motion of each."""
 
@@ -43,14 +39,11 @@ class Bifurcation(Result):
         meet), ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
         ``"non-smooth-hopf"`` (orbits with one impact, or one contact with a wall that gives way, shrink to a boundary equilibrium), ``"vanishing-impact"`` (the
         speed of an impact vanishes: grazing of the orbit without this impact), ``"slip-stop"`` (friction begins or
-        ceases to stop the slip in an impact), ``"contact-onset"`` (lasting contact begins), ``"cone-limit"`` (friction
-        just holds the rotor rolling, where this begins or while it lasts), ``"slide-stop"`` (the slip vanishes while
-        sliding, or with which a chatter lands), ``"lift-off"`` (the normal force vanishes during lasting contact),
-        ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the
+        ceases to stop the slip in an impact), ``"contact-onset"`` (an impact without rebound begins to stay on the wall),
+        ``"contact-change"`` (something else that happens in a period begins or ceases to), ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the
         period), or ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
         Of steady motions: ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl
-        begins or ceases to hold at every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no
-        longer lifts off: the least normal force of sliding that never leaves the wall vanishes).
+        begins or ceases to hold at every angle).
     numbers : Numbers or None
         Parameters there, if the closed form gives it; with negative ``mu`` for orbits with backward slip.  ``None`` where
         ``shot`` holds the orbit and its rotor.

@@ -147,7 +147,6 @@ def map_regions(
     *,
     grid: Count = 24,
     virtual: bool = False,
-    lasting: bool = False,
     progress: ShowProgress = None,
 ) -> RegionMap:
     """Compute the map of a plane: the curves of bifurcations, and the regions between them.
@@ -165,8 +164,6 @@ def map_regions(
         Number of grid points per side at which motions are counted.
     virtual : bool
         Follow bifurcations of virtual orbits too.
-    lasting : bool
-        Follow the onsets of lasting and of permanent contact too (a few seconds).
 
     Raises
     ------
@@ -200,7 +197,7 @@ def map_regions(
     curves: list[Curve] = []
     lost: list[str] = []
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        points = special_points(base, name, interval, virtual=virtual, lasting=lasting)
+        points = special_points(base, name, interval, virtual=virtual)
         curves = _through_points(plane, points, virtual, curves, lost)
         tell(share)
     survey = Survey(base, plane, curves)
@@ -243,7 +240,7 @@ def _through_points(
     plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str]
 ) -> list[Curve]:
     """Add to the known curves those through special points; failures are appended to ``lost``."""
-    for point in sorted(points, key=lambda point: point.shot is not None):
+    for point in points:
         wanted = can_be_followed(point) and (virtual or point.admissible)
         if wanted and not any(passes(curve, point) for curve in curves):
             try:

@@ -8,7 +8,7 @@ from functools import reduce
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.neighbours import NEIGHBOURS
+from carom.bifurcations.neighbours import BORDERS
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.words import continue_orbit, renamed, switch
 from carom.models import Rotor
@@ -17,7 +17,7 @@ from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.search import Search
 from carom.orbits.searched import Searched
-from carom.orbits.shooting import pack_free
+from carom.orbits.shooting import pack
 from carom.outcome import CaromError
 from carom.progress import Reporter
 
@@ -78,7 +78,7 @@ def searched_branches(
         part = tell.part(place / VALUES, (place + 1) / VALUES)
         done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
         for orbit in search.found:
-            wanted = orbit.admissible and orbit.impacts >= 2
+            wanted = isinstance(orbit, Orbit) and orbit.admissible and orbit.impacts >= 2
             if wanted and not any(lies_on(orbit, value, branch) for branch in found):
                 add(continue_orbit(orbit, along.name, limits, virtual=virtual))
     return tuple(found), reduce(Searched.and_then, done)
@@ -88,13 +88,13 @@ def _begins_another(point: Bifurcation, most: int, known: Sequence[OrbitBranch])
     """Whether a branch of orbits with so many impacts begins at a special point, which is not known."""
     if point.kind == "period-doubling":
         return 2 * point.orbit.impacts <= most and not any(_begins_at(branch, point) for branch in known)
-    if point.kind not in NEIGHBOURS or not point.orbit.word.flies:
+    if point.kind not in BORDERS:
         return False
     try:
-        word, start = NEIGHBOURS[point.kind](point.orbit)
+        word, start = BORDERS[point.kind](point.orbit)
     except CaromError:
         return False
-    other = orbit_near(point.orbit.rotor, word, start) if 2 <= word.impacts <= most else None
+    other = orbit_near(point.orbit.rotor, word, start) if 2 <= len(word) <= most else None
     return other is not None and not any(lies_on(other, point.value, branch) for branch in known)
 
 
@@ -110,7 +110,7 @@ def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     turns = [orbit.start.turned(places) for places in orbit.word.turns_to(branch.word)]
     for start in branch.starts_at(value, orbit.rotor) if turns else ():
         for turned in turns:
-            apart = np.abs(pack_free(branch.word, turned) - pack_free(branch.word, start)).max()
+            apart = np.abs(pack(turned) - pack(start)).max()
             if apart < SAME * (1.0 + float(np.abs(turned.nodes).max())):
                 return True
     return False

@@ -63,11 +63,11 @@ class RollingBranch(Result):
 
 
 def rolling_branch(rotor: Rotor, along: Axis, interval: tuple[float, float]) -> RollingBranch:
-    """Rolling on an evenly spaced grid of the parameter."""
-    grid = np.linspace(*interval, SAMPLES)
+    """Rolling on an evenly spaced grid of the parameter; empty for other models than the planar rotor."""
+    grid = np.linspace(*interval, SAMPLES if rotor.has_closed_forms else 0)
     found = [rolling(along.move(rotor, value)) for value in grid.tolist()]
     return RollingBranch(
-        grid, np.array([entry.largest_force for entry in found]), np.array([entry.holds for entry in found])
+        grid, np.array([entry.largest_force for entry in found]), np.array([entry.holds for entry in found], bool)
     )
 
 

@@ -8,7 +8,7 @@ from carom.cli import options
 from carom.cli.options import flag, option
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import check_output, console, print_document, progress
-from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome
+from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Diagram
@@ -23,10 +23,6 @@ IMPACTS = option(
 )
 VIRTUAL = flag(
     "--virtual", "Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions."
-)
-LASTING = flag(
-    "--lasting",
-    "Also follow periodic motions with a phase of rub, to where lasting contact begins or becomes permanent.",
 )
 SAMPLED = option(
     "N",
@@ -50,7 +46,6 @@ def bifurcations(
     settings: list[str] | None = options.SETTINGS,
     impacts: int = IMPACTS,
     virtual: bool = VIRTUAL,
-    lasting: bool = LASTING,
     attractors: int = SAMPLED,
     seed: int | None = options.SEED,
     out: str | None = options.OUT,
@@ -83,7 +78,6 @@ def bifurcations(
             interval,
             impacts=impacts,
             virtual=virtual,
-            lasting=lasting,
             attractors=attractors,
             seed=seed or 0,
             progress=tell,
@@ -108,7 +102,6 @@ def regions(
     settings: list[str] | None = options.SETTINGS,
     grid: int = NODES,
     virtual: bool = VIRTUAL,
-    lasting: bool = LASTING,
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
@@ -140,7 +133,6 @@ def regions(
             Plane(axes[0].name, axes[1].name, *ranges),
             grid=grid,
             virtual=virtual,
-            lasting=lasting,
             progress=tell,
         )
     document = regions_document(found)
@@ -165,7 +157,6 @@ def _shown(varied: Axis, value: float) -> str:
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.cli.fitting import fitted, plain_table
     from carom.cli.region_tables import named
-    from carom.orbits import lift_off_of
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
@@ -191,12 +182,6 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
     if diagram.search is not None:
         screen.print(f"Searched at several values, counted together. {diagram.search.words}")
-    for number, motion in enumerate(diagram.rubbing, start=1):
-        whirl = "forward" if lift_off_of(motion.orbits[0]).whirl > 0 else "backward"
-        ends = f"ends {motion.stops[0]}, {motion.stops[1]}"
-        screen.print(
-            f"{Outcome.MIXED.words.capitalize()} {number} ({motion.word}, {whirl} whirl at the lift-off): {ends}"
-        )
     if diagram.attractors:
         _print_attractors(diagram)
 

@@ -18,7 +18,6 @@
 ``piecewise``       motion next to a point of a wall that levitation touches
 ``wall_meetings``   what is born there, for any number of modes and both kinds of walls
 ``yielding_walls``  slipping whirl on walls that give way
-``whirl_resonance`` speeds at which the whirls of a disc are in resonance
 ``hertz``           pressure between the balls and the race of a touchdown bearing
 ``exact_results``   what general code may ask of any rotor
 ==================  ===================================================
@@ -41,7 +40,6 @@ from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
-from carom.closed_forms.whirl_resonance import internal_resonance
 from carom.closed_forms.yielding_walls import SlippingWhirl, slipping_whirls
 
 __all__ = [
@@ -70,7 +68,6 @@ __all__ = [
     "harmless_blade_loss",
     "harmless_kick",
     "harmless_shock",
-    "internal_resonance",
     "levitation",
     "non_smooth_hopf",
     "point_contact",

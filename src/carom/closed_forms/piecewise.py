@@ -92,12 +92,6 @@ class Pieces:
         return found
 
     @cached_property
-    def pressed(self) -> np.ndarray:
-        """State at rest in contact with a gap of one."""
-        rest: np.ndarray = np.linalg.solve(self.contact, -self.stiffness * self.push)
-        return rest
-
-    @cached_property
     def compliance(self) -> float:
         """Gap per normal force at rest in contact: ``Re h``, how far the force and its friction move the plane, and what the wall gives way."""
         moved = float(self.depth @ np.linalg.solve(self.flight, self.push))
@@ -108,22 +102,13 @@ class Pieces:
         moved: np.ndarray = expm(self.flight * time)
         return moved
 
-    def in_contact(self, time: float) -> np.ndarray:
-        """State after a contact, less that at rest in it, per the same before it."""
-        moved: np.ndarray = expm(self.contact * time)
-        return moved
-
     def arrival(self, state: np.ndarray) -> np.ndarray:
-        """Derivative of the state after an arrival by that before it, as it happens earlier or later, shape (2N, 2N)."""
+        """Derivative of the state after an impact by that before it, as it happens earlier or later, shape (2N, 2N)."""
         unit, ahead = np.eye(len(state)), self.depth / (self.speed @ state)
         before = self.flight @ state
-        if self.rigid:
-            reset = unit + np.outer(self.strike, self.speed)
-            struck: np.ndarray = reset + np.outer(self.flight @ reset @ state - reset @ before, ahead)
-            return struck
-        jump = self.loss * (self.speed @ state) * self.push
-        entered: np.ndarray = unit + np.outer(jump, ahead)
-        return entered
+        reset = unit + np.outer(self.strike, self.speed)
+        struck: np.ndarray = reset + np.outer(self.flight @ reset @ state - reset @ before, ahead)
+        return struck
 
 
 def _read(row: np.ndarray) -> np.ndarray:

@@ -26,7 +26,6 @@ def close_flights(
     arrivals,
     values,
     slopes,
-    turns,
     tolerance,
     steps,
 ):
@@ -34,8 +33,6 @@ def close_flights(
 
     Parameters
     ----------
-    turns : bool
-        Whether the last entry of a node is the direction of weight.
     tolerance : float
         Largest residual accepted, relative to one plus the size of the nodes; one more step follows, unless it is long.
     steps : int
@@ -52,7 +49,7 @@ def close_flights(
     before = np.inf
     for _ in range(steps):
         follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes)
-        _assemble(nodes, arrivals, values, slopes, turns, matrix)
+        _assemble(nodes, arrivals, values, slopes, matrix)
         largest, size = 0.0, 1.0
         for row in range(m * width):
             largest = max(largest, abs(matrix[row, m * width]))
@@ -80,16 +77,16 @@ def close_flights(
 
 
 @kernel
-def shooting_equations(nodes, arrivals, values, slopes, turns):
+def shooting_equations(nodes, arrivals, values, slopes):
     """Derivative of the left sides by nodes and durations, and the left sides as last column; see :func:`close_flights`."""
     size = nodes.shape[0] * slopes.shape[1]
     matrix = np.empty((size, size + 1))
-    _assemble(nodes, arrivals, values, slopes, turns, matrix)
+    _assemble(nodes, arrivals, values, slopes, matrix)
     return matrix
 
 
 @inlined
-def _assemble(nodes, arrivals, values, slopes, turns, matrix):
+def _assemble(nodes, arrivals, values, slopes, matrix):
     """Write the equations: each segment ends at the next node, where its condition is fulfilled."""
     m, numbers = nodes.shape
     width = 2 * numbers + 1
@@ -106,28 +103,6 @@ def _assemble(nodes, arrivals, values, slopes, turns, matrix):
             matrix[i * width + k, m * width] = apart.real
             matrix[i * width + numbers + k, m * width] = apart.imag
         matrix[i * width + 2 * numbers, m * width] = values[i]
-    if turns:
-        _come_round(nodes, arrivals, matrix)
-
-
-@inlined
-def _come_round(nodes, arrivals, matrix):
-    """Write the equation of the direction of weight at the end of the period, ``z⁺ = |z|²z``.
-
-    A flight or a contact turns this number and keeps its modulus.  So only one of modulus one that has come round fulfils the equation,
-    while ``z⁺ = z`` would leave the modulus open.
-    """
-    m, numbers = nodes.shape
-    real, imaginary = numbers - 1, 2 * numbers - 1
-    first, z = (m - 1) * (2 * numbers + 1), nodes[0, numbers - 1]
-    square = z.real * z.real + z.imag * z.imag
-    apart = arrivals[m - 1, numbers - 1] - square * z
-    size = matrix.shape[0]
-    matrix[first + real, size], matrix[first + imaginary, size] = apart.real, apart.imag
-    matrix[first + real, real] += 1.0 - square - 2.0 * z.real * z.real
-    matrix[first + real, imaginary] -= 2.0 * z.real * z.imag
-    matrix[first + imaginary, real] -= 2.0 * z.real * z.imag
-    matrix[first + imaginary, imaginary] += 1.0 - square - 2.0 * z.imag * z.imag
 
 
 @kernel

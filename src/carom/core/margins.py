@@ -7,13 +7,9 @@ import math
 import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
-from carom.core.contact_series import rub_series
-from carom.core.flow import acceleration, copy, displacement, flight_increments, squared_modulus, velocity
-from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
-from carom.core.layout import ORDER
-from carom.core.phases import AWAY, sense_of_phase
-from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, in_wall, phase_of, rubs, sense_after, strikes
-from carom.core.taylor import series_step, sum_series
+from carom.core.flow import copy, displacement, flight_increments, squared_modulus, velocity
+from carom.core.friction import margin_of_slip, slip_of, spare_friction
+from carom.core.segments import sense_after
 from carom.core.variation import strike
 from carom.core.wall import local_velocity, unit, wall_of
 
@@ -26,32 +22,24 @@ A flight that leaves a wall to which it is pressed, while this force falls linea
 of the maximum with which it touches the wall again.
 """
 HALVINGS = 50
-PARTS = 6
-"""Parts of a Taylor step, a seventh of its radius of convergence, in each of which a margin has one minimum at most."""
-AT_EDGE = 1e-9
-"""Time from the ends of a Taylor step within which a minimum cannot be told from rounding, in ``1/Ω``."""
 
 
 @kernel
 def local_motion(rotor, planes, states):
-    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force, pull along the wall and spare friction."""
-    local = np.empty((states.shape[0], 6))
+    """Of each state (m, N) at its plane (m,): radial speed, slip and spare friction."""
+    local = np.empty((states.shape[0], 3))
     for i in range(states.shape[0]):
         y, v = displacement(rotor, planes[i], states[i]), velocity(rotor, planes[i], states[i])
-        a = acceleration(rotor, planes[i], states[i])
-        normal = unit(y)
-        local[i, 0] = squared_modulus(y) - 1.0
-        local[i, 1] = (normal.conjugate() * v).real
-        local[i, 2] = slip_of(normal.conjugate() * v, wall_of(rotor, planes[i]))
-        local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
-        local[i, 4] = (normal.conjugate() * a).imag
-        local[i, 5] = spare_friction(normal.conjugate() * v, wall_of(rotor, planes[i]))
+        speed = unit(y).conjugate() * v
+        local[i, 0] = speed.real
+        local[i, 1] = slip_of(speed, wall_of(rotor, planes[i]))
+        local[i, 2] = spare_friction(speed, wall_of(rotor, planes[i]))
     return local
 
 
 @kernel
-def least_margins(rotor, kinds, planes, nodes, durations, landings):
-    """Least distances of a word's segments from a change of the word, but for those in walls that give way.
+def least_margins(rotor, kinds, planes, nodes, durations):
+    """Least distances of a word's segments from a change of the word.
 
     Parameters
     ----------
@@ -60,129 +48,29 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
         As for :func:`~carom.core.segments.follow_flights`.
     nodes : complex array, shape (m, N)
         Amplitudes at the beginning of each segment.
-    durations, landings : array, shape (m,)
-        Of the segments; and of each chatter its distance from the onset of lasting contact, below zero if it is interrupted.
+    durations : array, shape (m,)
 
     Returns
     -------
     tuple of float
-        Depth of the highest maximum of the radius inside a flight, ``1 − |y|²``; radial speed before impacts; slip left after
-        impacts, or where friction stops the slip what it could still take; normal force; and distance from the limit of
-        friction where rolling begins, or where the slip passes through zero.  Infinite where there is none of the kind.
+        Depth of the highest maximum of the radius inside a flight, ``1 − |y|²``; radial speed before impacts; and slip left after
+        impacts, or where friction stops the slip what it could still take.  Infinite where there is none of the kind.
     """
-    m = kinds.shape[0]
     local = local_motion(rotor, planes, nodes)
-    radius, approach, slip, push, cone = np.inf, np.inf, np.inf, np.inf, np.inf
+    radius, approach, slip = np.inf, np.inf, np.inf
     after, still = np.empty(nodes.shape[1], np.complex128), np.empty((0, nodes.shape[1]), np.complex128)
-    for i in range(m):
-        if in_wall(rotor, kinds[i], planes[i]):
-            continue
-        radial, pressed, pull = local[i, 1], local[i, 3], local[i, 4]
-        wall = wall_of(rotor, planes[i])
-        if strikes(kinds[i]) and wall.friction > 0.0:
-            slip = min(slip, margin_of_slip(local_velocity(rotor, planes[i], nodes[i]), sense_after(kinds[i]), wall))
-        # After a chatter with rebound friction ceases to stop the slip before this limit is reached.
-        if kinds[i] == ROLL and (math.isinf(landings[i - 1]) or wall.restitution == 0.0):
-            cone = min(cone, spare_grip(pressed, -pull, FORWARD, wall), spare_grip(pressed, -pull, BACKWARD, wall))
-        turned = kinds[i - 1] == SLIDE_FORWARD if kinds[i] == SLIDE_BACKWARD else kinds[i - 1] == SLIDE_BACKWARD
-        if turned and (kinds[i] == SLIDE_FORWARD or kinds[i] == SLIDE_BACKWARD):
-            cone = min(cone, -spare_grip(pressed, -pull, sense_of_phase(phase_of(kinds[i])), wall))
-        if rubs(kinds[i]):
-            begins = landings[i - 1]
-            push = min(push, begins if begins < 0.0 else pressed)
-        elif kinds[i] != LIFT:
-            approach = min(approach, radial)
-        if strikes(kinds[i]) or kinds[i] == LIFT:
-            copy(nodes[i], after)
-            if strikes(kinds[i]):
-                strike(rotor, planes[i], sense_after(kinds[i]), after, still)
-            for plane in range(rotor.rows.shape[0]):
-                height, _ = highest_point(rotor, plane, after, durations[i])
-                if height > -radius:
-                    radius = -height
-    return radius, approach, slip, push, cone
-
-
-@kernel
-def contact_margins(rotor, kinds, planes, nodes, durations, rub):
-    """Least distances of lasting contact on rigid walls from a change of its kind, at the minima inside each segment.
-
-    Parameters
-    ----------
-    rotor, kinds, planes, nodes, durations
-        As for :func:`least_margins`.
-    rub : record of :func:`~carom.core.layout.rub_workspace`
-
-    Returns
-    -------
-    tuple of float
-        Normal force, slip in the direction of the sliding, and distance from the limits of friction while rolling; infinite without
-        minima.
-    """
-    push, slip, cone = np.inf, np.inf, np.inf
-    state, contact = np.empty(nodes.shape[1], np.complex128), np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
-        if not rubs(kinds[i]) or in_wall(rotor, kinds[i], planes[i]):
-            continue
-        plane, rolls, sense = planes[i], kinds[i] == ROLL, sense_of_phase(phase_of(kinds[i]))
-        wall = wall_of(rotor, plane)
-        contact[:] = AWAY
-        contact[plane] = phase_of(kinds[i])
-        copy(nodes[i], state)
-        elapsed = 0.0
-        while elapsed < durations[i]:
-            rub_series(rotor, contact, state, rub)
-            step = min(series_step(rub), durations[i] - elapsed)
-            if not step > 0.0:
-                return np.nan, np.nan, np.nan
-            push = min(push, least_inside(rub.push[plane], step))
-            for k in range(ORDER + 1):
-                if rolls:
-                    rub.first_margin[k] = spare_grip(rub.push[plane, k], rub.grip[plane, k], BACKWARD, wall)
-                    rub.second_margin[k] = spare_grip(rub.push[plane, k], rub.grip[plane, k], FORWARD, wall)
-                else:
-                    rub.first_margin[k] = sense * rub.slip[plane, k]
-            if rolls:
-                cone = min(cone, least_inside(rub.first_margin, step), least_inside(rub.second_margin, step))
-            else:
-                slip = min(slip, least_inside(rub.first_margin, step))
-            sum_series(rub, step, state)
-            elapsed = durations[i] if step == durations[i] - elapsed else elapsed + step
-    return push, slip, cone
-
-
-@inlined
-def least_inside(margin, step):
-    """Smallest value of the minima of a polynomial inside a step; infinite without any."""
-    least, early, before = np.inf, 0.0, _slope(margin, AT_EDGE)
-    for i in range(1, PARTS + 1):
-        late = step * i / PARTS
-        after = _slope(margin, late)
-        if before < 0.0 and after >= 0.0:
-            low, high = early, late
-            for _ in range(HALVINGS):
-                middle = 0.5 * (low + high)
-                if _slope(margin, middle) < 0.0:
-                    low = middle
-                else:
-                    high = middle
-            value = margin[ORDER]
-            for k in range(ORDER - 1, -1, -1):
-                value = value * high + margin[k]
-            # A change of kind begins with a margin of zero that may have no slope: by rounding that is no minimum.
-            if AT_EDGE < high < step - AT_EDGE:
-                least = min(least, value)
-        early, before = late, after
-    return least
-
-
-@inlined
-def _slope(margin, time):
-    """Derivative of a polynomial."""
-    slope = ORDER * margin[ORDER]
-    for k in range(ORDER - 1, 0, -1):
-        slope = slope * time + k * margin[k]
-    return slope
+        wall, sense = wall_of(rotor, planes[i]), sense_after(kinds[i])
+        if wall.friction > 0.0:
+            slip = min(slip, margin_of_slip(local_velocity(rotor, planes[i], nodes[i]), sense, wall))
+        approach = min(approach, local[i, 0])
+        copy(nodes[i], after)
+        strike(rotor, planes[i], sense, after, still)
+        for plane in range(rotor.rows.shape[0]):
+            height, _ = highest_point(rotor, plane, after, durations[i])
+            if height > -radius:
+                radius = -height
+    return radius, approach, slip
 
 
 @kernel

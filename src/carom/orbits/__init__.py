@@ -16,41 +16,33 @@
 ``flow_exponents``    Lyapunov exponents by the flow
 ``extremes``          largest radius, depth and force
 ``recognising``       the orbit that a simulated motion repeats
-``rubbing``           periodic motions with lasting contact, from one lift-off to the next
-``chatter``           a chatter as one segment
-``landings``          how far a chatter is from the onset of lasting contact
 ``exponents``         Lyapunov exponents of motions and of orbits
 ``names``             names of orbits
-``maps``              impact map and stroboscopic map, with their derivatives
+``maps``              the impact map, with its derivative
 ``stability``         multipliers of an orbit
 ====================  ====================================================================
 """
 
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
-from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
+from carom.orbits.maps import ImpactMap, Section, impact_map
 from carom.orbits.orbit import Margins, Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.rubbing import LiftOff, lift_off_of, rubbing_orbits
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.stability import Multipliers, multipliers
-from carom.orbits.word import Kind, Segment, Word
+from carom.orbits.word import Kind, Word
 
 __all__ = [
     "ImpactMap",
     "Kind",
-    "LiftOff",
     "LyapunovExponents",
     "Margins",
     "Multipliers",
     "Orbit",
     "OrbitSet",
     "Section",
-    "Segment",
-    "StroboscopicMap",
     "Word",
     "find_orbits",
     "impact_map",
-    "lift_off_of",
     "lyapunov_exponents",
     "multipliers",
     "orbit_exponents",
@@ -58,6 +50,4 @@ __all__ = [
     "orbit_of_motion",
     "orbits_within_reach",
     "period_condition",
-    "rubbing_orbits",
-    "stroboscopic_map",
 ]

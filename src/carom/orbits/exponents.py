@@ -11,35 +11,26 @@ import numpy as np
 
 from carom.arguments import Count, checked, whole
 from carom.core.closing import LONGEST
-from carom.core.growth import carry_orthogonal
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
-from carom.motions.trajectories import Trajectory
 from carom.orbits.flow_exponents import NOTHING, STRETCH, Grown
-from carom.orbits.happenings import arrives
 from carom.orbits.orbit import Orbit
-from carom.orbits.recognising import segments_of
-from carom.orbits.shooting import Links, links_of
+from carom.orbits.recognising import impacts_between
+from carom.orbits.shooting import links_of
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError, Outcome
+from carom.outcome import CaromError
 from carom.results import Result
 
 REPEATED = 1e-8
 """Largest distance, relative to one plus the size of the state, between the simulated and the repeated end of a segment."""
-CHUNK, FURTHER = 4096, 256
-"""Events that are simulated at a time, and by how much more if there are fewer than two impacts among them."""
+CHUNK = 4096
+"""Events that are simulated at a time."""
 LEFT = 1e-6
 """Mean factor in a stretch below which a direction counts as taken away."""
 CONFIDENT = 3.0
 """Standard errors by which an exponent has to differ from zero to have a sign."""
-LOST = {Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
-"""Directions of the section at an impact that a segment takes away.
-
-A chatter leads to states in lasting contact, which have two dimensions fewer; the section at the end of sliding has two
-fewer than that at an impact, and at the end of rolling three.
-"""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -128,8 +119,8 @@ def lyapunov_exponents(
 
     The method is that of Benettin, Galgani, Giorgilli and Strelcyn (1980), with the change of the time of each event in the
     derivatives (Müller 1995).  During the transient the directions turn towards those that grow fastest.  For a periodic
-    orbit :func:`orbit_exponents` is exact.  Of other machines than the planar rotor in a rigid bearing the derivatives are central
-    differences of the simulated flow; then fewer impacts are measured if they take too long.
+    orbit :func:`orbit_exponents` is exact.  With lasting contact, and of other machines than the planar rotor in a rigid bearing, the
+    derivatives are central differences of the simulated flow; then fewer impacts are measured if they take too long.
 
     Parameters
     ----------
@@ -153,14 +144,22 @@ def lyapunov_exponents(
     rotor = rotor_of(machine)
     rotor.system.refuse_non_stationary()
     state = start.state(rotor) if isinstance(start, Kick) else start
-    if not rotor.has_closed_forms:
-        return _by_flow(rotor, state, impacts, transient, batches)
+    found = _by_impacts(rotor, state, impacts, transient, batches) if rotor.has_closed_forms else None
+    return found or _by_flow(rotor, state, impacts, transient, batches)
+
+
+def _by_impacts(rotor: Rotor, state: State, impacts: int, transient: int, batches: int) -> LyapunovExponents | None:
+    """The exponents of a motion of the planar rotor by the exact derivatives of its flights; ``None`` if it has lasting contact."""
     directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
     for stretch in _stretches(rotor, state, transient):
+        if stretch is None:
+            return None
         directions, _ = _carried(stretch.passages, directions)
         state = stretch.end
     before, grown, stretches = _apart(stretch.rate, directions), [], []
     for stretch in _stretches(rotor, state, impacts):
+        if stretch is None:
+            return None
         directions, factors = _carried(stretch.passages, directions)
         grown.append(np.log(factors))
         stretches.append(stretch)
@@ -174,10 +173,8 @@ def lyapunov_exponents(
     values[:kept], errors[:kept] = _means(np.concatenate(grown)[:, :kept], durations, batches)
     values[-1], errors[-1] = rate, abs(rate)
     order = np.argsort(-values, kind="stable")
-    struck = np.sum([each.struck for each in stretches], axis=0)
-    volume = _growth_of_volume(rotor, struck, time) if kept == section else -math.inf
-    landings = sum(each.landings for each in stretches)
-    return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
+    volume = _growth_of_volume(rotor, len(durations), time) if kept == section else -math.inf
+    return LyapunovExponents(values[order], errors[order], rate, volume, len(durations), 0, time)
 
 
 def _by_flow(rotor: Rotor, state: State, impacts: int, transient: int, batches: int) -> LyapunovExponents:
@@ -215,13 +212,9 @@ def orbit_exponents(orbit: Orbit | SimulatedOrbit) -> LyapunovExponents:
     values = np.full(len(orbit.multipliers.values) + 1, -np.inf)
     values[:kept] = np.log(np.abs(orbit.multipliers.values[:kept])) / orbit.period
     values[-1] = 0.0
-    landings = int((orbit.word.kinds == Kind.LAND).sum())
-    volume = -math.inf
-    if kept == len(values) - 1:
-        struck = np.bincount(orbit.word.planes, minlength=len(rotor.system.arrays.rows))
-        volume = _growth_of_volume(rotor, struck, orbit.period)
-    errors = np.zeros(len(values))
-    return LyapunovExponents(-np.sort(-values), errors, 0.0, volume, orbit.impacts, landings, orbit.period)
+    every = kept == len(values) - 1
+    volume = _growth_of_volume(rotor, orbit.impacts, orbit.period) if every else -math.inf
+    return LyapunovExponents(-np.sort(-values), np.zeros(len(values)), 0.0, volume, orbit.impacts, 0, orbit.period)
 
 
 class _Stretch(NamedTuple):
@@ -231,43 +224,32 @@ class _Stretch(NamedTuple):
     durations: np.ndarray
     passages: np.ndarray
     rate: np.ndarray
-    struck: np.ndarray
-    landings: int
     end: State
 
 
-def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch]:
-    """Follow a motion for a number of impacts; each stretch begins with the impact with which the last one ended."""
-    further = 1
+def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch | None]:
+    """Follow a motion for a number of impacts; each stretch begins with the impact with which the last one ended.
+
+    ``None`` follows where the motion has anything else than impacts.
+    """
     while impacts > 0:
-        motion = simulate(rotor, state, LONGEST, max_events=further * min(CHUNK, 2 * impacts))
-        hits = np.flatnonzero(arrives(motion))
-        if len(hits) < 2:
-            further *= 4
-            if motion.outcome is not Outcome.EVENT_LIMIT or further > FURTHER:
-                how = "it stays in contact" if motion.outcome is Outcome.EVENT_LIMIT else motion.outcome.label
-                raise CaromError(f"the motion stops hitting the wall ({how}): it has no exponents of impacts")
-            continue
-        further = 1
-        count = min(impacts, len(hits) - 1)
-        first, last = int(hits[0]), int(hits[count])
-        word, links = _followed(rotor, motion, first, last)
-        struck = np.bincount(motion.event_planes[hits[:count]], minlength=len(rotor.system.arrays.rows))
-        landings = int(motion.is_landing[first:last].sum())
-        state = State.of(*motion.rotor.system.state(motion.arrivals[last]))
-        at = links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1]
-        yield _Stretch(word, *at, struck, landings, state)
-        impacts -= count
-
-
-def _followed(rotor: Rotor, motion: Trajectory, first: int, last: int) -> tuple[Word, Links]:
-    """Segments from one impact up to another, and that impact: it says at which plane the segment before it ends."""
-    word, begin = segments_of(motion, first, last + 1, brief=True)
-    links = links_of(rotor, word, begin)
-    apart = np.abs(links.arrivals[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())
-    if not (apart <= REPEATED and np.isfinite(links.values).all()):
-        raise CaromError(f"the segments of the motion cannot be repeated: their ends are {apart:.3g} apart")
-    return Word(word[:-1]), links
+        motion = simulate(rotor, state, LONGEST, max_events=min(CHUNK, 2 * impacts))
+        if not motion.is_impact.all():
+            yield None
+            return
+        last = min(impacts, len(motion.is_impact) - 1)
+        if last < 1:
+            raise CaromError(
+                f"the motion stops hitting the wall ({motion.outcome.label}): it has no exponents of impacts"
+            )
+        word, begin = impacts_between(motion, 0, last + 1)
+        links = links_of(rotor, word, begin)
+        apart = np.abs(links.arrivals[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())
+        if not (apart <= REPEATED and np.isfinite(links.values).all()):
+            raise CaromError(f"the segments of the motion cannot be repeated: their ends are {apart:.3g} apart")
+        end = State.of(*rotor.system.state(motion.arrivals[last]))
+        yield _Stretch(Word(word[:-1]), begin.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1], end)
+        impacts -= last
 
 
 def _carried(passages: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -275,9 +257,11 @@ def _carried(passages: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, 
 
     The directions lie in the section at the node: disturbances that reach the event at the same time.
     """
-    factors, carried = np.empty((len(passages), directions.shape[1])), directions.copy()
-    carry_orthogonal(passages, carried, factors)
-    return carried, factors
+    factors = np.empty((len(passages), directions.shape[1]))
+    for place, passage in enumerate(passages):
+        directions, triangle = np.linalg.qr(passage @ directions)
+        factors[place] = np.abs(np.diag(triangle))
+    return directions, factors
 
 
 def _apart(rate: np.ndarray, directions: np.ndarray) -> np.ndarray:
@@ -295,13 +279,8 @@ def _directions_kept(rotor: Rotor, words: list[Word]) -> int:
 
     A stopped slip takes away one, and so does the normal velocity that is lost without restitution.
     """
-    restitution, lost = rotor.system.arrays.restitution, 0
-    for word in words:
-        for kind, plane in np.unique([word.kinds, word.planes], axis=1).T.tolist():
-            taken = LOST.get(Kind(kind), 0)
-            if Kind(kind).is_impact:
-                taken = int(kind == Kind.IMPACT_STOPPED) + int(restitution[plane] == 0.0)
-            lost = max(lost, taken)
+    stopped = any(Kind.IMPACT_STOPPED in word for word in words)
+    lost = int(stopped) + int(rotor.system.arrays.restitution[0] == 0.0)
     return 2 * len(rotor.system.exponents) - 1 - lost
 
 
@@ -313,11 +292,11 @@ def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple
     return values, np.sqrt(batches / (batches - 1) * (apart**2).sum(axis=0)) / durations.sum()
 
 
-def _growth_of_volume(rotor: Rotor, struck: np.ndarray, time: float) -> float:
-    """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact of a plane.
+def _growth_of_volume(rotor: Rotor, impacts: int, time: float) -> float:
+    """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact.
 
     An impact with slip multiplies the normal velocity by ``−d``; the other velocities change by what depends on it and on
     the position alone.  The change of the time of impact gives the same factor once more.
     """
-    losses = np.log(rotor.system.arrays.restitution)
-    return float(2.0 * rotor.system.exponents.real.sum() + 2.0 * (struck @ losses) / time)
+    losses = float(np.log(rotor.system.arrays.restitution[0]))
+    return float(2.0 * rotor.system.exponents.real.sum() + 2.0 * impacts * losses / time)

@@ -17,7 +17,15 @@ from carom.orbits.word import Kind
 from carom.outcome import Phase
 
 INSTANT = 1e-12
-SATURATES, RECOVERS = "saturate", "unsaturate"
+SATURATES, RECOVERS, LANDS = "saturate", "unsaturate", "land"
+CHANGES = {
+    Phase.FLIGHT: "lift",
+    Phase.FORWARD_SLIP: "slide+",
+    Phase.BACKWARD_SLIP: "slide-",
+    Phase.ROLLING: "roll",
+    Phase.SEPARATED: "free",
+}
+"""What happens where a plane begins to be in a phase."""
 
 
 class Happening(NamedTuple):
@@ -26,7 +34,7 @@ class Happening(NamedTuple):
     Attributes
     ----------
     label : str
-        That of a :class:`~carom.orbits.word.Kind`; or ``"saturate"``, ``"unsaturate"``.
+        That of a :class:`~carom.orbits.word.Kind`, ``"land"``, one of :data:`CHANGES`, ``"saturate"`` or ``"unsaturate"``.
     place : int
         Contact plane, from 0; of limits twice the number of the limited quantity, plus one for its second axis.
     event : int
@@ -75,7 +83,7 @@ def happenings(motion: Trajectory) -> list[Happening]:
             if before == Phase.FLIGHT and not yields[plane]:
                 _land(found, plane, event, time)
             arrives = bool(before == Phase.FLIGHT and yields[plane])
-            found.append(Happening(Kind.of_phase(int(after)).label, plane, event, time, arrives))
+            found.append(Happening(CHANGES[Phase(after)], plane, event, time, arrives))
         if limited.size:
             for axis in np.flatnonzero(limited[event] != limited[event + 1]).tolist():
                 label = SATURATES if limited[event + 1, axis] else RECOVERS
@@ -85,9 +93,9 @@ def happenings(motion: Trajectory) -> list[Happening]:
 
 def _land(found: list[Happening], plane: int, event: int, time: float) -> None:
     """Make the impacts that lead to a landing one chatter."""
-    begun = Happening(Kind.LAND.label, plane, event, time, False)
+    begun = Happening(LANDS, plane, event, time, False)
     while found and found[-1].place == plane and found[-1].label.startswith("impact"):
-        begun = found.pop()._replace(label=Kind.LAND.label, arrives=False)
+        begun = found.pop()._replace(label=LANDS, arrives=False)
     found.append(begun)
 
 
@@ -96,7 +104,7 @@ def impact_kinds(motion: Trajectory) -> np.ndarray:
     arrays, planes = motion.rotor.system.arrays, motion.event_planes
     if not len(planes):
         return np.zeros(0, int)
-    _, _, slip, _, _, spare = local_motion(arrays, np.maximum(planes, 0), motion.arrivals).T
+    _, slip, spare = local_motion(arrays, np.maximum(planes, 0), motion.arrivals).T
     sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
     kinds: np.ndarray = np.where(spare >= 0.0, Kind.IMPACT_STOPPED, sliding)
     # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.

@@ -1,4 +1,4 @@
-"""Return maps of impacting motion and their derivatives."""
+"""The map from one impact to the next, and its derivative."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ from carom.arguments import Positive, checked
 from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
-from carom.models import Subject, exact_rotor_of, rotor_of
-from carom.motions.simulation import follow, simulate
+from carom.models import Subject, rotor_of
+from carom.motions.simulation import follow
 from carom.motions.starts import LARGEST_SPEED, State
-from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Outcome, Phase, shown
 from carom.results import Result
 
@@ -75,21 +74,6 @@ class ImpactMap(Result):
     jacobian: np.ndarray | None
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class StroboscopicMap(Result):
-    """The motion over a fixed time.
-
-    Attributes
-    ----------
-    trajectory : Trajectory
-    jacobian : ndarray, shape (4, 4)
-        Derivative of ``(Re U, Im U, Re U̇, Im U̇)`` at the end with respect to the start, saltation included.
-    """
-
-    trajectory: Trajectory
-    jacobian: np.ndarray
-
-
 @checked
 def impact_map(machine: Subject, section: Section, longest_flight: Positive = 1000.0) -> ImpactMap:
     """Impact map ``P_I`` of the source paper (section 3a), with its derivative.
@@ -132,34 +116,3 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
     jacobian = np.empty((3, 3))
     variation.section_jacobian(rotor.system.arrays, log.before[:2], np.array([time]), jacobian)
     return ImpactMap(Outcome.CONTACT, image, time, jacobian)
-
-
-@checked
-def stroboscopic_map(machine: Subject, state: State, period: float) -> StroboscopicMap:
-    """State after a fixed time and its derivative, through any number of impacts.
-
-    Parameters
-    ----------
-    state : State
-        Start inside the wall.
-    period : float
-        In ``1/Ω``.
-
-    Returns
-    -------
-    StroboscopicMap
-        Its derivative is meaningless if the trajectory ends in ``CHATTER`` or ``GRAZING``.
-    """
-    rotor = exact_rotor_of(machine)
-    trajectory = simulate(rotor, state, period, stop_at_chatter=True)
-    units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
-    directions = np.array([rotor.system.amplitude_change(*unit) for unit in units])
-    delays = np.empty(4)
-    durations = np.diff(np.append(trajectory.segment_starts, trajectory.time))
-    for flight, arrival in enumerate(trajectory.arrivals):
-        variation.carry_to_wall(rotor.system.arrays, 0, durations[flight], arrival, directions, delays)
-        variation.carry_through_impact(rotor.system.arrays, 0, arrival, directions)
-        variation.shift(rotor.system.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
-    directions = rotor.system.fly(directions, np.full(4, durations[-1]))
-    position, velocity = directions @ rotor.system.arrays.rows[0], directions @ rotor.system.arrays.rate_rows[0]
-    return StroboscopicMap(trajectory, np.array([position.real, position.imag, velocity.real, velocity.imag]))

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import compress
 from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.arguments import Reals, Whole, checked
 from carom.core.closing import ALIKE
-from carom.core.layout import rub_workspace
-from carom.core.margins import contact_margins, least_margins
-from carom.models import Rotor, Subject, rotor_of
+from carom.core.margins import least_margins
+from carom.models import Rotor, Subject, exact_rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -25,14 +23,12 @@ from carom.orbits.shooting import Links, Start, converged, links_of
 from carom.orbits.simulated import SimulatedOrbit, same_simulated
 from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
-from carom.outcome import CaromError, InputError
+from carom.outcome import InputError
 from carom.parameters import Scales
 from carom.results import Result
 
 SHORTEST = 1e-9
-"""Least duration of a segment other than a chatter, in ``1/Ω``."""
-OTHER_SLIP = "friction during its chatter would leave another slip"
-INTERRUPTED = "its chatter would not be complete before the normal force vanishes"
+"""Least duration of a flight, in ``1/Ω``."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,36 +44,21 @@ class Margins(Result):
     slip : float
         Least slip velocity left after an impact in its direction; where friction stops the slip, what friction could
         still take away.  In ``c_r Ω``; infinite without impacts or friction.
-    normal_force : float
-        Least normal force at the beginning of lasting contact, in ``m c_r Ω²``; infinite without it.  Where the chatter before is
-        interrupted, the signed distance from the onset of lasting contact stands for it.
-    cone : float
-        Least distance from the limit of friction where rolling begins, while it lasts, and where the slip passes through zero, in
-        ``m c_r Ω²``.
-    sliding : float
-        Least slip velocity at its minima while sliding, and with which a chatter lands, in ``c_r Ω``; where rolling follows, what friction
-        could still take away.
-    pressing : float
-        Least normal force at its minima inside lasting contact, in ``m c_r Ω²``.
     """
 
     radius: float
     approach: float
     slip: float
-    normal_force: float
-    cone: float
-    sliding: float
-    pressing: float
 
     @property
     def least(self) -> float:
         """The smallest of them."""
-        return min(self.radius, self.approach, self.slip, self.normal_force, self.cone, self.sliding, self.pressing)
+        return min(self.radius, self.approach, self.slip)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Result):
-    """A periodic motion of the planar rotor in a rigid bearing, in the co-rotating frame, as a word of segments.
+    """A periodic motion of the planar rotor in a rigid bearing, in the co-rotating frame, as a word of impacts.
 
     Attributes
     ----------
@@ -124,14 +105,12 @@ class Orbit(Result):
     @checked
     def from_links(cls, rotor: Rotor, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
         """Orbit that multiple shooting has found, with its multipliers and its admissibility checked."""
-        start = links.start
-        if (links.landings < 0.0).any():
-            reason = INTERRUPTED
-        else:
-            reason = OTHER_SLIP if (links.slips < 0.0).any() else why_virtual(rotor, word, start)
-        return cls(rotor, name, word, *start, multipliers_of(links), reason)
+        return cls(rotor, name, word, *links.start, multipliers_of(links), why_virtual(rotor, word, links.start))
 
     complete: ClassVar[bool] = True
+    leading_plane: ClassVar[int] = 0
+    flies: ClassVar[bool] = True
+    """Whether it only bounces, without lasting contact."""
     turns: ClassVar[int | None] = None
     """Turns of the shaft in a period where these must be whole: any period is possible here."""
 
@@ -151,20 +130,14 @@ class Orbit(Result):
         return str(self.word)
 
     @property
-    def flies(self) -> bool:
-        """Whether it only bounces, without lasting contact."""
-        return self.word.flies
-
-    @property
     def impacts(self) -> int:
         """Impacts per period."""
-        return self.word.impacts
+        return len(self.word)
 
     @property
     def slip(self) -> int:
         """Direction of the slip after the first impact: 1 forward, −1 backward, 0 if it is stopped."""
-        first = self.word[0].kind
-        return first.sense if first.is_impact else 0
+        return self.word[0].sense
 
     @property
     def admissible(self) -> bool:
@@ -204,16 +177,15 @@ class Orbit(Result):
 
     @property
     def scales(self) -> Scales | None:
-        """Scales of what is told of the plane of the first segment: lengths there are in its own clearance."""
-        return self.rotor.system.scales_at(self.word[0].plane, self.rotor.scales)
+        """Scales of the machine, if it has some."""
+        return self.rotor.scales
 
     @property
     def impulse(self) -> float:
         """Normal impulse of the first impact, in ``m c_r Ω``."""
-        plane = self.word[0].plane
-        place, moving = self.rotor.system.at_plane(self._departures[0], plane)
+        place, moving = self.rotor.system.at_plane(self._departures[0], 0)
         rebound = float((np.conj(place) * moving).real / abs(place))
-        return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
+        return float(self.rotor.system.arrays.masses[0]) * (self.radial_speed - rebound)
 
     @cached_property
     def extremes(self) -> Extremes:
@@ -225,12 +197,12 @@ class Orbit(Result):
         """Kind, contact plane and time of the beginning of each segment, and the state there."""
         begins = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]]).tolist()
         each = zip(self.word, begins, self.sections, strict=True)
-        return [(segment.kind.label, segment.plane, begin, section) for segment, begin, section in each]
+        return [(kind.label, 0, begin, section) for kind, begin, section in each]
 
     @property
     def impact_speeds(self) -> np.ndarray:
         """``ṙ`` just before each impact, in ``c_r Ω``, shape (n,)."""
-        return np.array([section.radial_speed for section in compress(self.sections, self.word.arrives)])
+        return np.array([section.radial_speed for section in self.sections])
 
     @property
     def angular_speed(self) -> float:
@@ -269,48 +241,29 @@ class Orbit(Result):
         return simulate(self.rotor, self.departure, periods * self.period)
 
     @checked
-    def path(self, times: Reals, plane: Whole | None = None) -> np.ndarray:
+    def path(self, times: Reals, plane: Whole = 0) -> np.ndarray:
         """Position ``U`` at times since the first impact, by the exact flights; for virtual orbits too.
 
         Parameters
         ----------
         times : array_like
             In ``1/Ω``; the orbit repeats after each period.
-        plane : int, optional
-            The displacement at this contact plane, in its clearance, instead of the coordinates.
-
-        Raises
-        ------
-        InputError
-            No such plane.
-        CaromError
-            The orbit has lasting contact; follow its :meth:`trajectory`.
+        plane : int
+            The only touchdown bearing, as of every orbit.
         """
-        if not self.word.flies:
-            raise CaromError("an orbit with lasting contact has no closed path; follow its trajectory()")
-        planes = len(self.rotor.system.contacts)
-        if plane is not None and plane >= planes:
-            raise InputError("plane", plane, f"a contact plane, from 0 to {planes - 1}")
         times = np.mod(times, self.period)
         begins = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]])
         place = np.searchsorted(begins, times, side="right") - 1
         system = self.rotor.system
         amplitudes = system.fly(self._departures[place], times - begins[place])
-        position, _ = system.state(amplitudes) if plane is None else system.at_plane(amplitudes, plane)
+        position, _ = system.at_plane(amplitudes, plane)
         return position
 
 
 def margins_of(links: Links, rotor: Rotor, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
     nodes = rotor.system.nodes.amplitudes(links.start.nodes)
-    at = word.kinds, word.planes, nodes, links.start.durations, links.landings
-    radius, approach, speed, force, cone = least_margins(rotor.system.arrays, *at)
-    if word.flies:
-        return Margins(radius, approach, speed, force, cone, np.inf, np.inf)
-    rub = rub_workspace(nodes.shape[1], len(rotor.system.contacts))
-    push, slip, rolling = contact_margins(rotor.system.arrays, *at[:-1], rub)
-    sliding = min(slip, float(links.slips.min()))
-    return Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
+    return Margins(*least_margins(rotor.system.arrays, word.kinds, word.planes, nodes, links.start.durations))
 
 
 @checked
@@ -331,35 +284,21 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     Raises
     ------
     InputError
-        The rotor is compliant, heavy or has else what words do not know, or the start does not fit the word and the rotor, or the word its wall.
+        The rotor is not the planar one in a rigid bearing, or the start does not fit the word.
     """
-    rotor = rotor_of(machine)
-    _refuse_without_words(rotor)
+    rotor = exact_rotor_of(machine)
     shape = len(word), len(rotor.system.nodes.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")
-    word.refuse_elsewhere(rotor.system)
     links = converged(rotor, word, start)
-    if links is None or not lasts(word, links.start):
+    if links is None or not lasts(links.start):
         return None
     return orbit_of_links(rotor, word, links, name)
 
 
-def _refuse_without_words(rotor: Rotor) -> None:
-    """Refuse a rotor of which segments are not known: those in compliant walls, and under forces of the fixed frame."""
-    system = rotor.system
-    if system.why_not_periodic is not None:
-        raise InputError("machine", *system.why_not_periodic)
-    if system.forced is not None or system.arrays["stiffness"].any():
-        given = "weight" if system.forced is not None else "a compliant touchdown bearing"
-        raise InputError(
-            "machine", given, "rigid touchdown bearings without weight: other orbits are found by carom.find_orbits"
-        )
-
-
-def lasts(word: Word, solution: Start) -> bool:
-    """Whether each segment of a solution lasts; a chatter that does not rebound at all takes no time."""
-    return bool((solution.durations >= np.where(word.lands, 0.0, SHORTEST)).all())
+def lasts(solution: Start) -> bool:
+    """Whether each flight of a solution lasts."""
+    return bool((solution.durations >= SHORTEST).all())
 
 
 def orbit_of_links(rotor: Rotor, word: Word, links: Links, name: OrbitName | CountedName | None = None) -> Orbit:
@@ -369,7 +308,7 @@ def orbit_of_links(rotor: Rotor, word: Word, links: Links, name: OrbitName | Cou
     once = Word(word[:count])
     first = beginning(rotor, once, nodes[:count])
     kept, start = once.turned(first), Start(nodes[:count], durations[:count]).turned(first)
-    return Orbit.from_links(rotor, kept, links_of(rotor, kept, start), name or CountedName(kept.impacts, 1))
+    return Orbit.from_links(rotor, kept, links_of(rotor, kept, start), name or CountedName(len(kept), 1))
 
 
 def shortest(word: Word, nodes: np.ndarray) -> int:
@@ -382,12 +321,9 @@ def shortest(word: Word, nodes: np.ndarray) -> int:
 
 
 def beginning(rotor: Rotor, word: Word, nodes: np.ndarray) -> int:
-    """Segment with which an orbit begins: that of the fastest arrival at a wall; without any, the first flight."""
-    flights = np.flatnonzero(word.arrives).tolist()
-    if not flights:
-        return next((i for i, segment in enumerate(word) if segment.kind.flies), 0)
-    positions, velocities = rotor.system.at_planes(rotor.system.nodes.amplitudes(nodes[flights]), word.planes[flights])
-    return flights[int(np.argmax((positions.conj() * velocities).real))]
+    """Segment with which an orbit begins: that of the fastest impact."""
+    positions, velocities = rotor.system.at_planes(rotor.system.nodes.amplitudes(nodes), word.planes)
+    return int(np.argmax((positions.conj() * velocities).real))
 
 
 def same_orbit(first: Orbit | SimulatedOrbit, second: Orbit | SimulatedOrbit) -> bool:

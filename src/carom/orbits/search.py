@@ -1,4 +1,4 @@
-"""The search for orbits of the planar rotor with at most a number of impacts a period, with or without lasting contact.
+"""The search for orbits of the planar rotor with at most a number of impacts a period, each of them a word or, with lasting contact, closed on the flow.
 
 Most motions from random starts stop bouncing soon, and unstable orbits attract none: a search must not wait until motions settle.  Any
 stretch of a motion that is a few impacts long is a guess for Newton's method, which costs less than the simulation.
@@ -6,9 +6,9 @@ stretch of a motion that is a few impacts long is a guess for Newton's method, w
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -17,13 +17,12 @@ from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
-from carom.orbits.happenings import arrives
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
-from carom.orbits.recognising import lift_offs, orbit_of_bouncing, segments_of
+from carom.orbits.recognising import orbit_of_motion, with_impacts
 from carom.orbits.searched import KIND, Searched, random_starts
-from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
+from carom.orbits.shooting import Start, closed_flights, links_of, pack
+from carom.orbits.simulated import SimulatedOrbit, numbered
 from carom.orbits.word import Word
 from carom.outcome import Outcome
 from carom.progress import Reporter
@@ -41,8 +40,6 @@ IMPACTS = 4
 """Impacts of these motions, in multiples of the largest number of impacts a period."""
 FOLLOWED = 1000.0
 """Time in ``1/Ω`` for which each is followed."""
-LANDING, LANDS = 0.05, 2000
-"""Share of the motions that are followed through landings and lift-offs, and their most events."""
 SETTLED = 10_000
 """Motions that are followed until they settle, for orbits that attract few starts."""
 FRESH = 1000
@@ -55,8 +52,6 @@ BESIDE = (1e-2, 0.5)
 """Relative changes of the velocity, least and largest, of a start beside a known orbit."""
 KNOWN = 1e-4
 """Relative distance from a known solution below which a stretch is not tried."""
-LEAST = 1e-9
-"""Least duration of a flight, in ``1/Ω``."""
 
 
 def search_orbits(
@@ -88,7 +83,7 @@ def _orbits_of_ends(rotor: Rotor, count: int, random: np.random.Generator) -> It
     states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
     _, different, numbers = np.unique(states.round(KIND), axis=0, return_index=True, return_counts=True)
     for place, number in zip(different[:ENDS].tolist(), numbers[:ENDS].tolist(), strict=True):
-        orbit = orbit_of_bouncing(simulate(rotor, ends.state(place), settle=True))
+        orbit = orbit_of_motion(simulate(rotor, ends.state(place), settle=True))
         if orbit is not None:
             yield orbit, number
 
@@ -104,7 +99,7 @@ class Search:
 
     def __init__(self, rotor: Rotor, impacts: int, known: Sequence[Orbit] = ()) -> None:
         self.rotor, self.impacts = rotor, impacts
-        self.found: list[Orbit] = []
+        self.found: list[Any] = []
         self.solutions: dict[Word, np.ndarray] = {}
         self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
         for orbit in known:
@@ -119,7 +114,11 @@ class Search:
             (each for each in listed if each not in named), key=lambda each: (each.impacts, each.period)
         ):
             counts[orbit.impacts] += 1
-            named.append(replace(orbit, name=CountedName(orbit.impacts, counts[orbit.impacts])))
+            number = counts[orbit.impacts]
+            simulated = isinstance(orbit, SimulatedOrbit)
+            named.append(
+                numbered(orbit, number) if simulated else replace(orbit, name=CountedName(orbit.impacts, number))
+            )
         return tuple(named)
 
     def run(self, settled: int, guesses: int, fresh: int, seed: Sequence[int], tell: Reporter) -> Searched:
@@ -151,7 +150,7 @@ class Search:
         fruitless = 0
         while tried[1:].min() < guesses and fruitless < FRUITLESS:
             before = tried.sum()
-            for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
+            for count, word, guess in self._stretches(self._start(random)):
                 if tried[count] < guesses and not self._is_known(word, guess, KNOWN):
                     tried[count] += 1
                     self._correct(word, guess)
@@ -161,7 +160,7 @@ class Search:
 
     def _start(self, random: np.random.Generator) -> State:
         """A random start, or every third time one beside a known orbit."""
-        beside = [orbit for orbit in self.found if orbit.admissible and (orbit.word.flies or orbit.word.arrives[0])]
+        beside = [orbit for orbit in self.found if orbit.admissible and orbit.flies]
         if self.motions % 3 or not beside:
             positions, velocities = random_starts(self.rotor, random, 1, on_wall=True)
             return State.of(positions[0], velocities[0])
@@ -170,49 +169,30 @@ class Search:
         change = np.exp(random.uniform(*np.log(BESIDE))) * (random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j])
         return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
 
-    def _stretches(self, start: State, landing: bool) -> Iterable[tuple[int, Word, Start]]:
-        """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
-        most = LANDS if landing else IMPACTS * (self.impacts + 1)
-        motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=not landing, max_events=most)
-        if landing:
-            lifts = lift_offs(motion)
-            yield from self._cut(motion, lifts[1:] if len(lifts) > 3 else lifts, range(1, 4), contact=True)
-        yield from self._cut(motion, np.flatnonzero(arrives(motion)), range(1, self.impacts + 1), contact=False)
-
-    def _cut(
-        self, motion: Trajectory, marks: np.ndarray, counts: Iterable[int], *, contact: bool
-    ) -> Iterator[tuple[int, Word, Start]]:
-        """Stretches from one of the marked events to a later one."""
+    def _stretches(self, start: State) -> Iterator[tuple[int, Word, Start]]:
+        """Stretches of a motion that come back closest, with their number of impacts."""
+        motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=True, max_events=IMPACTS * (self.impacts + 1))
+        marks = np.flatnonzero(motion.is_impact)
         if len(marks) < 2:
             return
-        nodes = motion.segment_amplitudes[marks + 1] if contact else motion.arrivals[marks]
-        states, times = self.rotor.system.nodes.of(nodes), motion.segment_starts[1:][marks]
-        for count in counts:
-            # Low bounces change little because they are short; planes that strike at one instant take no time.
-            lasted = times[count:] - times[:-count]
+        states, times = self.rotor.system.nodes.of(motion.arrivals[marks]), motion.segment_starts[1:][marks]
+        for count in range(1, self.impacts + 1):
+            # Low bounces change little because they are short.
             changes = np.abs(states[count:] - states[:-count]).max(axis=1)
-            apart = np.divide(changes, lasted, out=np.full_like(changes, np.inf), where=lasted > 0.0)
-            nearest = np.argsort(apart, kind="stable")[:NEAREST].tolist()
-            for first in dict.fromkeys([*range(min(EARLY, len(apart))), *nearest]):
-                begin, end = int(marks[first]), int(marks[first + count])
-                if not contact and end - begin != count:
-                    continue
-                word, guess = segments_of(motion, begin, end)
-                if word.impacts <= self.impacts:
-                    yield max(word.impacts, 1), word, guess
+            nearest = np.argsort(changes / (times[count:] - times[:-count]), kind="stable")[:NEAREST].tolist()
+            for first in dict.fromkeys([*range(min(EARLY, len(changes))), *nearest]):
+                stretch = with_impacts(motion, first, count)
+                if stretch is not None:
+                    yield count, *stretch
 
     def _correct(self, word: Word, guess: Start) -> None:
         """Correct one stretch of a motion."""
         self.guesses += 1
-        links = None
-        if word.flies:
-            solved = closed_flights(self.rotor, word, guess)
-            links = None if solved is None or solved.durations.min() < LEAST else links_of(self.rotor, word, solved)
-        else:
-            links = converged(self.rotor, word, guess)
-        if links is None or not lasts(word, links.start):
+        solved = closed_flights(self.rotor, word, guess)
+        if solved is None or not lasts(solved):
             self.failures += 1
             return
+        links = links_of(self.rotor, word, solved)
         if self._is_known(word, links.start, KNOWN):
             self.repeats += 1
         elif self._add(orbit_of_links(self.rotor, word, links)):
@@ -233,6 +213,8 @@ class Search:
         if orbit.impacts > self.impacts or any(same_orbit(orbit, other) for other in self.found):
             return False
         self.found.append(orbit)
+        if isinstance(orbit, SimulatedOrbit):
+            return True
         most = max(1, self.impacts // max(orbit.impacts, 1))
         for place in range(len(orbit.word)):
             turned = orbit.start.turned(place)

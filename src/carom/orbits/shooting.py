@@ -1,19 +1,12 @@
 """Multiple shooting: the equations of an orbit of given word, their exact derivatives, and Newton's method.
 
-The unknowns are the nodes, that is the coordinates and rates at the beginning of each segment, and the durations.  The equations: each
-segment ends at the next node, and fulfils the condition at its end.  As the durations are unknowns, no time of impact has
-to be solved for.  So nothing is singular where an impact grazes, and a branch of orbits passes through it.
-
-A chatter is followed by simulation, and the contact after it begins where it lands: that node and the duration of the
-chatter are no unknowns (:func:`free_entries`).  Both depend on the number of bounces that the simulation makes before it completes the chatter,
-by as little as the last bounces last, and at the onset of lasting contact (:mod:`carom.orbits.landings`) they have no derivative.  The end of the
-contact depends on neither.  A chatter that is interrupted just before it is complete is completed at its last bounce but one, so that the
-equations hold beyond the onset too.
+The unknowns are the nodes, that is the coordinates and rates just before each impact, and the durations of the flights.  The equations:
+each flight ends at the next node, on the wall.  As the durations are unknowns, no time of impact has to be solved for.  So nothing is
+singular where an impact grazes, and a branch of orbits passes through it.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -21,12 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.core.closure import carry_through_segments, close_flights, shooting_equations
-from carom.core.layout import rub_workspace
-from carom.core.segments import follow_contact, follow_flights
+from carom.core.segments import follow_flights
 from carom.core.sensitivity import sensitivity_of_flights
 from carom.models import Rotor
-from carom.orbits.chatter import follow_chatter
-from carom.orbits.word import Kind, Word
+from carom.orbits.word import Word
 
 ITERATIONS = 25
 TOLERANCE = 1e-13
@@ -59,7 +50,6 @@ class Links:
     Attributes
     ----------
     start : Start
-        After a chatter, the node at which it lands.
     arrivals : ndarray of complex, shape (m, N)
         Coordinates and rates at the end of each segment.
     values : ndarray, shape (m,)
@@ -67,24 +57,16 @@ class Links:
     slopes : ndarray, shape (m, 2N + 1, 2N + 1)
         Derivative of real and imaginary parts of the arrival, then of the condition, by those of the node, then by the
         duration.
-    landings : ndarray, shape (m,)
-        Of each chatter its signed distance from the onset of lasting contact (:func:`~carom.orbits.landings.distance_from_onset`), below
-        zero if it is interrupted; infinite for other segments.
-    slips : ndarray, shape (m,)
-        Of each chatter the slip with which it lands, in the direction of the sliding that follows; or where rolling follows, by how much
-        friction could stop more.  Below zero if the contact is of another kind; infinite for other segments.
     """
 
     start: Start
     arrivals: np.ndarray
     values: np.ndarray
     slopes: np.ndarray
-    landings: np.ndarray
-    slips: np.ndarray
 
     @cached_property
     def _equations(self) -> np.ndarray:
-        found: np.ndarray = shooting_equations(self.start.nodes, self.arrivals, self.values, self.slopes, False)
+        found: np.ndarray = shooting_equations(self.start.nodes, self.arrivals, self.values, self.slopes)
         return found
 
     @property
@@ -103,25 +85,6 @@ class Links:
         return self._equations[:, :-1]
 
     @cached_property
-    def reduced(self) -> tuple[np.ndarray, np.ndarray]:
-        """Residual and its derivative by the free unknowns alone, on which the others depend; ``nan`` where a chatter is none."""
-        if all(each == math.inf for each in self.landings.tolist()):
-            return self.residual, self.jacobian
-        lands = ~np.isposinf(self.landings)
-        width = self.slopes.shape[1]
-        free, rows = free_entries(lands, width), np.repeat(~lands, width)
-        whole = self.jacobian.copy()
-        # The later a chatter lands, the shorter is the contact after it.
-        ends = width * np.flatnonzero(lands) + width - 1
-        whole[:, ends] -= whole[:, (ends + width) % len(free)]
-        # The rows of a chatter say how its landing follows from its first impact.
-        try:
-            follows = np.linalg.solve(whole[np.ix_(~rows, ~free)], whole[np.ix_(~rows, free)])
-        except np.linalg.LinAlgError:
-            return np.full(rows.sum(), np.nan), np.full((rows.sum(), free.sum()), np.nan)
-        return self.residual[rows], whole[np.ix_(rows, free)] - whole[np.ix_(rows, ~free)] @ follows
-
-    @cached_property
     def _carried(self) -> tuple[np.ndarray, np.ndarray]:
         return carry_through_segments(self.slopes)
 
@@ -137,51 +100,18 @@ class Links:
 
 
 def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
-    """Follow each segment of a word from its node.
-
-    Parameters
-    ----------
-    rotor : Rotor
-    word : Word
-    start : Start
-        What follows from a chatter is not read: where it lands, and how long it takes of the time up to the end of the contact after it.
-
-    Returns
-    -------
-    Links
-        Its ``values`` are ``nan`` where a chatter does not end in the lasting contact that follows in the word.
-    """
-    system = rotor.system
-    arrays, coordinates, (nodes, durations) = system.arrays, system.nodes, start
-    m = len(nodes)
-    arrivals, values, slopes = _room(*nodes.shape)
-    follow_flights(
-        arrays, *coordinates, word.kinds, word.planes, word.targets, nodes, durations, arrivals, values, slopes
-    )
-    landings, slips = np.full((2, m), np.inf)
-    if not word.flies:
-        nodes, durations = nodes.copy(), durations.copy()
-        for i in np.flatnonzero(word.lands).tolist():
-            time, landings[i], slips[i] = follow_chatter(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
-            values[i] = 0.0 if np.isfinite(time) else np.nan
-            if np.isfinite(time):
-                after = (i + 1) % m
-                nodes[after], durations[after], durations[i] = arrivals[i], durations[after] + durations[i] - time, time
-        at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(system.modes, len(arrays.rows))
-        follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
-    return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips)
+    """Follow each segment of a word from its node."""
+    system, (nodes, durations) = rotor.system, start
+    room = _room(*nodes.shape)
+    at = word.kinds, word.planes, word.planes, nodes, durations
+    follow_flights(system.arrays, *system.nodes, *at, *room)
+    return Links(start, *room)
 
 
-def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray | None:
-    """Exact derivative of the left sides of the equations by a parameter of the rotor, shape (m (2N + 1),).
-
-    ``None`` for words with lasting contact, and where the rotor does not give the derivatives of its equations of motion.
-    """
-    rates = rotor.rates(name) if word.flies else None
-    if rates is None:
-        return None
-    system = rotor.system
-    at = word.kinds, word.planes, word.targets, *start
+def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray:
+    """Exact derivative of the left sides of the equations by a parameter of the planar rotor, shape (m (2N + 1),)."""
+    system, rates = rotor.system, rotor.rates(name) or ()
+    at = word.kinds, word.planes, word.planes, *start
     changes: np.ndarray = sensitivity_of_flights(system.arrays, *system.nodes, *rates, *at)
     return changes
 
@@ -192,15 +122,15 @@ def _room(m: int, numbers: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def closed_flights(rotor: Rotor, word: Word, start: Start) -> Start | None:
-    """Solve the equations of a word of impacts by plain Newton steps from a start next to an orbit.
+    """Solve the equations of an orbit by plain Newton steps from a start next to it.
 
-    ``None`` if the iteration does not converge; it takes no shorter steps, and knows no lasting contact (:func:`converged`).
+    ``None`` if the iteration does not converge; it takes no shorter steps (:func:`converged`).
     """
     system = rotor.system
     nodes, durations = start.nodes.copy(), start.durations.copy()
-    at = word.kinds, word.planes, word.targets, nodes, durations
+    at = word.kinds, word.planes, word.planes, nodes, durations
     room = _room(*nodes.shape)
-    closes = close_flights(system.arrays, *system.nodes, *at, *room, False, TOLERANCE, ITERATIONS)
+    closes = close_flights(system.arrays, *system.nodes, *at, *room, TOLERANCE, ITERATIONS)
     return Start(nodes, durations) if closes else None
 
 
@@ -216,44 +146,6 @@ def unpack(unknowns: np.ndarray, segments: int) -> Start:
     nodes = np.empty((segments, numbers), complex)
     nodes.real, nodes.imag = rows[:, :numbers], rows[:, numbers:-1]
     return Start(nodes, rows[:, -1].copy())
-
-
-def free_entries(lands: np.ndarray, width: int) -> np.ndarray:
-    """Which entries of :func:`pack` are unknowns, bool: not the node at which a chatter lands, nor its duration.
-
-    The duration of the contact after it then stands for that of both.
-
-    Parameters
-    ----------
-    lands : ndarray of bool, shape (m,)
-        Which segments are chatters.
-    width : int
-        Entries of a segment.
-    """
-    kept = np.ones((len(lands), width), bool)
-    kept[lands, -1] = False
-    kept[np.roll(lands, 1), :-1] = False
-    return kept.ravel()
-
-
-def pack_free(word: Word, start: Start) -> np.ndarray:
-    """The unknowns among the entries of :func:`pack`."""
-    if word.flies:
-        return pack(start)
-    durations = start.durations + np.roll(np.where(word.lands, start.durations, 0.0), 1)
-    whole = pack(Start(start.nodes, durations))
-    free: np.ndarray = whole[free_entries(word.lands, len(whole) // len(word))]
-    return free
-
-
-def unpack_free(word: Word, unknowns: np.ndarray) -> Start:
-    """Nodes and durations from the unknowns of :func:`pack_free`; zero where they follow from a chatter."""
-    if word.flies:
-        return unpack(unknowns, len(word))
-    width = len(unknowns) // (len(word) - int(word.lands.sum()))
-    whole = np.zeros(len(word) * width)
-    whole[free_entries(word.lands, width)] = unknowns
-    return unpack(whole, len(word))
 
 
 def converged(rotor: Rotor, word: Word, start: Start) -> Links | None:
@@ -285,7 +177,7 @@ def converged(rotor: Rotor, word: Word, start: Start) -> Links | None:
             # At a fold the derivative is singular, and the step leads anywhere.
             return polished if polished.size <= TOLERANCE else here
         moved, durations = np.abs(change.reshape(len(word), -1)[:, -1]), np.abs(here.start.durations)
-        share = min(1.0, LONGEST_STEP * float((durations / np.maximum(moved, 1e-300))[word.kinds != Kind.LAND].min()))
+        share = min(1.0, LONGEST_STEP * float((durations / np.maximum(moved, 1e-300)).min()))
         for _ in range(BACKTRACKS):
             there = links_of(rotor, word, unpack(unknowns + share * change, len(word)))
             if there.size < size:

@@ -18,7 +18,6 @@ from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
-from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Impacts, search_orbits
 from carom.orbits.searched import Searched
 from carom.orbits.shooting import Start
@@ -40,7 +39,7 @@ class OrbitSet(Members[Orbit]):
     """Orbits of a rotor; look one up by index or by name, ``orbits["B1,d"]``.
 
     Without a search they are all with one impact a period of the planar rotor, virtual ones included.  With a search they are admissible:
-    first those known before, of the planar rotor all with one impact and those from a lift-off to the next, under their names; then
+    first those known before, of the planar rotor all with one impact, under their names; then
     those that the search found, the fewest impacts first, then the shortest period.  It proves nothing: an orbit to which no guess led is missing.
 
     Attributes
@@ -148,8 +147,8 @@ def find_orbits(
         Search only periods up to this, in ``1/Ω``.
     impacts : int, optional
         Orbits with at most this many impacts a period instead, with lasting contact too: those with one impact of the planar
-        rotor, those from a lift-off to the next (:func:`~carom.orbits.rubbing_orbits`), and others by Newton's method from stretches
-        of simulated motions; what is found is exact, but nothing proves that it is all.
+        rotor, and others by Newton's method from ends and stretches of simulated motions; what is found is exact, but nothing proves
+        that it is all.
     guesses, seed : int
         Number of stretches that this search tries for each number of impacts, by default 1500 or, for a rotor of many states, as many as
         take about a minute; and the seed of the random starts.
@@ -189,7 +188,7 @@ def find_orbits(
         model.system.refuse_non_stationary()
         members: tuple[Any, ...]
         if model.has_closed_forms:
-            there = [orbit for orbit in (*orbits_within_reach(model), *rubbing_orbits(model)) if orbit.admissible]
+            there = [orbit for orbit in orbits_within_reach(model) if orbit.admissible]
             members, search = search_orbits(model, impacts, guesses, seed, there, tell)
         else:
             members, search = search_simulated(model, impacts, guesses, seed, tell)

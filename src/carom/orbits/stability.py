@@ -74,10 +74,7 @@ def multipliers_of(links: Links) -> Multipliers:
 
 
 def on_section(links: Links) -> np.ndarray:
-    """Derivative of the return map in an orthonormal basis of the section at the first node, shape (2N − 1, 2N − 1).
-
-    With weight its phase at the first node counts too: shape (2N, 2N).
-    """
+    """Derivative of the return map in an orthonormal basis of the section at the first node, shape (2N − 1, 2N − 1)."""
     monodromy = links.monodromy
     if not np.isfinite(monodromy).all():
         return np.full((len(monodromy) - 1,) * 2, np.inf)

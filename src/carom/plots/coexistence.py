@@ -76,7 +76,6 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
         RUB: (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
         ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
         BOUNCING: _on_orbits(diagram.branches),
-        WITH_RUB: _on_orbits(diagram.rubbing),
     }
 
 

@@ -33,16 +33,13 @@ POINTS = MappingProxyType(
         "neimark-sacker": Look("#56b4e9", "Neimark–Sacker bifurcation", marker="h"),
         "grazing": Look("#0072b2", "grazing", marker="v"),
         "vanishing-impact": Look("#0072b2", "grazing, one impact more", marker="1"),
-        "cone-limit": Look(OUTCOMES["rolling"].colour, "rolling begins at the limit of friction", marker="|"),
-        "slide-stop": Look(OUTCOMES["rolling"].colour, "friction stops sliding", marker="_"),
-        "lift-off": Look(OUTCOMES["backward-whirl"].colour, "the rotor lifts off in between", marker="2"),
+        "contact-change": Look(OUTCOMES["backward-whirl"].colour, "contact begins or ends in between", marker="2"),
         "radius-extremum": Look("#808080", "new extremum of the radius", marker="D"),
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
         "boundary-equilibrium": Look("#009e73", f"{STEADY_WORDS['contact-free']} meets the wall", marker="p"),
         "rub-fold": Look(OUTCOMES["forward-rub"].colour, f"fold of {STEADY_WORDS['rub']}s", marker="X"),
         "contact-onset": Look(OUTCOMES["backward-whirl"].colour, "lasting contact begins", marker="^"),
-        "permanent-contact": Look(OUTCOMES["backward-whirl"].colour, "contact becomes permanent", marker="o"),
         "rolling-limit": Look(OUTCOMES["rolling"].colour, "rolling no longer holds", marker="d"),
     }
 )
@@ -59,10 +56,6 @@ _LINES: dict[str, dict[str, Any]] = {
     "non-smooth-hopf": {"line": "-", "width": 4.5, "colour": "#a3dcca"},
     "rub-fold": {"line": "--", "width": 1.4},
     "contact-onset": {"line": "-", "width": 1.1},
-    "permanent-contact": {"line": "--", "width": 1.1},
-    "cone-limit": {"line": ":", "width": 1.1},
-    "slide-stop": {"line": "--", "width": 1.1},
-    "lift-off": {"line": ":", "width": 1.1},
     "rolling-limit": {"line": "-.", "width": 1.1},
 }
 CURVES = MappingProxyType({kind: replace(POINTS[kind], marker="none", **look) for kind, look in _LINES.items()})

@@ -85,7 +85,7 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
     label_frame(
         right, "fixed", scales, plane_note(orbit, f"{counted(count, 'period')} = {turns(count * orbit.period)}")
     )
-    equilibrium = complex(orbit.rotor.system.arrays.offsets[orbit.word[0].plane])
+    equilibrium = complex(orbit.rotor.system.arrays.offsets[orbit.leading_plane])
     _levitation(left, equilibrium, wall)
     inner = magnifier(left, once, wall=wall)
     if inner is not None:
@@ -108,7 +108,7 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     direction_arrow(axes, line[times <= orbit.period], look)
     struck, speeds = orbit_impacts(orbit, periods)
     turned = np.exp(1j * struck) if frame == "fixed" else np.ones_like(struck)
-    impacts(axes, wall * orbit.path(struck, orbit.word[0].plane) * turned, speeds, size=4.5)
+    impacts(axes, wall * orbit.path(struck, orbit.leading_plane) * turned, speeds, size=4.5)
     point(axes, complex(line[0]), "start", size=4.0, label="start, just after an impact")
 
 

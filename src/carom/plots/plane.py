@@ -158,7 +158,7 @@ def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Fl
 
     They are those of a contact plane, by default that of the first impact.
     """
-    seen = orbit.word[0].plane if plane is None else plane
+    seen = orbit.leading_plane if plane is None else plane
     times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
     scales = orbit.rotor.system.scales_at(seen, orbit.rotor.scales)
     return times, orbit.path(times, seen) * complex(clearance(scales))
@@ -166,18 +166,13 @@ def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Fl
 
 def plane_note(orbit: Orbit, note: str = "") -> str:
     """Return a note on a picture of an orbit, which names the contact plane of its first impact if there are several."""
-    plane = f"touchdown bearing {orbit.word[0].plane + 1}" if len(orbit.rotor.system.contacts) > 1 else ""
+    plane = f"touchdown bearing {orbit.leading_plane + 1}" if len(orbit.rotor.system.contacts) > 1 else ""
     return ", ".join(filter(None, (plane, note)))
 
 
 def orbit_impacts(orbit: Orbit, periods: int) -> tuple[Floats, Floats]:
-    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each.
-
-    Of several contact planes they are those at the plane of the first impact.
-    """
-    plane = orbit.word[0].plane
-    kept = [place for place, each in enumerate(orbit.word) if each.kind.is_impact and each.plane == plane]
-    kept = [*kept[1:], kept[0]]
+    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each."""
+    kept = [*range(1, orbit.impacts), 0]
     begins = np.concatenate([[orbit.period], np.cumsum(orbit.durations)[:-1]])[kept]
     times = (orbit.period * np.arange(periods)[:, None] + begins).ravel()
     return times, np.tile([orbit.sections[place].angular_speed for place in kept], periods)

@@ -79,6 +79,6 @@ def shooting_seeds(hypotheses: Hypotheses, impacts: int) -> Iterator[list[float]
     rotor = jeffcott(doubles_of(hypotheses))
     turned = float(np.angle(rotor.equilibrium)) if rotor.equilibrium else 0.0
     for orbit in find_orbits(rotor, impacts=impacts):
-        if orbit.impacts > 1 and set(orbit.word.kinds.tolist()) == {Kind.IMPACT_FORWARD}:
+        if orbit.impacts > 1 and set(orbit.word) == {Kind.IMPACT_FORWARD}:
             steps = zip(orbit.sections, orbit.durations.tolist(), strict=True)
             yield [x for at, time in steps for x in (at.angle - turned, at.radial_speed, at.angular_speed, time)]
