@@ -17,7 +17,6 @@ from carom.cli.app import app
 from carom.outcome import Outcome
 from carom.proofs import hypotheses_of
 from carom.proofs.families import FAMILIES, KICKS
-from carom.proofs.kick_box_claims import box_claims_of
 from carom.proofs.kick_cells import DISC, REFUTED, read
 from carom.proofs.kick_claims import claims_of
 from carom.proofs.kick_discs import Disc
@@ -109,7 +108,7 @@ def test_claims_that_are_explained_are_made():
         # Claims as they would be if all of the disc were refuted, which nobody asks here.
         made |= {claim.name for claim in claims_of(Disc(family, machine, sizes[about], 1), {DISC: REFUTED})}
     box = Disc(KICKS, machine, "1", 1, (("mu", "0.1", "0.2"),))
-    made |= {claim.name for claim in box_claims_of(box, read("p0t", 1))}
+    made |= {claim.name for claim in claims_of(box, read("p0t", 1))}
     assert len(named) > 10
     assert set(named) <= made
 

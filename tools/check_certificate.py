@@ -2959,7 +2959,7 @@ FORMS = {
         for about, kind in DISCS.items()
     },
     "kicks of a box of machines": Form(
-        (f"kicks: ({_KICKS}|all recover outside of gaps)", "kicks, .+: recover"),
+        (f"kicks: {_KICKS}", "kicks, .+: recover"),
         ("kicks_up_to", "most_impacts", "box"),
         (
             *_DISC_LEAVES_OUT,

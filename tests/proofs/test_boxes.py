@@ -18,9 +18,8 @@ from carom.proofs import Hypotheses, check, hypotheses_of, prove, prove_kicks
 from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
 from carom.proofs.families import KICKS
-from carom.proofs.gaps import MOST_GAPS, decimal, gaps_of, outside
-from carom.proofs.kick_box_claims import box_claims_of
 from carom.proofs.kick_cells import IMPACTS, leaves, read
+from carom.proofs.kick_claims import claims_of, decimal
 from carom.proofs.kick_discs import Disc
 
 SPINDLE = "examples/spindle.toml"
@@ -191,17 +190,13 @@ def disc(*along):
 DAMPING = ("damping", "200 N s/m", "600 N s/m")
 
 
-def test_what_holds_is_told_outside_of_gaps():
+def test_what_holds_is_told_of_stretches_of_a_parameter():
     """A tree by hand, of which the claims follow: the first quarter of the dampings is open for fast kicks."""
     with at_precision(64):
-        claims = box_claims_of(disc(DAMPING), read("ppv0g12", 1))
+        claims = claims_of(disc(DAMPING), read("ppv0g12", 1))
     named = {claim.name: claim for claim in claims}
 
     assert named["kicks all recover"].status == "undecided"
-    outside_of_it = named["kicks all recover outside of gaps"]
-    assert outside_of_it.status == "proven"
-    assert outside_of_it.statement.startswith("For all damping in [300, 600] N s/m: all kicks")
-    assert outside_of_it.statement.endswith("at most 2 impacts.")
     slow = named["kicks, damping in [200, 300] N s/m recover"]
     assert (slow.enclosures["speed_si"].low, slow.enclosures["speed_si"].high) == ("0.0555", "0.0555")
     assert "at most 0 impacts" in slow.statement
@@ -211,51 +206,17 @@ def test_what_holds_is_told_outside_of_gaps():
     assert Fraction(named["kicks recover"].enclosures["share_open"].low) == Fraction(3, 16)
 
 
-def test_gaps_of_several_parameters_are_told_as_boxes():
-    second = ("stiffness", "3e5 N/m", "5e5 N/m")
-    with at_precision(64):
-        claims = box_claims_of(disc(DAMPING, second), read("pq0g1", 2))
-    told = next(claim for claim in claims if claim.kind == "all recover outside of gaps")
-
-    assert (
-        "outside of these boxes: damping in [200, 400] N s/m and stiffness in [400000, 500000] N/m: all kicks"
-        in told.statement
-    )
-    assert told.enclosures["share_of_box"].low == "0.75"
-
-
 def test_nothing_is_told_where_everything_is_open():
     with at_precision(64):
-        claims = box_claims_of(disc(DAMPING), read("t", 1))
+        claims = claims_of(disc(DAMPING), read("t", 1))
     assert [claim.status for claim in claims] == ["undecided", "undecided"]
 
 
 def test_speeds_are_not_told_in_a_unit_that_machines_do_not_share():
     with at_precision(64):
-        claims = box_claims_of(disc(("clearance", "0.2 mm", "0.3 mm")), read("v0g", 1))
+        claims = claims_of(disc(("clearance", "0.2 mm", "0.3 mm")), read("v0g", 1))
     assert "speed" not in claims[0].enclosures
     assert claims[0].enclosures["speed_si"].low == "0.0555"
-
-
-@pytest.mark.parametrize("count", [1, 2, 3])
-def test_gaps_hold_all_that_is_open_and_are_few(count):
-    random = np.random.default_rng(count)
-    for _ in range(sized(60, 10, 300)):
-        open_ = []
-        for _ in range(random.integers(1, 60)):
-            halvings = random.integers(0, 6, count)
-            open_.append(tuple((int(random.integers(2**n)), int(n)) for n in halvings))
-        gaps = gaps_of(open_)
-        assert 1 <= len(gaps) <= MOST_GAPS
-        for parts in open_:
-            inner = [Fraction(2 * k + 1, 2 ** (n + 1)) for k, n in parts]
-            assert any(
-                all(Fraction(k, 2**n) <= x <= Fraction(k + 1, 2**n) for x, (k, n) in zip(inner, gap, strict=True))
-                for gap in gaps
-            )
-        if count == 1:
-            lengths = sum(high - low for low, high in outside(gaps)) + sum(Fraction(1, 2**n) for ((_, n),) in gaps)
-            assert lengths == 1
 
 
 def test_numbers_are_rounded_to_the_side_asked_for():

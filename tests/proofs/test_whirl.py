@@ -309,7 +309,7 @@ def test_fresh_values_along_a_parameter_hold_one_by_one():
 def test_forged_claims_are_refused():
     document = json.loads(json.dumps(prove(DECIMAL).document()))
     places = [k for k, claim in enumerate(document["claims"]) if claim["about"] == "whirl"]
-    assert len(places) >= 8
+    assert len(places) >= 4
     for place in places:
         claim = document["claims"][place]
         others = {"proven": "refuted", "refuted": "proven", "undecided": "proven"}

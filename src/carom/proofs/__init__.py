@@ -40,15 +40,13 @@
 ``boxes``           boxes of machines
 ``sides``           by how much a parameter of a box moves flights
 ``plain_flights``   flights in double precision
-``gaps``            parts of a box on which something is open
-``kick_box_claims`` claims about kicks of boxes of machines
 ``steady_lines``    levitation, rubs, whirl and harmless kicks along a parameter
 ``starts``          how a disturbance takes a rotor out of levitation
 ``families``        kicks, shocks and steps of the unbalance: sizes and words
 ``kick_cells``      a disc of kicks, or of others, as cells that halve one another
 ``kick_discs``      what is proven of a cell
 ``kick_search``     the search for cells, in several processes
-``kick_claims``     claims about kicks
+``kick_claims``     claims about kicks, of one machine or of a box of them
 ``stated_equations``  the equations of any rotor as hypotheses
 ``levitation_claims``  levitation of any rotor, and what never touches
 ``kicks``           prove_kicks, as far as a time allows

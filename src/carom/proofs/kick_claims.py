@@ -1,13 +1,17 @@
-"""Claims about disturbances out of levitation, from cells of which it is known what is proven."""
+"""Claims about disturbances out of levitation, of one machine or of all machines of a box, from cells of which it is known what is proven."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal, localcontext
 from fractions import Fraction
+from functools import partial
+from itertools import groupby
 from typing import Any
 
 from carom.core.processors import available_cores
-from carom.proofs.balls import enclosure_of_fraction, enclosures_of
+from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
+from carom.proofs.boxes import MOST_PARAMETERS, Box
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.families import Family
@@ -16,11 +20,21 @@ from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
 
+BOX_THEOREM = "kicks of a box of machines"
 NOT_CLAIMED = (
     "that what is open does not return, or that it does; why it is open is told by the search",
     "that the impacts stated happen: they are bounds from above",
     "anything beyond the largest size, of starts other than levitation, or of walls that give way",
 )
+BOX_NOT_CLAIMED = (
+    *NOT_CLAIMED,
+    "anything of machines with parameters outside of the intervals, or whose parameters move while they are kicked",
+)
+_STRETCHES = 16
+"""Stretches of the interval of a parameter on each of which a speed is told."""
+_DIGITS = 12
+_PLAIN = -7, 15
+"""Powers of ten of numbers that are written without an exponent."""
 
 
 def options_of(family: Family) -> tuple[str, str]:
@@ -28,30 +42,35 @@ def options_of(family: Family) -> tuple[str, str]:
     return family.option, "most_impacts"
 
 
-def disc_from(family: Family, rotor: Rotor, options: Mapping[str, Any]) -> Disc:
-    """The disc that options of a theorem describe."""
+def _disc_from(family: Family, rotor: Rotor, options: Mapping[str, Any]) -> Disc:
+    """The disc that options of a theorem describe, and with an option ``box`` the box."""
     largest, most = (options[name] for name in options_of(family))
     if not isinstance(largest, str) or type(most) is not int or not 0 <= most < len(IMPACTS):
         raise NotShownError("the certificate has no largest size, or no number of impacts")
-    return Disc(family, rotor.hypotheses, largest, most)
+    box = options.get("box", [])
+    if not isinstance(box, list) or not ("box" in options) <= len(box) <= MOST_PARAMETERS:
+        raise NotShownError("the certificate has no box of machines")
+    if not all(isinstance(entry, list) and [type(text) for text in entry] == [str] * 3 for entry in box):
+        raise NotShownError("the certificate has no box of machines")
+    return Disc(family, rotor.hypotheses, largest, most, tuple(tuple(entry) for entry in box))
 
 
 def kick_claims(family: Family, rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
     """Claims of a certificate, all of whose proven cells are shown again; nothing is searched."""
     if rotor.bits != BITS:
         raise NotShownError(f"cells are shown with {BITS} bits")
-    disc = disc_from(family, rotor, options)
-    tree = read(evidence.take("cells", nothing_found))
+    disc = _disc_from(family, rotor, options)
+    tree = read(evidence.take("cells", _nothing_found), len(disc.along))
     show_all(disc, tree, available_cores(), evidence.tell)
     return claims_of(disc, tree)
 
 
-def nothing_found() -> str:
+def _nothing_found() -> str:
     """Stand for a search where cells are only read."""
     raise NotShownError("cells are found by a search of their own")
 
 
-def reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
+def _reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
     """How much of all cells does not return, and how much is open, and why; nothing where all returns."""
     parts: dict[str, Fraction] = {}
     for cell, letter in known:
@@ -65,48 +84,105 @@ def reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
 
 
 def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
-    """Claims about a disc whose cells are known."""
-    known = [(cell, letter) for cell, letter in leaves(tree)]
+    """Claims about a disc, and a box of machines if it has one, whose cells are known."""
+    known = list(leaves(tree))
     proven = [(cell, IMPACTS.index(letter)) for cell, letter in known if letter in IMPACTS]
-    first = min((cell.speeds[0] for cell, letter in known if letter not in IMPACTS), default=Fraction(1))
-    share, left = share_of(cell for cell, _ in proven), share_of(cell for cell, letter in known if letter in OPEN)
+    rest = [cell for cell, letter in known if letter not in IMPACTS]
     refuted = share_of(cell for cell, letter in known if letter == REFUTED)
     most = max((impacts for _, impacts in proven), default=0)
-    family = disc.family
-    numbers = enclosures_of(**{family.size: disc.size(first)})
+    family, told = disc.family, f"{disc.family.told} {disc.largest}"
+    of_all, where, area, always = f"All {told}", f"Of {told}", " of the area", " "
+    if disc.along:
+        of_all, area, always = f"For all {disc.box.words}, all {told}", "", ", for all these values, "
+        where += f", and of the values {disc.box.words}, area of the disc times widths of the intervals"
+    numbers = _sizes(disc, min((cell.speeds[0] for cell in rest), default=Fraction(1)))
+    shares = {"share_proven": share_of(cell for cell, _ in proven), "share_refuted": refuted}
+    shares |= {"share_open": share_of(rest) - refuted, "impacts": Fraction(most)}
+    exact = {name: enclosure_of_fraction(number) for name, number in shares.items()}
+    claim = partial(claim_of, family.about, limited=False)
+    claims = [
+        claim(
+            "recover",
+            f"{where}, the share share_proven{area} returns to levitation with at most so many impacts, among them{always}every {family.smaller}.",
+            1 if proven else 0,
+            reason=f"no cell of {family.about} could be proven to return",
+            enclosures=numbers | exact,
+        ),
+        claim(
+            "all recover",
+            f"{of_all}, return to levitation with at most {most} impacts.",
+            -1 if refuted else 0 if rest else 1,
+            reason=_reasons_of(known, "area times widths" if disc.along else "area"),
+        ),
+    ]
+    if refuted:
+        claims.append(
+            claim(
+                "do not recover",
+                f"{where}, the share share_refuted{area} never returns to levitation: after bounces the rotor stays on the wall and decays to the "
+                "synchronous rub of the larger normal force.",
+                1,
+                enclosures={"share_refuted": exact["share_refuted"]},
+            )
+        )
+    return claims + (_stretch_claims(disc, proven, rest) if rest and len(disc.along) == 1 else [])
+
+
+def _stretch_claims(disc: Disc, proven: list[tuple[Cell, int]], rest: list[Cell]) -> list[Claim]:
+    """On stretches of a parameter the speed below which all kicks return."""
+    ends = [Fraction(j, _STRETCHES) for j in range(_STRETCHES + 1)]
+    # What shares no more than an end with a stretch does not count: the stretch's own cells prove its end.
+    speeds = [
+        min((cell.speeds[0] for cell in rest if _meets(cell, *ends[j : j + 2])), default=Fraction(1))
+        for j in range(_STRETCHES)
+    ]
+    claims = []
+    for speed, group in groupby(range(_STRETCHES), key=speeds.__getitem__):
+        numbers = list(group)
+        low, high = ends[numbers[0]], ends[numbers[-1] + 1]
+        if not speed:
+            continue
+        most = max(impacts for cell, impacts in proven if _meets(cell, low, high) and cell.speeds[0] < speed)
+        where = _interval_words(disc.box, low, high)
+        claims.append(
+            claim_of(
+                f"kicks, {where}",
+                "recover",
+                f"For all {where}: every kick out of levitation, seen in the fixed frame, slower than the lower end of speed returns to levitation "
+                f"with at most {most} impacts.",
+                1,
+                enclosures=_sizes(disc, speed),
+                limited=False,
+            )
+        )
+    return claims
+
+
+def _meets(cell: Cell, low: Fraction, high: Fraction) -> bool:
+    """Whether the interval of a cell has more than an end in common with another."""
+    ((start, stop),) = cell.ends
+    return start < high and low < stop
+
+
+def _interval_words(box: Box, low: Fraction, high: Fraction) -> str:
+    """An interval of the parameter, given as shares of its own, in decimal numbers rounded inward, with its unit."""
+    line = box.lines[0]
+    start, stop = line.ends
+    words = [decimal(start + (stop - start) * share, upward=upward) for share, upward in ((low, True), (high, False))]
+    return f"{line.name} in [{', '.join(words)}] {line.field.unit}".rstrip()
+
+
+def decimal(value: Fraction, *, upward: bool) -> str:
+    """Decimal number of twelve digits on one side of a number."""
+    with localcontext(Context(prec=_DIGITS, rounding=ROUND_CEILING if upward else ROUND_FLOOR)):
+        found = (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
+    return f"{found:f}" if _PLAIN[0] < found.adjusted() < _PLAIN[1] else str(found)
+
+
+def _sizes(disc: Disc, share: Fraction) -> dict[str, Enclosure]:
+    """A share of the largest size: in the SI unit for machines, dimensionless where its unit is the same for all of them."""
+    name = disc.family.size
+    found = enclosures_of(**{name: disc.size(share)}) if disc.shares_unit else {}
     if disc.physical and not disc.exact[1]:
-        numbers[f"{family.size}_si"] = enclosure_of_fraction(disc.exact[0] * first)
-    exact = {"share_proven": share, "share_refuted": refuted, "share_open": left, "impacts": Fraction(most)}
-    numbers |= {name: enclosure_of_fraction(number) for name, number in exact.items()}
-    told = f"{family.told} {disc.largest}"
-    recover = claim_of(
-        family.about,
-        "recover",
-        f"Of {told}, the share share_proven of the area returns to levitation with at most so many impacts, among them every {family.smaller}.",
-        1 if proven else 0,
-        reason=f"no cell of {family.about} could be proven to return",
-        enclosures=numbers,
-        limited=False,
-    )
-    whole = claim_of(
-        family.about,
-        "all recover",
-        f"All {told}, return to levitation with at most {most} impacts.",
-        -1 if refuted else 0 if left else 1,
-        reason=reasons_of(known, "area"),
-        limited=False,
-    )
-    return [recover, whole, *([_refutation(family, told, refuted)] if refuted else [])]
-
-
-def _refutation(family: Family, told: str, refuted: Fraction) -> Claim:
-    """Claim about those that are shown not to return."""
-    return claim_of(
-        family.about,
-        "do not recover",
-        f"Of {told}, the share share_refuted of the area never returns to levitation: after bounces the rotor stays on the wall and decays to the "
-        "synchronous rub of the larger normal force.",
-        1,
-        enclosures={"share_refuted": enclosure_of_fraction(refuted)},
-        limited=False,
-    )
+        found[f"{name}_si"] = enclosure_of_fraction(disc.exact[0] * share)
+    return found

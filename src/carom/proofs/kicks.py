@@ -23,9 +23,8 @@ from carom.proofs.claims import Proof
 from carom.proofs.evidence import NotShownError
 from carom.proofs.families import KICKS, Family
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
-from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_THEOREM, box_claims_of
 from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
-from carom.proofs.kick_claims import NOT_CLAIMED, claims_of, options_of
+from carom.proofs.kick_claims import BOX_NOT_CLAIMED, BOX_THEOREM, NOT_CLAIMED, claims_of, options_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
 from carom.proofs.proving import TIME, prove_levitation, without_closed_forms
@@ -56,8 +55,8 @@ def prove_kicks(
     until nothing is open or time is up.  The proof has two claims: which share of the disc surely returns, up to which speed all kicks do,
     and with how many impacts at most; and whether all of it does, with the reasons of what is open.
 
-    With ``along`` all this is shown for all machines of a box at once, whose cells are halved in the parameters too.  Where something stays open,
-    further claims say for which parameters all kicks return all the same and, along one parameter, up to which speed on each stretch.
+    With ``along`` all this is shown for all machines of a box at once, whose cells are halved in the parameters too.  Where something stays open
+    along one parameter, further claims say up to which speed all kicks return on each stretch.
 
     Parameters
     ----------
@@ -144,7 +143,7 @@ def prove_disc(
             tell,
             None if place is None else lambda now: _store(place, disc, now),
         )
-        claims = box_claims_of(disc, tree) if box else claims_of(disc, tree)
+        claims = claims_of(disc, tree)
     tell(1.0)
     options: dict[str, Any] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
     if box:

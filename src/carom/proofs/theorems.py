@@ -13,9 +13,8 @@ from typing import Any
 from carom.proofs import levitation_claims, state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
-from carom.proofs.families import FAMILIES
-from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_OPTIONS, BOX_THEOREM, kick_box_claims
-from carom.proofs.kick_claims import NOT_CLAIMED, kick_claims, options_of
+from carom.proofs.families import FAMILIES, KICKS
+from carom.proofs.kick_claims import BOX_NOT_CLAIMED, BOX_THEOREM, NOT_CLAIMED, kick_claims, options_of
 from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
@@ -152,7 +151,7 @@ THEOREMS: Mapping[str, Theorem] = {
         about: Theorem(partial(kick_claims, family), NOT_CLAIMED, options_of(family))
         for about, family in FAMILIES.items()
     },
-    BOX_THEOREM: Theorem(kick_box_claims, BOX_NOT_CLAIMED, BOX_OPTIONS),
+    BOX_THEOREM: Theorem(partial(kick_claims, KICKS), BOX_NOT_CLAIMED, (*options_of(KICKS), "box")),
     levitation_claims.THEOREM: Theorem(
         levitation_claims.levitation_claims, levitation_claims.NOT_CLAIMED, levitation_claims.OPTIONS
     ),
