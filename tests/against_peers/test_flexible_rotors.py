@@ -40,12 +40,12 @@ def rotor_of(ross):
 def on_springs(ross):
     """Mass, damping, stiffness and gyroscopic matrix of the rotor on its springs."""
     rotor = rotor_of(ross)
-    stiffness, damping = rotor.stiffness_matrix.copy(), np.zeros_like(rotor.mass_matrix)
+    stiffness, damping = rotor.matrices.stiffness.copy(), np.zeros_like(rotor.matrices.mass)
     for node, spring, damper in ross["springs"]:
         place = 2 * rotor.place_of(node)
         stiffness[place, place] += spring
         damping[place, place] += damper
-    return rotor, rotor.mass_matrix, damping, stiffness, rotor.gyroscopic_matrix
+    return rotor, rotor.matrices.mass, damping, stiffness, rotor.matrices.gyroscopic
 
 
 def test_mass(ross):

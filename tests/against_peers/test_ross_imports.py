@@ -43,13 +43,13 @@ def rotor_of(name):
 def on_springs(name):
     """Mass, damping, stiffness and gyroscopic matrix of the rotor on its springs."""
     rotor = rotor_of(name)
-    stiffness = rotor.stiffness_matrix.copy()
+    stiffness = rotor.matrices.stiffness.copy()
     damping = np.zeros_like(stiffness) if rotor.own_damping else rotor.damping_matrix.copy()
     for node, spring, damper in COMPUTED[name]["springs"]:
         place = 2 * rotor.place_of(node)
         stiffness[place, place] += spring
         damping[place, place] += damper
-    return rotor, rotor.mass_matrix, damping, stiffness, rotor.gyroscopic_matrix
+    return rotor, rotor.matrices.mass, damping, stiffness, rotor.matrices.gyroscopic
 
 
 @pytest.mark.parametrize("name", COMPUTED)

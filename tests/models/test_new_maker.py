@@ -40,9 +40,6 @@ class Overhung(Definition):
     def replace(self, **changes):
         return dataclasses.replace(self, **changes)
 
-    def attributes(self):
-        return self.equations.attributes()
-
 
 def test_a_new_kind_of_rotor_is_taken_by_the_verbs():
     rotor = Rotor(Overhung())

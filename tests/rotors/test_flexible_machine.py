@@ -21,8 +21,8 @@ MACHINE = munich()
 def by_elements(machine):
     """Exponents in 1/s by the finite elements themselves, with the controllers beside them."""
     rotor, speed = machine.rotor, machine.speed
-    n, states = len(rotor.mass_matrix), sum(each.loop.states for each in machine.bearings)
-    stiffness, inputs = rotor.stiffness_matrix.astype(complex), np.zeros((n, states))
+    n, states = len(rotor.matrices.mass), sum(each.loop.states for each in machine.bearings)
+    stiffness, inputs = rotor.matrices.stiffness.astype(complex), np.zeros((n, states))
     matrix = np.zeros((2 * n + states, 2 * n + states), complex)
     at = 0
     for each in machine.bearings:
@@ -35,9 +35,9 @@ def by_elements(machine):
         inputs[place, own] = each.ki * loop.C
         matrix[2 * n + own.start : 2 * n + own.stop, 2 * n + own.start : 2 * n + own.stop] = loop.A
         at = own.stop
-    spin = rotor.damping_matrix - 1j * speed * rotor.gyroscopic_matrix
+    spin = rotor.damping_matrix - 1j * speed * rotor.matrices.gyroscopic
     matrix[:n, n : 2 * n] = np.eye(n)
-    matrix[n : 2 * n] = -np.linalg.solve(rotor.mass_matrix, np.concatenate([stiffness, spin, inputs], axis=1))
+    matrix[n : 2 * n] = -np.linalg.solve(rotor.matrices.mass, np.concatenate([stiffness, spin, inputs], axis=1))
     return np.linalg.eigvals(matrix)
 
 
@@ -62,7 +62,7 @@ def test_few_vectors_have_the_slow_exponents():
     found = exponents_of(reduced)
     for each in exact[np.abs(exact) < 1500.0]:
         assert np.abs(found - each).min() < 1e-4 * max(abs(each), 1.0)
-    assert reduced.vectors < len(machine.rotor.mass_matrix) // 2
+    assert reduced.vectors < len(machine.rotor.matrices.mass) // 2
 
 
 def test_the_error_told_is_that_of_the_forces():
@@ -70,7 +70,7 @@ def test_the_error_told_is_that_of_the_forces():
     for modes in (4, 8, 12):
         reduced = MACHINE.with_modes(modes)
         every = MACHINE.with_modes(1000)
-        row = np.zeros(len(MACHINE.rotor.mass_matrix))
+        row = np.zeros(len(MACHINE.rotor.matrices.mass))
         row[2 * MACHINE.rotor.place_of(2)] = 1.0
         true = contact_error(reduced.basis, every.basis, row, 1e7)
         assert 0.5 < reduced.error / true < 2.0

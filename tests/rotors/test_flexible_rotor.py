@@ -28,9 +28,10 @@ def stepped(elements=60):
 
 def whirls(rotor, held, speed):
     """Frequencies of whirl with coordinates held, rad/s; backward ones are negative."""
-    kept = [place for place in range(len(rotor.mass_matrix)) if place not in held]
+    kept = [place for place in range(len(rotor.matrices.mass)) if place not in held]
     mass, stiffness, gyroscopic = (
-        matrix[np.ix_(kept, kept)] for matrix in (rotor.mass_matrix, rotor.stiffness_matrix, rotor.gyroscopic_matrix)
+        matrix[np.ix_(kept, kept)]
+        for matrix in (rotor.matrices.mass, rotor.matrices.stiffness, rotor.matrices.gyroscopic)
     )
     n = len(kept)
     accelerations = -np.linalg.solve(mass, np.concatenate([stiffness, -1j * speed * gyroscopic], axis=1))
@@ -44,7 +45,7 @@ def test_mass_and_inertias_are_those_of_the_cylinders():
     mass = STEEL.density * math.pi / 4.0 * (outer**2 - inner**2) * length
     polar = mass * (outer**2 + inner**2) / 8.0
     assert rotor.mass == pytest.approx(mass, rel=1e-14)
-    assert rotor.translation @ rotor.mass_matrix @ rotor.translation == pytest.approx(mass, rel=1e-13)
+    assert rotor.translation @ rotor.matrices.mass @ rotor.translation == pytest.approx(mass, rel=1e-13)
     assert rotor.centre == pytest.approx(length / 2.0, rel=1e-13)
     assert rotor.polar_inertia == pytest.approx(polar, rel=1e-12)
     assert rotor.diametral_inertia == pytest.approx(polar / 2.0 + mass * length**2 / 12.0, rel=1e-12)
@@ -70,16 +71,16 @@ def test_a_disc_of_dimensions_is_a_short_shaft():
 
 def test_rigid_motions_bend_nothing():
     rotor = stepped()
-    size = np.abs(rotor.stiffness_matrix).max()
-    assert np.abs(rotor.stiffness_matrix @ rotor.translation).max() < 1e-15 * size
-    assert np.abs(rotor.stiffness_matrix @ rotor.tilt).max() < 1e-15 * size
+    size = np.abs(rotor.matrices.stiffness).max()
+    assert np.abs(rotor.matrices.stiffness @ rotor.translation).max() < 1e-15 * size
+    assert np.abs(rotor.matrices.stiffness @ rotor.tilt).max() < 1e-15 * size
     # A rotor that is displaced turns about no axis.
-    assert np.abs(rotor.gyroscopic_matrix @ rotor.translation).max() < 1e-15 * np.abs(rotor.gyroscopic_matrix).max()
+    assert np.abs(rotor.matrices.gyroscopic @ rotor.translation).max() < 1e-15 * np.abs(rotor.matrices.gyroscopic).max()
 
 
 def test_matrices_are_symmetric():
     rotor = stepped()
-    for matrix in (rotor.mass_matrix, rotor.stiffness_matrix, rotor.gyroscopic_matrix, rotor.damping_matrix):
+    for matrix in (rotor.matrices.mass, rotor.matrices.stiffness, rotor.matrices.gyroscopic, rotor.damping_matrix):
         assert np.allclose(matrix, matrix.T, rtol=0, atol=1e-15 * np.abs(matrix).max())
 
 
@@ -104,7 +105,7 @@ def test_simply_supported_frequencies_of_a_thick_shaft_are_those_of_timoshenko()
     exact = math.sqrt(np.roots([square, linear, young * inertia * k**4]).real.min())
     for elements in (16, 32):
         rotor = plain(1.0, 0.2, 0.1, elements)
-        n = len(rotor.mass_matrix)
+        n = len(rotor.matrices.mass)
         errors.append(whirls(rotor, (0, n - 2), 0.0)[1][1] / exact - 1.0)
     assert 0.0 < errors[1] < 1e-3
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.02)
@@ -114,7 +115,7 @@ def test_simply_supported_frequencies_of_a_thick_shaft_are_those_of_timoshenko()
 @pytest.mark.parametrize("speed", [0.0, 800.0])
 def test_whirls_of_a_stepped_shaft_are_those_of_its_transfer_matrix(ends, speed):
     rotor = stepped()
-    n = len(rotor.mass_matrix)
+    n = len(rotor.matrices.mass)
     held = {
         ("free", "free"): (),
         ("pinned", "pinned"): (0, n - 2),
@@ -155,7 +156,7 @@ def test_an_overhung_disc_on_a_light_shaft():
 def test_free_modes_are_those_of_the_pencil():
     rotor = stepped()
     modes = rotor.free_modes
-    mass, stiffness = rotor.mass_matrix, rotor.stiffness_matrix
+    mass, stiffness = rotor.matrices.mass, rotor.matrices.stiffness
     assert np.allclose(modes.shapes.T @ mass @ modes.shapes, np.eye(len(mass)), rtol=0, atol=1e-12)
     assert np.array_equal(modes.frequencies[:2], [0.0, 0.0])
     exact = np.sqrt(eigh(stiffness, mass, eigvals_only=True)[2:8])
@@ -170,7 +171,7 @@ def test_free_modes_are_those_of_the_pencil():
 def test_proportional_damping_is_a_sum_of_both_matrices():
     parts = stepped()
     rotor = FlexibleRotor(parts.sections, parts.discs, ProportionalDamping("10 1/s", "10 us"), 0.05)
-    expected = 10.0 * rotor.mass_matrix + 1e-5 * rotor.stiffness_matrix
+    expected = 10.0 * rotor.matrices.mass + 1e-5 * rotor.matrices.stiffness
     assert np.allclose(rotor.damping_matrix, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
 
 

@@ -26,8 +26,8 @@ UNSTABLE = ["damping_of_stiffness=0.1 us", "filter_time=0.05 ms", "delay=0.3 ms"
 def exponents(machine):
     """Exponents of the finite elements with PID, Padé's delay and amplifier as transfer functions of SciPy, 1/s."""
     rotor, speed, scale = machine.rotor, machine.speed, 3e3
-    n, loops = len(rotor.mass_matrix), []
-    stiffness = rotor.stiffness_matrix.astype(complex)
+    n, loops = len(rotor.matrices.mass), []
+    stiffness = rotor.matrices.stiffness.astype(complex)
     for each in machine.bearings:
         at, given = 2 * rotor.place_of(each.node), each.controller
         stiffness[at, at] += each.ks
@@ -55,10 +55,10 @@ def exponents(machine):
         )
     size = 2 * n + sum(len(loop[3]) for loop in loops)
     rates, matrix = np.eye(size), np.zeros((size, size), complex)
-    rates[n : 2 * n, n : 2 * n] = rotor.mass_matrix
+    rates[n : 2 * n, n : 2 * n] = rotor.matrices.mass
     matrix[:n, n : 2 * n] = np.eye(n)
     matrix[n : 2 * n, :n] = -stiffness
-    matrix[n : 2 * n, n : 2 * n] = 1j * speed * rotor.gyroscopic_matrix - rotor.damping_matrix
+    matrix[n : 2 * n, n : 2 * n] = 1j * speed * rotor.matrices.gyroscopic - rotor.damping_matrix
     first = 2 * n
     for at, seen, ki, A, B, C, D in loops:
         own = slice(first, first + len(A))

@@ -30,8 +30,8 @@ MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm
 def dynamic(machine, exponent, closed=True, speed=None):
     """Dynamic stiffness of the finite elements, with the bearings as complex stiffnesses, and the rows of bearings and sensors."""
     rotor, speed = machine.rotor, machine.speed if speed is None else speed
-    matrix = rotor.stiffness_matrix + exponent**2 * rotor.mass_matrix
-    matrix = matrix + exponent * (rotor.damping_matrix - 1j * speed * rotor.gyroscopic_matrix)
+    matrix = rotor.matrices.stiffness + exponent**2 * rotor.matrices.mass
+    matrix = matrix + exponent * (rotor.damping_matrix - 1j * speed * rotor.matrices.gyroscopic)
     pulls, seen = np.zeros((2, len(machine.bearings), len(matrix)))
     for number, each in enumerate(machine.bearings):
         pulls[number, 2 * rotor.place_of(each.node)] = 1.0
@@ -48,11 +48,11 @@ def test_whirls_solve_the_equations_of_the_finite_elements():
     for whirl in find_whirls(MACHINE):
         matrix, _, _ = dynamic(MACHINE, whirl.exponent)
         _, sizes, vectors = np.linalg.svd(
-            matrix / np.sqrt(np.outer(np.diag(rotor.stiffness_matrix), np.diag(rotor.stiffness_matrix)))
+            matrix / np.sqrt(np.outer(np.diag(rotor.matrices.stiffness), np.diag(rotor.matrices.stiffness)))
         )
         # Singular, to the rounding of a matrix whose largest is one.
         assert sizes[-1] < 1e-13
-        shape = (vectors[-1].conj() / np.sqrt(np.diag(rotor.stiffness_matrix)))[::2]
+        shape = (vectors[-1].conj() / np.sqrt(np.diag(rotor.matrices.stiffness)))[::2]
         shape /= shape[np.abs(whirl.shape).argmax()] / whirl.shape[np.abs(whirl.shape).argmax()]
         assert shape == pytest.approx(whirl.shape, abs=1e-6)
 

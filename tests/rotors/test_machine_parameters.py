@@ -13,7 +13,7 @@ import pytest
 from flexible_machines import munich, symmetric
 
 import carom as cm
-from carom.models import rotor_from
+from carom.models import LinearEquations, Rotor, rotor_from
 from carom.outcome import InputError
 from carom.parameters import Gravity
 from carom.rotors import PID, MagneticBearing, StateSpace
@@ -91,12 +91,8 @@ def test_numbers_of_the_equations_are_told_to_the_machine(case):
     assert unbalance.angle - own.angle == pytest.approx(0.3 - model.unbalance_phase, abs=1e-14)
     assert [each.friction for each in machine.touchdowns] == [0.25, 0.25]
     assert machine.touchdowns[1].rotor_radius == pytest.approx(30.0 * machine.clearance, rel=1e-14)
-    other = rotor_from({key: text for key, text in model.attributes().items() if key != "flexible_machine"}).replace(
-        rho=2.0 * model.value("rho"),
-        phi=0.3,
-        mu=0.25,
-        radius_ratio_2=30.0,
-    )
+    own = {field.name: getattr(model.equations, field.name) for field in dataclasses.fields(LinearEquations)}
+    other = Rotor(LinearEquations(**own)).replace(rho=2.0 * model.value("rho"), phi=0.3, mu=0.25, radius_ratio_2=30.0)
     assert np.allclose(turned.forcing, other.forcing, rtol=1e-13)
     assert [each.surface_speed for each in turned.touchdowns] == pytest.approx(
         [each.surface_speed for each in other.touchdowns]

@@ -34,12 +34,12 @@ def machine(at_regain, integral, speed=300.0):
 
 def generator(given, levitates):
     """Rates of displacements, velocities and states of controllers, then of what turns with the shaft and of a constant."""
-    rotor, n = given.rotor, len(given.rotor.mass_matrix)
+    rotor, n = given.rotor, len(given.rotor.matrices.mass)
     sizes = [each.loop.states for each in given.bearings]
     matrix = np.zeros((2 * n + sum(sizes) + 2,) * 2, complex)
-    spin = rotor.damping_matrix - 1j * given.speed * rotor.gyroscopic_matrix
+    spin = rotor.damping_matrix - 1j * given.speed * rotor.matrices.gyroscopic
     forces = np.zeros((n, len(matrix)), complex)
-    forces[:, :n], forces[:, n : 2 * n] = -rotor.stiffness_matrix, -spin
+    forces[:, :n], forces[:, n : 2 * n] = -rotor.matrices.stiffness, -spin
     first = 2 * n
     for bearing, size in zip(given.bearings, sizes, strict=True):
         node, own, loop = 2 * rotor.place_of(bearing.node), slice(first, first + size), bearing.loop
@@ -51,8 +51,8 @@ def generator(given, levitates):
         first = own.stop
     (unbalance,) = given.unbalances
     forces[2 * rotor.place_of(unbalance.node), -2] = unbalance.size * given.speed**2 * np.exp(1j * unbalance.angle)
-    forces[:, -1] = -1j * GRAVITY * rotor.mass_matrix @ rotor.translation
-    matrix[:n, n : 2 * n], matrix[n : 2 * n] = np.eye(n), np.linalg.solve(rotor.mass_matrix, forces)
+    forces[:, -1] = -1j * GRAVITY * rotor.matrices.mass @ rotor.translation
+    matrix[:n, n : 2 * n], matrix[n : 2 * n] = np.eye(n), np.linalg.solve(rotor.matrices.mass, forces)
     matrix[-2, -2] = 1j * given.speed
     return matrix
 

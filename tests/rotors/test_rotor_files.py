@@ -113,7 +113,7 @@ def test_nodes_may_be_called_by_their_names(folder):
         ),
         (
             text_with("objects.npz"),
-            r"^rotor file = .*objects.npz: .* it cannot be read: M holds objects of Python; write it as an array of numbers",
+            r"^rotor file = .*objects.npz: .* it cannot be read: it is damaged, cut short, or another kind of file$",
         ),
         (
             text_with("part.npz"),
@@ -176,19 +176,11 @@ def _huge(path):
         np.lib.format.write_array_header_1_0(stream, {"descr": "<f8", "fortran_order": False, "shape": (10**6, 10**6)})
 
 
-def _packed(path):
-    """Zeros of 800 MB in less than one."""
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive, archive.open("K.npy", "w") as stream:
-        for _ in range(800):
-            stream.write(bytes(1_000_000))
-
-
 @pytest.mark.parametrize(
     ("name", "make", "says"),
     [
         ("crash.mat", _crashing, "it is damaged: reading it ends the program that does$"),
-        ("huge.npz", _huge, "its arrays take 8000000 MB, of which 500 MB are read$"),
-        ("packed.npz", _packed, "its arrays take 800 MB, of which 500 MB are read$"),
+        ("huge.npz", _huge, "it needs more memory than a rotor does$"),
         ("pickle.npz", lambda path: path.write_bytes(b"\x80\x04."), "it is damaged, cut short, or another kind of"),
         ("fifo.npz", os.mkfifo, "this is no file, but a directory or a device$"),
         ("folder.mat", Path.mkdir, "this is no file, but a directory or a device$"),

@@ -35,8 +35,8 @@ def housing(time):
 def solved():
     """Times and forces (P, T) on the rotor, in coordinates of the ground: of the nodes, the mounts and the controllers."""
     rotor, bearings = MACHINE.rotor, MACHINE.bearings
-    mass, stiffness = rotor.mass_matrix, rotor.stiffness_matrix
-    spin = rotor.damping_matrix - 1j * MACHINE.speed * rotor.gyroscopic_matrix
+    mass, stiffness = rotor.matrices.mass, rotor.matrices.stiffness
+    spin = rotor.damping_matrix - 1j * MACHINE.speed * rotor.matrices.gyroscopic
     n, nodes = len(mass), [2 * rotor.place_of(each.node) for each in MACHINE.touchdowns]
     states = [each.loop.states for each in bearings]
     ends = np.cumsum([2 * n, 2, 2, *states])

@@ -29,11 +29,11 @@ MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm
 def planes(machine, exponent=None):
     """Stiffness, damping and mass (4N, 4N) of displacements and tilts in x, then in y; magnetic bearings act at an exponent, if one is given."""
     rotor = machine.rotor
-    n = len(rotor.mass_matrix)
+    n = len(rotor.matrices.mass)
     both = np.eye(2)
     turning = np.array([[0.0, 1.0], [-1.0, 0.0]])  # −iG ż of z = x + iy
-    mass, stiffness = np.kron(both, rotor.mass_matrix), np.kron(both, rotor.stiffness_matrix).astype(complex)
-    damping = np.kron(both, rotor.damping_matrix) + machine.speed * np.kron(turning, rotor.gyroscopic_matrix)
+    mass, stiffness = np.kron(both, rotor.matrices.mass), np.kron(both, rotor.matrices.stiffness).astype(complex)
+    damping = np.kron(both, rotor.damping_matrix) + machine.speed * np.kron(turning, rotor.matrices.gyroscopic)
     for each in machine.supports:
         place = 2 * rotor.place_of(each.node)
         at = np.ix_((place, n + place), (place, n + place))
@@ -50,7 +50,7 @@ def planes(machine, exponent=None):
 
 
 def size_of(machine):
-    return len(machine.rotor.mass_matrix)
+    return len(machine.rotor.matrices.mass)
 
 
 def test_whirls_solve_the_equations_of_both_planes():
@@ -146,7 +146,7 @@ def test_static_sag_is_that_of_both_planes():
     rotor, n = machine.rotor, size_of(machine)
     _, _, stiffness = planes(machine)
     weight = np.zeros(2 * n)
-    weight[n:] = -machine.gravity.acceleration * rotor.mass_matrix @ np.tile([1.0, 0.0], n // 2)
+    weight[n:] = -machine.gravity.acceleration * rotor.matrices.mass @ np.tile([1.0, 0.0], n // 2)
     sag = np.linalg.solve(stiffness.real, weight)
     place = 2 * rotor.place_of(machine.touchdowns[0].node)
     system = machine.whole.model.system

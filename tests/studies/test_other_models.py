@@ -82,7 +82,7 @@ def test_tables_figure_and_document(matrices):
     document = json.loads(as_json(matrices.to_dict()))
     assert document["rolling"] is None
     assert "parameters" not in document
-    assert "linear_rotor" in document["rotor"]
+    assert "LinearEquations" in document["rotor"]["rotor"]
     assert len(document["equilibria"]) == len(matrices.equilibria)
     assert [value for _, value in dimensionless_rows(matrices.case)] == [
         value for _, value in dimensionless_rows(cm.models.case_of(PLANAR))

@@ -5,6 +5,7 @@
 ``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
 ``rotor``                 :class:`Rotor`: every rotor, asked for what it has
 ``definition``            :class:`Definition`: its named parameters and equations
+``documents``             a rotor as plain data, and back
 ``matrices``              matrices, and derivatives of the equations of motion
 ``mode_arrays``           modes and contact planes as arrays for the kernels
 ``system``                :class:`System`: any linear rotor by these, its states and what repeats

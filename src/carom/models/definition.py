@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,23 +23,6 @@ class Definition:
     What is not said here otherwise follows from the equations.
     """
 
-    of_equations: ClassVar = frozenset(
-        {
-            "mass",
-            "damping",
-            "stiffness",
-            "forcing",
-            "touchdowns",
-            "translation",
-            "carried",
-            "shaft",
-            "unlevitated",
-            "conjugate",
-        }
-        | {"regained", "magnets", "heavy", "planes", "accelerations"}
-    )
-    """Names of what rotors have of them."""
-
     @property
     def equations(self) -> LinearEquations:
         """The equations of motion of the levitating rotor, without further forces and limits."""
@@ -56,10 +39,6 @@ class Definition:
 
     def replace(self, **changes: Any) -> Definition:
         """Return it with other values of named parameters; what depends on them changes too."""
-        raise NotImplementedError
-
-    def attributes(self) -> dict[str, Any]:
-        """Numbers and texts from which :func:`~carom.models.subjects.rotor_from` makes the same again."""
         raise NotImplementedError
 
     def rates(self, name: str) -> Rates | None:

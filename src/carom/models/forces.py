@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -46,15 +45,3 @@ def in_scales(force: Force, before: Scales | None, after: Scales | None) -> Forc
         return force
     exponent = (force.exponent + 1j) * (before.speed / after.speed) - 1j
     return Force(exponent, force.accelerations * (before.acceleration / after.acceleration))
-
-
-def forces_as_text(forces: Sequence[Force]) -> str:
-    """The forces as text, exact to the last bit."""
-    numbers = [[force.exponent, *force.accelerations] for force in forces]
-    return json.dumps([[(complex(each).real, complex(each).imag) for each in force] for force in numbers])
-
-
-def forces_from(text: str) -> tuple[Force, ...]:
-    """The forces of :func:`forces_as_text`."""
-    numbers = [[complex(*each) for each in force] for force in json.loads(text)]
-    return tuple(Force(exponent, np.array(accelerations)) for exponent, *accelerations in numbers)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import cmath
-import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -133,18 +132,3 @@ def limits_by(control: ControlLimit, matrices: Matrices, scales: Scales) -> tupl
             along,
         ),
     )
-
-
-def limits_as_text(limits: ControlLimit | tuple[Limit, ...]) -> str:
-    """The limits as text, exact to the last bit."""
-    if isinstance(limits, ControlLimit):
-        return json.dumps(asdict(limits))
-    return json.dumps([asdict(each) | {name: getattr(each, name).tolist() for name in _VECTORS} for each in limits])
-
-
-def limits_from(text: str) -> ControlLimit | tuple[Limit, ...]:
-    """The limits of :func:`limits_as_text`."""
-    given = json.loads(text)
-    if isinstance(given, dict):
-        return ControlLimit(**given)
-    return tuple(Limit(**each | {"follows": tuple(each["follows"])}) for each in given)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
-from carom.arguments import checked, having
 from carom.models import linear_parameters
 from carom.models.definition import Definition
 from carom.models.linear_system import is_singular, system_of
@@ -288,40 +286,6 @@ class LinearEquations(Definition, Result):
     def rates(self, name: str) -> Rates | None:
         """Return the derivatives of the equations of motion by a parameter; ``None`` if there is nothing to multiply."""
         return linear_parameters.rates_of(self, name)
-
-    def attributes(self) -> dict[str, str]:
-        """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""
-        numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _NUMBERS}
-        numbers["touchdowns"] = [each.attributes() for each in self.touchdowns]
-        shaft, scales = (dataclasses.asdict(part) if part else None for part in (self.shaft, self.scales))
-        others: dict[str, Any] = {"shaft": shaft}
-        for name in _OTHERS:
-            values = getattr(self, name)
-            others[name] = None if values is None else [values.real.tolist(), values.imag.tolist()]
-        return {"linear_rotor": json.dumps(numbers | others), "scales": json.dumps(scales)}
-
-    @classmethod
-    @checked
-    def from_attributes(
-        cls, attributes: Annotated[Mapping[str, Any], having("linear_rotor", "scales")]
-    ) -> LinearEquations:
-        """Read the attributes of a dataset that :meth:`attributes` has given.
-
-        Raises
-        ------
-        InputError
-            A value is not allowed.
-        KeyError, TypeError, ValueError
-            An attribute is missing, or is not such text.
-        """
-        numbers, scales = (json.loads(attributes[name]) for name in ("linear_rotor", "scales"))
-        for name in (*_NUMBERS, *_OTHERS):
-            if numbers.get(name) is not None:
-                real, imaginary = numbers[name]
-                numbers[name] = np.array(real) + 1j * np.array(imaginary)
-        numbers["touchdowns"] = tuple(map(Touchdown.from_attributes, numbers["touchdowns"]))
-        shaft = numbers.pop("shaft")
-        return cls(**numbers, shaft=Shaft(**shaft) if shaft else None, scales=Scales(**scales) if scales else None)
 
 
 def _numbers(name: str, values: Any) -> np.ndarray:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import cmath
-import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -279,24 +278,6 @@ class Planar(Definition):
         refuse_node(node)
         after = self.parameters.rho + change
         return replace(self, parameters=self.parameters.replace(rho=abs(after))), cmath.phase(after) if after else 0.0
-
-    def attributes(self) -> dict[str, Any]:
-        """Return the numbers as attributes of a dataset, exact to the last bit."""
-        if self.bearing is None:
-            return self.parameters.attributes()
-        drive = asdict(self.drive) if self.drive else None
-        bearing = {**asdict(self.bearing), "levitates": self.levitates, "drive": drive, "air_gap": self.air_gap}
-        return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.parameters.attributes())}
-
-    @classmethod
-    def from_attributes(cls, attributes: Mapping[str, Any]) -> Planar:
-        """Read the attributes of a dataset that :meth:`attributes` has given."""
-        if "touchdown_bearing" not in attributes:
-            return cls(Parameters.from_attributes(attributes))
-        bearing = json.loads(attributes["touchdown_bearing"])
-        levitates, drive, gap = bearing.pop("levitates"), bearing.pop("drive"), bearing.pop("air_gap", None)
-        parameters = Parameters.from_attributes(json.loads(attributes["rotor"]))
-        return cls(parameters, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None, gap)
 
 
 @checked

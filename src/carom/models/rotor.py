@@ -15,9 +15,10 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models.definition import Definition
-from carom.models.forces import checked_forces, forces_as_text, in_scales
+from carom.models.documents import document_of
+from carom.models.forces import checked_forces, in_scales
 from carom.models.forcing import Force, with_forces
-from carom.models.limits import Limit, limits_as_text, limits_by, with_limits
+from carom.models.limits import Limit, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.outcome import InputError, shown
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
@@ -42,6 +43,22 @@ _WITHOUT_FORCES = (
     "losses of a blade, steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
 )
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
+_OF_EQUATIONS = [
+    "mass",
+    "damping",
+    "stiffness",
+    "forcing",
+    "touchdowns",
+    "translation",
+    "carried",
+    "shaft",
+    "unlevitated",
+    "conjugate",
+    "regained",
+    "magnets",
+    "heavy",
+    "planes",
+]
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
 
@@ -103,8 +120,8 @@ class Rotor(Result):
         object.__setattr__(self, "limits", listed)
 
     def __getattr__(self, name: str) -> Any:
-        """What its equations have: ``mass``, ``damping``, ``stiffness``, ``forcing``, ``touchdowns``, ``shaft`` and the others of :class:`LinearEquations`."""
-        if name.startswith("_") or name not in self.definition.of_equations:
+        """Members of its equations of motion."""
+        if name not in _OF_EQUATIONS:
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
         return getattr(self.definition.equations, name)
 
@@ -424,14 +441,20 @@ class Rotor(Result):
         """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
         return None if self.forces or self.limits or self.stages else self.definition.rates(name)
 
-    def attributes(self) -> dict[str, Any]:
-        """Numbers and texts from which :func:`~carom.models.subjects.rotor_from` makes the same rotor again, exact to the last bit."""
-        if self.stages:
-            return {"stages": json.dumps([each.attributes() for each in self.stages])}
-        found = self.definition.attributes()
-        if self.limits:
-            found = {"limits": limits_as_text(self.limits), "rotor": json.dumps(found)}
-        return {"forces": forces_as_text(self.forces), "rotor": json.dumps(found)} if self.forces else found
+    @property
+    def stored(self) -> tuple[str, ...]:
+        """Names of the attributes from which it is made again."""
+        return ("stages",) if self.stages else ("definition", "forces", "limits")
+
+    @staticmethod
+    def from_stored(stages: tuple[Stage, ...] = (), **others: Any) -> Rotor:
+        """Make the rotor again."""
+        return dataclasses.replace(stages[0].rotor, stages=stages) if stages else Rotor(**others)
+
+    def attributes(self) -> dict[str, str]:
+        """Texts from which :func:`~carom.models.subjects.rotor_from` makes the same rotor again, exact to the last bit."""
+        numbers = self.planar if self.has_closed_forms else None
+        return {"rotor": json.dumps(document_of(self))} if numbers is None else numbers.attributes()
 
     def document(self) -> dict[str, Any]:
         """What describes it in a document: the parameters of the planar rotor, the attributes of any other."""

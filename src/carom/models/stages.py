@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -83,11 +83,6 @@ class Stage:
         n = len(self.carry) // 2
         states = np.concatenate([np.reshape(part, (-1, n)) for part in (position, velocity)], axis=1) @ self.carry.T
         return states[:, :n].reshape(np.shape(position)), states[:, n:].reshape(np.shape(velocity))
-
-    def attributes(self) -> dict[str, Any]:
-        """What it is as plain data, exact to the last bit."""
-        carry = None if self.carry is None else [self.carry.real.tolist(), self.carry.imag.tolist()]
-        return {"rotor": self.rotor.attributes(), "trigger": asdict(self.trigger), "carry": carry}
 
 
 def in_stages(stages: Sequence[Stage]) -> Rotor:

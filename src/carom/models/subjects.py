@@ -5,18 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import replace
-from importlib import import_module
 from typing import Any
 
-import numpy as np
-
 from carom.arguments import checked
-from carom.models.forces import forces_from
-from carom.models.limits import limits_from
-from carom.models.linear import LinearEquations
-from carom.models.planar import RIGID, Planar, jeffcott
+from carom.models.documents import part_from
+from carom.models.planar import RIGID, jeffcott
 from carom.models.rotor import PLANAR_ALONE, Rotor
-from carom.models.stages import Stage, Trigger, in_stages
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
@@ -91,25 +85,12 @@ def rotor_from(attributes: Mapping[str, Any]) -> Rotor:
     KeyError, TypeError, ValueError
         An attribute is missing, or is not such text.
     """
-    if "forces" in attributes:
-        rotor = rotor_from(json.loads(attributes["rotor"]))
-        return replace(rotor, forces=(*rotor.forces, *forces_from(attributes["forces"])))
-    if "limits" in attributes:
-        return replace(rotor_from(json.loads(attributes["rotor"])), limits=limits_from(attributes["limits"]))
-    if "stages" in attributes:
-        return in_stages(tuple(map(_stage_from, json.loads(attributes["stages"]))))
-    if "flexible_machine" in attributes:
-        # The layers forbid imports from above.
-        return Rotor(import_module("carom.rotors.flexible_model").FlexibleDefinition.from_attributes(attributes))
-    if "linear_rotor" in attributes:
-        return Rotor(LinearEquations.from_attributes(attributes))
-    return Rotor(Planar.from_attributes(attributes))
-
-
-def _stage_from(given: Mapping[str, Any]) -> Stage:
-    real, imaginary = map(np.array, given["carry"] or (0.0, 0.0))
-    carry = None if given["carry"] is None else real + 1j * imaginary
-    return Stage(rotor_from(given["rotor"]), Trigger(**given["trigger"]), carry)
+    if "rotor" not in attributes:
+        return jeffcott(Parameters.from_attributes(attributes))
+    rotor = part_from(json.loads(attributes["rotor"]))
+    if not isinstance(rotor, Rotor):
+        raise ValueError("it holds no rotor")
+    return rotor
 
 
 def case_of(subject: Subject) -> Case:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 
-from carom.arguments import Kind, NotNegative, Positive, checked, having
-from carom.core.laws.law import Law, law_of_name
+from carom.arguments import Kind, NotNegative, Positive, checked
+from carom.core.laws.law import Law
 from carom.core.wall import Wall
 from carom.models.race import Race
 from carom.outcome import InputError, shown
@@ -96,36 +95,6 @@ class Touchdown:
         """Return the same at a speed of the shaft that is larger by a factor: what is in its unit then has another number."""
         race = None if self.race is None else self.race.at_speed(factor)
         return dataclasses.replace(self, law=self.law.at_speed(factor), race=race)
-
-    def attributes(self) -> dict[str, Any]:
-        """Return it as numbers and texts, exact to the last bit."""
-        plane = [[number.real, number.imag] for number in self.plane]
-        law = {"name": self.law.law, **dataclasses.asdict(self.law)}
-        race = None if self.race is None else dataclasses.asdict(self.race)
-        return {
-            "plane": plane,
-            "law": law,
-            "friction": self.friction,
-            "surface_speed": self.surface_speed,
-            "race": race,
-            "clearance": self.clearance,
-            "bearing": None if self.bearing is None else dataclasses.asdict(self.bearing),
-            "farthest": self.farthest,
-        }
-
-    @classmethod
-    @checked
-    def from_attributes(
-        cls, given: Annotated[Mapping[str, Any], having("law", "plane", "friction", "surface_speed", "race")]
-    ) -> Touchdown:
-        """Make it from :meth:`attributes`."""
-        name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}
-        law: Any = law_of_name(name)
-        plane = [complex(*number) for number in given["plane"]]
-        race = Race(**given["race"]) if given["race"] is not None else None
-        bearing = TouchdownBearing(**given["bearing"]) if given.get("bearing") is not None else None
-        own = given.get("clearance", 1.0), bearing, given.get("farthest", FARTHEST)
-        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race, *own)
 
     def wall(self, mass: float) -> Wall:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from numbers import Real
 from typing import Any, NamedTuple, cast
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.drive import Drive
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, name_errors, unknown_names
 from carom.parameters.gravity import Gravity
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
@@ -19,8 +18,8 @@ from carom.parameters.numbers import Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
-from carom.parameters.settings import GRAVITY_NAME
-from carom.parameters.terms import ENTRIES, SETTABLE, check_names, set_by
+from carom.parameters.settings import GRAVITY_NAME, check_settings
+from carom.parameters.terms import ENTRIES
 from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
@@ -52,16 +51,19 @@ class Zones:
     limits: tuple[float, float, float] = (0.3, 0.4, 0.5)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "limits", _read_limits(self.limits))
+        given: Any = self.limits
+        numbers = [each for each in given if type(each) in (int, float)] if isinstance(given, list | tuple) else []
+        if len(numbers) != 3 or len(given) != 3 or not 0 < numbers[0] < numbers[1] < numbers[2] <= 1:
+            words = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5], in [zones]"
+            raise InputError("limits", shown(given), words)
+        object.__setattr__(self, "limits", tuple(map(float, given)))
 
     @classmethod
     def of(cls, table: Mapping[str, Any]) -> Zones:
         """Read a table ``[zones]``; what cannot be used is refused."""
-        problems = Problems()
-        problems.errors += unknown_names(table, {"limits": None}, "[zones]")
-        zones = problems.attempt(cls, *(value for name, value in table.items() if name == "limits"))
-        problems.raise_all()
-        return zones or cls()
+        if unknown := unknown_names(table, {"limits": None}, "[zones]"):
+            raise together(unknown)
+        return cls(**table)
 
     @property
     def labels(self) -> tuple[str, str, str, str]:
@@ -161,15 +163,16 @@ class Case(Tabular):
             if (value := getattr(self.limits, name)) is not None
         ]
         units = [f"{shown_in(kind, None)[1]} = {told(1.0, kind, scales)}" for kind in _UNITS_TOLD]
-        return [
-            *([("touchdown bearing", self.touchdown.words)] if self.touchdown else []),
-            *([("drive", self.drive.words)] if self.drive else []),
-            *([("gravity", self.gravity.words)] if self.gravity else []),
-            ("must survive", self._required()),
-            ("zones, in clearances", zones),
-            *([("limits of the bearing", ", ".join(limits))] if limits else []),
-            *([("units of the equations", ", ".join(units))] if scales else []),
-        ]
+        rows = {
+            "touchdown bearing": self.touchdown and self.touchdown.words,
+            "drive": self.drive and self.drive.words,
+            "gravity": self.gravity and self.gravity.words,
+            "must survive": self._required(),
+            "zones, in clearances": zones,
+            "limits of the bearing": ", ".join(limits),
+            "units of the equations": scales and ", ".join(units),
+        }
+        return [(name, text) for name, text in rows.items() if text]
 
     def _of_machine(self) -> list[tuple[str, str]]:
         """The machine, without its restitution if its touchdown bearing gives way."""
@@ -219,12 +222,14 @@ class Case(Tabular):
         gives_way = self.touchdown is not None and self.touchdown.yields
         if gives_way and (unused := {"d", "restitution"} & changes.keys()):
             raise _unused_restitution(changes[min(unused)])
-        if self.machine is None:
-            return replace(self, parameters=self.parameters.replace(**changes))
-        machine = self.machine.replace(**changes)
         numbers = {
-            name: read_quantity(field, changes[name]) for name, field in DIMENSIONLESS_FIELDS.items() if name in changes
+            name: read_quantity(DIMENSIONLESS_FIELDS[name], changes[name])
+            for name in changes
+            if name in DIMENSIONLESS_FIELDS
         }
+        if self.machine is None:
+            return replace(self, parameters=self.parameters.replace(**changes | numbers))
+        machine = self.machine.replace(**changes)
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
@@ -262,41 +267,22 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     """
     of_machine = tables.kind == "machine"
     beside = read_beside(tables, problems, of_machine)
-    gravity = beside.gravity
     values, bearing = problems.attempt(_with_restitution, tables.values, tables.touchdown) or (tables.values, {})
     touchdown = problems.attempt(TouchdownBearing.of, bearing, of_machine) if bearing else None
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
-    requirement = problems.attempt(Requirement.of_table, tables.survive, _scales(base, of_machine))
-    own = {name: text for name, text in texts.items() if name != GRAVITY_NAME and not name.startswith(PREFIX)}
-    problems.attempt(check_names, own)
-    pull = texts.pop(GRAVITY_NAME, None)
-    if pull is not None and of_machine:
-        gravity = problems.attempt(_pulled, gravity, pull)
-    elif pull is not None:
-        problems.errors.append(Gravity.without_scales(pull))
-    fields = SETTABLE if of_machine else DIMENSIONLESS_FIELDS
-    numbers = {
-        name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields
-    }
-    if not of_machine:
-        physical = {name: text for name, text in texts.items() if name in SETTABLE and name not in DIMENSIONLESS_FIELDS}
-        problems.attempt(_refuse_physical, physical)
+    # If the machine cannot be read any scales do, so that all errors are told.
+    scales = (Scales(1.0, 1.0, 1.0) if of_machine else None) if base is None else base.scales
+    requirement = problems.attempt(Requirement.of_table, tables.survive, scales) or Requirement()
+    problems.attempt(check_settings, {name: text for name, text in texts.items() if not name.startswith(PREFIX)})
     problems.raise_all()
-    rest = {**beside._asdict(), "gravity": gravity, "requirement": requirement or Requirement(), "touchdown": touchdown}
-    if isinstance(base, Machine):
-        case = Case(name, base.parameters, base, **rest).replace(**texts)
-        warn_of_proportions(case.machine)
-        return case
-    return Case(name, cast("Parameters", base), None, **rest).replace(**numbers)
-
-
-def _scales(base: Machine | Parameters | None, of_machine: bool) -> Scales | None:
-    """Scales that the other tables are read with; any do if the machine cannot be read, so that all errors are told."""
-    if isinstance(base, Machine):
-        return base.scales
-    return Scales(1.0, 1.0, 1.0) if of_machine else None
+    machine = base if isinstance(base, Machine) else None
+    numbers = base if machine is None else machine.parameters
+    case = Case(name, numbers, machine, **beside._asdict(), requirement=requirement, touchdown=touchdown)
+    case = case.replace(**texts)
+    warn_of_proportions(case.machine)
+    return case
 
 
 def split_settings(settings: Iterable[str], problems: Problems) -> dict[str, str]:
@@ -356,17 +342,6 @@ def _unused_restitution(given: Any) -> InputError:
     return InputError("restitution", shown(given), allowed)
 
 
-def _refuse_physical(physical: Mapping[str, str]) -> None:
-    partners = {partner: name for name, partner in PHYSICAL_PARTNER.items()}
-    problems = Problems()
-    for name, text in physical.items():
-        partner = partners.get(set_by(name))
-        advice = f"set {partner} instead" if partner else "use a file with a [machine] table"
-        allowed = f"cannot be set: the file is dimensionless and has no mass, clearance and speed; {advice}"
-        problems.errors.append(InputError(name, shown(text), allowed))
-    problems.raise_all()
-
-
 def _read_dimensionless(tables: MachineTables) -> Parameters:
     problems = Problems()
     problems.errors += name_errors(tables.values, DIMENSIONLESS_FIELDS, "[dimensionless]")
@@ -377,16 +352,3 @@ def _read_dimensionless(tables: MachineTables) -> Parameters:
     }
     problems.raise_all()
     return Parameters(**cast("dict[str, float]", numbers), scales=None)
-
-
-def _read_limits(limits: object) -> tuple[float, float, float]:
-    allowed = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5]"
-    error = InputError("limits", shown(limits), f"{allowed}, in [zones]")
-    if not isinstance(limits, list | tuple) or len(limits) != 3:
-        raise error
-    if any(isinstance(limit, bool) or not isinstance(limit, Real) for limit in limits):
-        raise error
-    first, second, third = limits
-    if not 0 < first < second < third <= 1:  # false for NaN too
-        raise error
-    return (float(first), float(second), float(third))

@@ -30,7 +30,6 @@
 ``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
 ``flexible_model``        :class:`FlexibleDefinition`: what defines its rotor, by the parameters of the machine
-``documents``             a machine as plain data
 ``part_tables``           what each table of a machine file with ``[rotor]`` may hold, and the part that it makes
 ``machine_file``          :func:`load_machine`; tables of a machine file -> its case
 ``branches``              exponents followed over the speed of the shaft

@@ -109,7 +109,7 @@ class Loops(NamedTuple):
 
 def loops_of(rotor: FreeRotor, bearings: Sequence[MagneticBearing], planes: Sequence[TouchdownPlane]) -> Loops:
     """Where forces act and displacements are measured."""
-    none = np.empty((0, len(rotor.mass_matrix)))
+    none = np.empty((0, len(rotor.matrices.mass)))
     return Loops(
         bearings=np.array([rotor.row_at(each.node) for each in bearings] or none),
         sensors=np.array(
@@ -213,6 +213,6 @@ def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:
 
 def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:
     """Gyroscopic matrix of the vectors: none of a translation, to the last digit."""
-    matrix = basis.shapes.T @ rotor.gyroscopic_matrix @ basis.shapes
+    matrix = basis.shapes.T @ rotor.matrices.gyroscopic @ basis.shapes
     matrix[: rotor.translations], matrix[:, : rotor.translations] = 0.0, 0.0
     return 0.5 * (matrix + matrix.T)

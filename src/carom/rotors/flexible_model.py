@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import cmath
 import dataclasses
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.arguments import checked, having
 from carom.models import Limit, LinearEquations, Rates
 from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
-from carom.rotors.documents import document_of, part_from
 from carom.rotors.machine_parameters import unknown, varied_in_model
 
 if TYPE_CHECKING:
@@ -182,27 +179,3 @@ class FlexibleDefinition(LinearEquations):
     def rates(self, name: str) -> Rates | None:
         """Return the derivatives of the equations of motion by a number of the equations; ``None`` for parameters of the machine."""
         return None if name in self._own else super().rates(name)
-
-    def attributes(self) -> dict[str, str]:
-        """Return the numbers, the scales and the machine as attributes of a dataset, exact to the last bit."""
-        machine = {"machine": document_of(self.reduced.machine), "modes": self.reduced.modes}
-        return {**super().attributes(), "flexible_machine": json.dumps(machine)}
-
-    @classmethod
-    @checked
-    def from_attributes(
-        cls, attributes: Annotated[Mapping[str, Any], having("flexible_machine")]
-    ) -> FlexibleDefinition:
-        """Read the attributes of a dataset that :meth:`attributes` has given.
-
-        Raises
-        ------
-        InputError
-            A value is not allowed.
-        KeyError, TypeError, ValueError
-            An attribute is missing, or is not such text.
-        """
-        given = json.loads(attributes["flexible_machine"])
-        plain = LinearEquations.from_attributes(attributes)
-        own = {field.name: getattr(plain, field.name) for field in dataclasses.fields(LinearEquations)}
-        return cls(**own, reduced=part_from(given["machine"]).with_modes(given["modes"]))

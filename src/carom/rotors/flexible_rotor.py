@@ -107,7 +107,7 @@ class FlexibleRotor(BendingRotor):
         """Number of the place of a node."""
         return sum(self.divisions[:node])
 
-    @property
+    @cached_property
     def node_places(self) -> np.ndarray:
         """Where its nodes are, from node 0 on, m."""
         return np.append(0.0, np.cumsum([section.length for section in self.sections]))
@@ -128,11 +128,6 @@ class FlexibleRotor(BendingRotor):
         for each in found:
             each.flags.writeable = False
         return found
-
-    @property
-    def own_damping(self) -> Damping:
-        """What damps each mode by itself."""
-        return self.damping
 
     @property
     def mass(self) -> float:  # type: ignore[override]

@@ -64,24 +64,16 @@ class FreeRotor(ABC):
     words: str
     """What it is, in a line."""
 
-    @property
-    @abstractmethod
-    def matrices(self) -> RotorMatrices:
-        """``M``, ``K`` and ``G``."""
+    matrices: RotorMatrices
+    """``M``, ``K`` and ``G``."""
+    places: np.ndarray
+    """Places along the shaft whose displacements are told, m, shape (N,)."""
+    node_places: np.ndarray
+    """Where its nodes are, from node 0 on, m."""
 
-    @property
-    @abstractmethod
-    def places(self) -> np.ndarray:
-        """Places along the shaft whose displacements are told, m, shape (N,)."""
-
-    @property
-    @abstractmethod
-    def node_places(self) -> np.ndarray:
-        """Where its nodes are, from node 0 on, m."""
-
-    @abstractmethod
     def place_of(self, node: int) -> int:
         """Number of the place of a node."""
+        return node
 
     @abstractmethod
     def row_at(self, node: int) -> np.ndarray:
@@ -102,33 +94,20 @@ class FreeRotor(ABC):
         """Shares (v,) of shapes with unit modal mass, the first of which is the translation, when the rotor is displaced by 1 m: how all its masses fall."""
         return np.append(np.sqrt(self.mass), np.zeros(shapes.shape[1] - 1))
 
-    @property
-    def mass_matrix(self) -> np.ndarray:
-        """``M``, shape (n, n): kg, kg m, kg m²."""
-        return self.matrices.mass
-
-    @property
-    def stiffness_matrix(self) -> np.ndarray:
-        """``K``, shape (n, n): N/m, N, N m."""
-        return self.matrices.stiffness
-
-    @property
-    def gyroscopic_matrix(self) -> np.ndarray:
-        """``G``, shape (n, n): kg, kg m, kg m²; it is multiplied by the speed of the shaft."""
-        return self.matrices.gyroscopic
-
 
 class BendingRotor(FreeRotor):
     """A rotor with a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at each of its places in turn as coordinates."""
 
+    damping: Damping | np.ndarray
+
     @property
-    @abstractmethod
     def own_damping(self) -> Damping | None:
         """What damps each mode by itself; ``None`` if a matrix is given instead."""
+        return self.damping if isinstance(self.damping, Damping) else None
 
     def row_at(self, node: int) -> np.ndarray:
         """Displacement at a node per coordinate, shape (n,)."""
-        row = np.zeros(len(self.mass_matrix))
+        row = np.zeros(len(self.matrices.mass))
         row[2 * self.place_of(node)] = 1.0
         return row
 
@@ -148,14 +127,12 @@ class BendingRotor(FreeRotor):
         return None if own is None else np.array([own.rate(each) for each in self.free_modes.frequencies.tolist()])
 
     @cached_property
-    def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
+    def damping_matrix(self) -> np.ndarray:
         """``D``, shape (n, n): N s/m, N s, N m s."""
-        return self.damping_of_modes()
-
-    def damping_of_modes(self) -> np.ndarray:
-        """Matrix (n, n) that damps each mode at its rate."""
-        pushed = self.mass_matrix @ self.free_modes.shapes
-        matrix: np.ndarray = (pushed * self.damping_rates) @ pushed.T
+        if not isinstance(self.damping, Damping):
+            return self.damping
+        pushed = self.matrices.mass @ self.free_modes.shapes
+        matrix: np.ndarray = pushed * self.damping_rates @ pushed.T
         return matrix
 
     @cached_property
@@ -163,14 +140,14 @@ class BendingRotor(FreeRotor):
         """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
         try:
             with np.errstate(divide="raise", over="raise", invalid="raise"):
-                return free_modes(self.mass_matrix, self.stiffness_matrix, self.translation, self.tilt)
+                return free_modes(self.matrices.mass, self.matrices.stiffness, self.translation, self.tilt)
         except (np.linalg.LinAlgError, FloatingPointError):
             raise self._refused_modes() from None
 
     def _refused_modes(self) -> InputError:
         """The error of numbers of so different sizes that no modes can be found."""
         allowed = "stiffness and masses of one rotor: with these numbers its modes are lost in rounding"
-        return InputError("K", f"from {self.stiffness_matrix.diagonal().min():g} on", allowed)
+        return InputError("K", f"from {self.matrices.stiffness.diagonal().min():g} on", allowed)
 
     @cached_property
     def translation(self) -> np.ndarray:
@@ -185,20 +162,20 @@ class BendingRotor(FreeRotor):
     @property
     def mass(self) -> float:  # type: ignore[override]
         """Mass, kg."""
-        return float(self.translation @ self.mass_matrix @ self.translation)
+        return float(self.translation @ self.matrices.mass @ self.translation)
 
     @cached_property
     def centre(self) -> float:
         """Where its centre of mass lies along the shaft, m."""
         along = np.stack([self.places, np.ones(len(self.places))], axis=1).ravel()
-        return float(self.translation @ self.mass_matrix @ along / self.mass)
+        return float(self.translation @ self.matrices.mass @ along / self.mass)
 
     @property
     def diametral_inertia(self) -> float:  # type: ignore[override]
         """Moment of inertia about a diameter through its centre of mass, kg m²."""
-        return float(self.tilt @ self.mass_matrix @ self.tilt)
+        return float(self.tilt @ self.matrices.mass @ self.tilt)
 
     @property
     def polar_inertia(self) -> float:  # type: ignore[override]
         """Moment of inertia about its axis, kg m²."""
-        return float(self.tilt @ self.gyroscopic_matrix @ self.tilt)
+        return float(self.tilt @ self.matrices.gyroscopic @ self.tilt)

@@ -62,7 +62,8 @@ class MatrixRotor(BendingRotor):
     discs: Sequence[Disc] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "nodes", _nodes(self.nodes))
+        for name in ("nodes", "places", "node_places"):
+            object.__setattr__(self, name, _nodes(self.nodes))
         size = 2 * len(self.nodes)
         for name in ("M", "K", "G"):
             object.__setattr__(self, name, checked_matrix(name, getattr(self, name), size))
@@ -126,30 +127,6 @@ class MatrixRotor(BendingRotor):
         for disc in self.discs:
             found.add_disc(disc, self.place_of(disc.node))
         return found
-
-    @property
-    def own_damping(self) -> Damping | None:
-        """What damps each mode by itself; ``None`` of a matrix."""
-        return self.damping if isinstance(self.damping, Damping) else None
-
-    @cached_property
-    def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
-        """``D``, shape (n, n): N s/m, N s, N m s."""
-        return self.damping_of_modes() if isinstance(self.damping, Damping) else self.damping
-
-    @property
-    def places(self) -> np.ndarray:
-        """Where its coordinates are, along the shaft, m, shape (N,)."""
-        return self.nodes
-
-    @property
-    def node_places(self) -> np.ndarray:
-        """Where its nodes are, from node 0 on, m."""
-        return self.nodes
-
-    def place_of(self, node: int) -> int:
-        """Number of the place of a node."""
-        return node
 
     def node_of(self, name: str) -> int:
         """Return the number of the node with this name.

@@ -55,8 +55,14 @@ class ReducedMachine(Result):
     machine: FlexibleMachine
     basis: Basis
 
+    stored: ClassVar = ("machine", "modes")
     shown: ClassVar = ("vectors", "modes", "error", "states")
     rests_on: ClassVar = ()
+
+    @staticmethod
+    def from_stored(machine: FlexibleMachine, modes: int) -> ReducedMachine:
+        """Make it again from a machine and the number of modes."""
+        return machine.with_modes(modes)
 
     @cached_property
     def error(self) -> float:

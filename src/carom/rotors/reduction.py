@@ -46,14 +46,14 @@ def rubin_basis(rotor: FreeRotor, rows: Sequence[np.ndarray], modes: int) -> Bas
         return Basis(free.shapes, free.frequencies, total)
     kept = free.shapes[:, :modes]
     beside = np.stack([free.flexibility(row, modes) for row in rows], axis=1)
-    beside /= np.sqrt(np.einsum("ni,nm,mi->i", beside, rotor.stiffness_matrix, beside))
-    energies, turn = np.linalg.eigh(beside.T @ rotor.stiffness_matrix @ beside)
+    beside /= np.sqrt(np.einsum("ni,nm,mi->i", beside, rotor.matrices.stiffness, beside))
+    energies, turn = np.linalg.eigh(beside.T @ rotor.matrices.stiffness @ beside)
     beside = beside @ turn[:, energies > DEPENDENT * energies[-1]]
     if modes + beside.shape[1] >= total:
         return Basis(free.shapes, free.frequencies, total)
-    root = np.linalg.cholesky(beside.T @ rotor.mass_matrix @ beside)
+    root = np.linalg.cholesky(beside.T @ rotor.matrices.mass @ beside)
     beside = np.linalg.solve(root, beside.T).T
-    squares, turn = np.linalg.eigh(beside.T @ rotor.stiffness_matrix @ beside)
+    squares, turn = np.linalg.eigh(beside.T @ rotor.matrices.stiffness @ beside)
     return Basis(
         np.concatenate([kept, beside @ turn], axis=1), np.append(free.frequencies[:modes], np.sqrt(squares)), modes
     )

@@ -97,20 +97,20 @@ class RigidRotor(FreeRotor):
     @cached_property
     def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
         """Zeros: what damps it are its bearings."""
-        return np.zeros_like(self.mass_matrix)
+        return np.zeros_like(self.matrices.mass)
 
     @cached_property
     def free_modes(self) -> FreeModes:  # type: ignore[override]
         """Translation and tilt, or the tilt alone."""
-        sizes = self.mass_matrix.diagonal()
+        sizes = self.matrices.mass.diagonal()
         return FreeModes(np.zeros(len(sizes)), np.diag(1.0 / np.sqrt(sizes)))
 
-    @property
+    @cached_property
     def places(self) -> np.ndarray:
         """Where its stations, its centre of mass and its fixed point are, m."""
         return np.unique([*self.stations, 0.0, *([] if self.pivot is None else [self.pivot])])
 
-    @property
+    @cached_property
     def node_places(self) -> np.ndarray:
         """Its stations, m."""
         return np.array(self.stations)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
-import math
 import os
 import subprocess
 import sys
@@ -119,33 +117,23 @@ def _arrays(path: Path) -> dict[str, Any]:
     if not path.is_file():
         why = "this is no file, but a directory or a device" if path.exists() else "there is no such file"
         raise InputError("rotor file", shown(str(path)), why)
-    told, numbers = _read_apart(path)
-    found: dict[str, Any] = {key: tuple(texts) for key, texts in told["texts"]}
-    for key, shape in told["numbers"]:
-        own, numbers = np.split(numbers, [math.prod(shape)])
-        found[key] = own.reshape(shape)
-    return found
-
-
-def _read_apart(path: Path) -> tuple[dict[str, Any], np.ndarray]:
-    """Texts and shapes by key, and all numbers one after the other."""
-    reader = Path(__file__).with_name("array_reader.py")
     # Modules beside the reader are none of the libraries'; one thread of theirs is enough.
-    command = [sys.executable, "-P", str(reader), str(path), *KEYS]
+    command = [sys.executable, "-P", str(Path(__file__).with_name("array_reader.py")), str(path), *KEYS]
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
         done = subprocess.run(
             command, capture_output=True, stdin=subprocess.DEVNULL, env=environment, timeout=_SECONDS, check=False
         )
-        head, _, numbers = done.stdout.partition(b"\n")
-        told = json.loads(head)
+        with np.load(io.BytesIO(done.stdout)) as archive:
+            found: dict[str, Any] = dict(archive)
+        refused = str(found.get("refused", ""))
     except subprocess.TimeoutExpired:
-        told = {"refused": f"this takes more than {_SECONDS} s"}
+        refused = f"this takes more than {_SECONDS} s"
     except OSError as problem:
-        told = {"refused": f"no process can be started for it: {problem.strerror}"}
-    except ValueError:  # the process has ended before it wrote anything
-        told = {"refused": "it is damaged: reading it ends the program that does"}
-    if "refused" not in told:
-        return told, np.frombuffer(numbers, "<f8")
-    allowed = "a file of numpy.savez, or of MATLAB's save -v7 with plain arrays"
-    raise InputError("rotor file", shown(str(path)), f"{allowed}; it cannot be read: {told['refused']}")
+        refused = f"no process can be started for it: {problem.strerror}"
+    except (EOFError, ValueError):  # the process has ended before it wrote anything
+        refused = "it is damaged: reading it ends the program that does"
+    if refused:
+        allowed = "a file of numpy.savez, or of MATLAB's save -v7 with plain arrays"
+        raise InputError("rotor file", shown(str(path)), f"{allowed}; it cannot be read: {refused}")
+    return {key: tuple(each.tolist()) if each.dtype.kind == "U" else each for key, each in found.items()}
