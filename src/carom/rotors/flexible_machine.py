@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,20 +13,13 @@ import numpy as np
 from carom.arguments import Count, Positive, checked
 from carom.models import Rotor
 from carom.outcome import InputError, shown
-from carom.parameters import Field, Gravity
+from carom.parameters import Gravity
 from carom.parameters.tables import read_entries
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.equations import loops_of
 from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor
-from carom.rotors.machine_parameters import (
-    WHOLE,
-    Entry,
-    changed_machine,
-    entries_of,
-    fields_of_machine,
-    value_of_machine,
-)
+from carom.rotors.machine_parameters import WHOLE, NamedParameters
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
@@ -46,7 +39,7 @@ _KINDS = {
 
 
 @dataclass(frozen=True, eq=False)
-class FlexibleMachine:
+class FlexibleMachine(NamedParameters):
     """A flexible rotor on magnetic bearings, inside touchdown bearings, in SI units.
 
     Attributes
@@ -110,44 +103,6 @@ class FlexibleMachine:
         if self.rotor.bends and not all(each.bearing.yields for each in self.touchdowns):
             allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
             raise InputError("law", "rigid", allowed)
-
-    @property
-    def clearances(self) -> tuple[float, ...]:
-        """Radial clearance at each touchdown bearing, m."""
-        return tuple(each.clearance or self.clearance for each in self.touchdowns)
-
-    @cached_property
-    def entries(self) -> Mapping[str, Entry]:
-        """Entries of magnetic and touchdown bearings by the names of parameters."""
-        return entries_of(self)
-
-    @property
-    def varied(self) -> Mapping[str, Field]:
-        """Named parameters that can be changed: words, symbol, unit and range of each (:mod:`carom.rotors.machine_parameters`)."""
-        return fields_of_machine(self)
-
-    @checked
-    def value(self, name: str) -> float:
-        """Value of a parameter in the unit of its field.
-
-        Raises
-        ------
-        InputError
-            No such name, or parts with different values.
-        """
-        return value_of_machine(self, name)
-
-    def replace(self, **changes: Any) -> FlexibleMachine:
-        """Return the machine with other values of named parameters, such as ``proportional`` of all magnetic bearings or ``proportional_2`` of one.
-
-        Parts are changed by :func:`dataclasses.replace`.
-
-        Raises
-        ------
-        InputError
-            A name is unknown, or a value not allowed.
-        """
-        return changed_machine(self, changes)
 
     @cached_property
     def _rows(self) -> list[np.ndarray]:

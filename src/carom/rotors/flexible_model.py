@@ -17,7 +17,6 @@ from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
-from carom.rotors.machine_parameters import unknown, varied_in_model
 
 if TYPE_CHECKING:
     from carom.rotors.reduced_machine import ReducedMachine
@@ -56,7 +55,7 @@ class FlexibleDefinition(LinearEquations):
     @cached_property
     def _own(self) -> dict[str, Field]:
         """Parameters of the machine."""
-        return varied_in_model(self.reduced.machine)
+        return self.reduced.machine.varied_in_model
 
     @property
     def varied(self) -> Mapping[str, Field]:
@@ -81,7 +80,7 @@ class FlexibleDefinition(LinearEquations):
         if name in self._own:
             return float(self.reduced.machine.value(name))
         if name not in self.varied:
-            raise unknown(self.reduced.machine, name, "wanted")
+            raise self.reduced.machine.unknown(name, "wanted")
         return super().value(name)
 
     def replace(self, **changes: Any) -> Any:
@@ -115,7 +114,7 @@ class FlexibleDefinition(LinearEquations):
             allowed = "left as it is: where it is 0 another value gives a controller more states; set it in the machine, as --set does"
             raise InputError(name, shown(given), allowed)
         if name not in self.varied:
-            raise unknown(reduced.machine, name, given)
+            raise reduced.machine.unknown(name, given)
         value = read_quantity(self.varied[name], given)
         own, _, number = name.rpartition("_") if name[-1].isdigit() else (name, "", "")
         plane = f"_{number}" if number else ""

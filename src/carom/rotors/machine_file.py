@@ -22,7 +22,6 @@ from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
 from carom.rotors.flexible_rotor import MOST_ELEMENTS, FlexibleRotor
 from carom.rotors.free_rotor import FreeRotor
-from carom.rotors.machine_parameters import unknown
 from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.part_tables import PARTS, RENAMED, ROTOR_ENTRIES, damping_of, entries_in, require
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS, RigidRotor
@@ -139,7 +138,7 @@ def _read_machine(
         parts["touchdowns"] = [replace(each, clearance=None) for each in parts["touchdowns"]]
     machine = FlexibleMachine(rotor, whole.get("speed"), min(rooms), gravity=gravity, **parts)  # type: ignore[arg-type]
     others = {name: text for name, text in settings.items() if name not in known}
-    problems.errors += [unknown(machine, each, others[each], known) for each in others if each not in machine.varied]
+    problems.errors += [machine.unknown(each, others[each], known) for each in others if each not in machine.varied]
     problems.raise_all()
     machine = machine.replace(**others)
     _warn_of_proportions(machine)

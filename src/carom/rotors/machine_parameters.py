@@ -7,220 +7,205 @@ for the planar rotor: ``touchdown_stiffness``.  The size of an unbalance is ``un
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Any, NamedTuple, Self
 
+from carom.arguments import checked
 from carom.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, Gravity, read_quantity
 from carom.parameters.fields import nearest_name
 from carom.parameters.settings import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
-from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
-from carom.rotors.controllers import PID, PID_FIELDS
-from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
+from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
+from carom.rotors.controllers import PID_FIELDS
+from carom.rotors.free_rotor import FreeRotor
+from carom.rotors.magnetic_bearing import BEARING_FIELDS
 from carom.rotors.support import SUPPORT_FIELDS
-
-if TYPE_CHECKING:
-    from carom.rotors.flexible_machine import FlexibleMachine
 
 WHOLE: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
 """Parameters of the machine as a whole, beside its weight."""
 OF_STATES = ("integral", "derivative", "delay")
 """Entries at zero of which a controller has fewer states."""
+_Paths = Mapping[str, tuple[tuple[str, ...], Field]]
+"""By the name of an entry, the attributes that lead to it from its part, and its field."""
 
 
-@dataclass(frozen=True)
-class _Parts:
-    """The parts of one kind, and how their entries are read and changed; an entry that is ``None`` is not there."""
-
-    attribute: str
-    words: str
-    fields: Mapping[str, Field]
-    read: Callable[[Any, str], Any]
-    change: Callable[[Any, str, Any], Any]
-
-    def having(self, machine: FlexibleMachine, name: str) -> list[int]:
-        """Which parts have an entry."""
-        return [number for number, part in enumerate(self.of(machine)) if self.read(part, name) is not None]
-
-    def of(self, machine: FlexibleMachine) -> Sequence[Any]:
-        parts: Sequence[Any] = getattr(machine, self.attribute)
-        return parts
+def _own(fields: Mapping[str, Field]) -> _Paths:
+    return {name: ((name,), field) for name, field in fields.items()}
 
 
-def _of_bearing(bearing: MagneticBearing, name: str) -> Any:
-    if name in BEARING_FIELDS:
-        return getattr(bearing, name)
-    return getattr(bearing.controller, name) if isinstance(bearing.controller, PID) else None
-
-
-def _changed_bearing(bearing: MagneticBearing, name: str, value: Any) -> MagneticBearing:
-    if name in BEARING_FIELDS:
-        return replace(bearing, **{name: value})
-    controller: Any = bearing.controller
-    return replace(bearing, controller=replace(controller, **{name: value}))
-
-
-def _of_plane(plane: TouchdownPlane, name: str) -> Any:
-    return getattr(plane, name) if name in PLANE_FIELDS else plane.bearing.given.get(name.removeprefix(PREFIX))
-
-
-def _changed_plane(plane: TouchdownPlane, name: str, value: Any) -> TouchdownPlane:
-    if name in PLANE_FIELDS:
-        return replace(plane, **{name: value})
-    return replace(plane, bearing=plane.bearing.replace(**{name.removeprefix(PREFIX): value}))
-
-
-def _of_unbalance(unbalance: Unbalance, name: str) -> Any:
-    return unbalance.size
-
-
-def _changed_unbalance(unbalance: Unbalance, name: str, value: Any) -> Unbalance:
-    return replace(unbalance, size=value)
-
-
-_KINDS = (
-    _Parts("bearings", "magnetic bearing", {**PID_FIELDS, **BEARING_FIELDS}, _of_bearing, _changed_bearing),
-    _Parts("supports", "support", SUPPORT_FIELDS, getattr, lambda part, name, value: replace(part, **{name: value})),
-    _Parts(
-        "touchdowns",
+_KINDS: Mapping[str, tuple[str, _Paths]] = {
+    "bearings": (
+        "magnetic bearing",
+        {name: (("controller", name), field) for name, field in PID_FIELDS.items()} | _own(BEARING_FIELDS),
+    ),
+    "supports": ("support", _own(SUPPORT_FIELDS)),
+    "touchdowns": (
         "touchdown bearing",
-        {
-            **PLANE_FIELDS,
-            **{PREFIX + name: SETTINGS[PREFIX + name] for name in TOUCHDOWN_FIELDS if name not in BALL_FIELDS},
+        _own(PLANE_FIELDS)
+        | {
+            PREFIX + name: (("bearing", name), SETTINGS[PREFIX + name])
+            for name in TOUCHDOWN_FIELDS
+            if name not in BALL_FIELDS
         },
-        _of_plane,
-        _changed_plane,
     ),
-    _Parts(
-        "unbalances",
-        "[[unbalance]]",
-        {"unbalance": replace(UNBALANCE_FIELDS["size"], name="unbalance")},
-        _of_unbalance,
-        _changed_unbalance,
-    ),
-)
+    "unbalances": ("[[unbalance]]", {"unbalance": (("size",), UNBALANCE_FIELDS["size"])}),
+}
+"""By the attribute of a machine, what its parts are called, and their entries."""
 
 
-@dataclass(frozen=True)
-class Entry:
+def _read(part: Any, path: Sequence[str]) -> Any:
+    """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth."""
+    for name in path:
+        part = getattr(part, name, None)
+    return None if path[-1] == "exponent" and part == 1.0 else part
+
+
+def _changed(part: Any, path: Sequence[str], value: float) -> Any:
+    name, *rest = path
+    return replace(part, **{name: _changed(getattr(part, name), rest, value) if rest else value})
+
+
+class Entry(NamedTuple):
     """An entry of parts, and which of them it changes."""
 
     field: Field
-    parts: _Parts
     entry: str
+    attribute: str
+    path: tuple[str, ...]
     numbers: list[int]
 
-    def values(self, machine: FlexibleMachine) -> list[float]:
+    def values(self, machine: NamedParameters) -> list[float]:
         """Its values in these parts."""
-        parts = self.parts.of(machine)
-        return [float(self.parts.read(parts[number], self.entry)) for number in self.numbers]
+        return [float(_read(getattr(machine, self.attribute)[number], self.path)) for number in self.numbers]
 
 
-def entries_of(machine: FlexibleMachine) -> dict[str, Entry]:
-    """The entries of parts by the names of parameters: of all parts of a kind if each has it, and of each."""
-    found = {}
-    for parts in _KINDS:
-        count = len(parts.of(machine))
-        for entry, field in parts.fields.items():
-            numbers = parts.having(machine, entry)
-            if count and len(numbers) == count:
-                found[entry] = Entry(replace(field, name=entry), parts, entry, numbers)
-            for number in numbers:
-                name, words = f"{entry}_{number + 1}", f"{field.words}, of {parts.words} {number + 1}"
-                found[name] = Entry(replace(field, name=name, words=words), parts, entry, [number])
-    return found
+class NamedParameters:
+    """A machine of parts that has its numbers by names."""
 
+    rotor: FreeRotor
+    speed: float
+    clearance: float
+    touchdowns: Sequence[TouchdownPlane]
+    gravity: Gravity | None
 
-def rotor_fields(machine: FlexibleMachine) -> Mapping[str, Field]:
-    """Fields of the numbers of the rotor itself: of a rigid one that are stated."""
-    return {name: field for name, field in machine.rotor.fields.items() if getattr(machine.rotor, name) is not None}
+    @property
+    def clearances(self) -> tuple[float, ...]:
+        """Radial clearance at each touchdown bearing, m."""
+        return tuple(each.clearance or self.clearance for each in self.touchdowns)
 
+    @cached_property
+    def entries(self) -> Mapping[str, Entry]:
+        """The entries of parts by the names of parameters: of all parts of a kind if each has it, and of each."""
+        found = {}
+        for attribute, (kind, paths) in _KINDS.items():
+            parts = getattr(self, attribute)
+            for entry, (path, field) in paths.items():
+                numbers = [number for number, part in enumerate(parts) if _read(part, path) is not None]
+                if parts and len(numbers) == len(parts):
+                    found[entry] = Entry(replace(field, name=entry), entry, attribute, path, numbers)
+                for number in numbers:
+                    name, words = f"{entry}_{number + 1}", f"{field.words}, of {kind} {number + 1}"
+                    found[name] = Entry(replace(field, name=name, words=words), entry, attribute, path, [number])
+        return found
 
-def fields_of_machine(machine: FlexibleMachine) -> dict[str, Field]:
-    """Fields of all parameters by name, those of single parts last."""
-    entries = machine.entries
-    own = {name: each.field for name, each in entries.items() if name == each.entry}
-    single = {name: each.field for name, each in entries.items() if name != each.entry}
-    return {**rotor_fields(machine), **WHOLE, GRAVITY_NAME: SETTINGS[GRAVITY_NAME], **own, **single}
+    @property
+    def _of_rotor(self) -> Mapping[str, Field]:
+        """Fields of the numbers of the rotor itself: of a rigid one that are stated."""
+        return {name: field for name, field in self.rotor.fields.items() if getattr(self.rotor, name) is not None}
 
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Parameters that :meth:`replace` can change: entries of all parts of a kind, and with its number of one, such as ``proportional_2``."""
+        fields = {name: each.field for name, each in self.entries.items()}
+        own = {name: field for name, field in fields.items() if name == self.entries[name].entry}
+        return {**self._of_rotor, **WHOLE, GRAVITY_NAME: SETTINGS[GRAVITY_NAME], **own, **fields}
 
-def varied_in_model(machine: FlexibleMachine) -> dict[str, Field]:
-    """Fields of what a model of the machine may vary: not its weight, which is a force on it; and never zero what then would leave out states."""
-    found = {}
-    for name, field in fields_of_machine(machine).items():
-        entry = machine.entries.get(name)
-        if entry is not None and entry.entry in OF_STATES:
-            if all(entry.values(machine)):
-                found[name] = replace(field, zero=False)
-        elif name != GRAVITY_NAME:
-            found[name] = field
-    return found
+    @property
+    def varied_in_model(self) -> dict[str, Field]:
+        """Fields of what a model of the machine may vary: not its weight, which is a force on it; and never zero what then would leave out states."""
+        found = {name: field for name, field in self.varied.items() if name != GRAVITY_NAME}
+        of_states = {name: each for name, each in self.entries.items() if each.entry in OF_STATES}
+        for name, entry in of_states.items():
+            found[name] = replace(entry.field, zero=False)
+            if not all(entry.values(self)):
+                del found[name]
+        return found
 
+    @checked
+    def value(self, name: str) -> float:
+        """Return the value of a parameter, in SI units.
 
-def value_of_machine(machine: FlexibleMachine, name: str) -> float:
-    """Value of a parameter in SI units; refuse an unknown name, and one whose values differ between parts."""
-    if name == "clearance" and len(set(machine.clearances)) > 1:
-        raise InputError(name, list(machine.clearances), "the same at all here; each touchdown bearing has its own")
-    if name in rotor_fields(machine):
-        return float(getattr(machine.rotor, name))
-    if name in WHOLE:
-        return machine.clearances[0] if name == "clearance" else machine.speed
-    if name == GRAVITY_NAME:
-        return machine.gravity.acceleration if machine.gravity else 0.0
-    if name not in machine.entries:
-        raise unknown(machine, name, "wanted")
-    entry = machine.entries[name]
-    values = entry.values(machine)
-    if len(set(values)) > 1:
-        names = ", ".join(f"{name}_{number + 1}" for number in entry.numbers)
-        raise InputError(name, values, f"the same at all here; {names} are those of each {entry.parts.words}")
-    return values[0]
+        Raises
+        ------
+        InputError
+            The name is unknown, or the parts have different values.
+        """
+        if name == "clearance" and len(set(self.clearances)) > 1:
+            raise InputError(name, list(self.clearances), "the same at all here; each touchdown bearing has its own")
+        if name in self._of_rotor:
+            return float(getattr(self.rotor, name))
+        if name in WHOLE:
+            return self.clearances[0] if name == "clearance" else self.speed
+        if name == GRAVITY_NAME:
+            return self.gravity.acceleration if self.gravity else 0.0
+        entry = self._entry(name, "wanted")
+        values = entry.values(self)
+        if len(set(values)) > 1:
+            names = ", ".join(f"{name}_{number + 1}" for number in entry.numbers)
+            raise InputError(
+                name, values, f"the same at all here; {names} are those of each {_KINDS[entry.attribute][0]}"
+            )
+        return values[0]
 
+    def replace(self, **changes: Any) -> Self:
+        """Return the machine with other values of parameters: numbers in SI units, or text with a unit.
 
-def changed_machine(machine: FlexibleMachine, changes: Mapping[str, Any]) -> FlexibleMachine:
-    """The machine with other values of parameters: numbers in SI units, or texts with a unit.
+        Names of all parts are set before those of single ones.
 
-    Names of all parts are set before those of single ones.
-    """
-    for name in sorted(changes, key=lambda name: name[-1:].isdigit()):
-        machine = _with(machine, name, changes[name])
-    return machine
+        Raises
+        ------
+        InputError
+            A name is unknown, or a value not allowed.
+        """
+        machine: Any = self
+        for name in sorted(changes, key=lambda name: name[-1:].isdigit()):
+            machine = replace(machine, **machine._changes(name, changes[name]))
+        return machine
 
+    def _changes(self, name: str, given: Any) -> dict[str, Any]:
+        if name == "clearance":
+            return {"clearance": given, "touchdowns": [replace(each, clearance=None) for each in self.touchdowns]}
+        if name in self._of_rotor:
+            rotor: Any = self.rotor
+            return {"rotor": replace(rotor, **{name: given})}
+        if name in WHOLE:
+            return {name: given}
+        if name == GRAVITY_NAME:
+            value = read_quantity(SETTINGS[GRAVITY_NAME], given)
+            return {"gravity": replace(self.gravity or Gravity(), acceleration=value)}
+        entry = self._entry(name, given)
+        value, parts = read_quantity(entry.field, given), list(getattr(self, entry.attribute))
+        for number in entry.numbers:
+            try:
+                parts[number] = _changed(parts[number], entry.path, value)
+            except InputError as problem:  # what it does not go with has the name of the entry in its own table
+                raise InputError(name, shown(given), f"{problem.field}: {problem.allowed}") from None
+        return {entry.attribute: parts}
 
-def _with(machine: FlexibleMachine, name: str, given: Any) -> FlexibleMachine:
-    if name == "clearance":
-        planes = [replace(each, clearance=None) for each in machine.touchdowns]
-        return replace(machine, clearance=given, touchdowns=planes)
-    if name in rotor_fields(machine):
-        rotor: Any = machine.rotor
-        return replace(machine, rotor=replace(rotor, **{name: given}))
-    if name in WHOLE:
-        return replace(machine, **{name: given})
-    if name == GRAVITY_NAME:
-        value = read_quantity(SETTINGS[GRAVITY_NAME], given)
-        return replace(machine, gravity=replace(machine.gravity or Gravity(), acceleration=value))
-    if name not in machine.entries:
-        raise unknown(machine, name, given)
-    entry = machine.entries[name]
-    value = read_quantity(entry.field, given)
-    parts = list(entry.parts.of(machine))
-    for number in entry.numbers:
-        try:
-            parts[number] = entry.parts.change(parts[number], entry.entry, value)
-        except InputError as problem:  # what it does not go with has the name of the entry in its own table
-            raise InputError(name, shown(given), f"{problem.field}: {problem.allowed}") from None
-    changed: dict[str, Any] = {entry.parts.attribute: parts}
-    return replace(machine, **changed)
+    def _entry(self, name: str, given: Any) -> Entry:
+        if name not in self.entries:
+            raise self.unknown(name, given)
+        return self.entries[name]
 
-
-def unknown(machine: FlexibleMachine, name: str, given: Any, besides: Mapping[str, Any] | None = None) -> InputError:
-    """Error for a name that does not exist: allowed are listed without those of single parts; ``besides`` has names of other things."""
-    known = {**fields_of_machine(machine), **(besides or {})}
-    nearest = nearest_name(name, known)
-    advice = f"did you mean {nearest}? " if nearest else ""
-    entries = machine.entries
-    listed = ", ".join(each for each in known if each not in entries or entries[each].entry == each)
-    allowed = f"unknown parameter of this machine; {advice}allowed: {listed}, and entries of one part by its number, such as proportional_2"
-    return InputError(shown(name), shown(given), allowed)
+    def unknown(self, name: str, given: Any, besides: Mapping[str, Any] | None = None) -> InputError:
+        """Error for a name that does not exist: allowed are listed without those of single parts; ``besides`` has names of other things."""
+        known = {**self.varied, **(besides or {})}
+        nearest = nearest_name(name, known)
+        advice = f"did you mean {nearest}? " if nearest else ""
+        entries = self.entries
+        listed = ", ".join(each for each in known if each not in entries or entries[each].entry == each)
+        allowed = f"unknown parameter of this machine; {advice}allowed: {listed}, and entries of one part by its number, such as proportional_2"
+        return InputError(shown(name), shown(given), allowed)
