@@ -33,8 +33,8 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     ------
     InputError
         If the file cannot be used, or a setting has no value, has an unknown name, has a value that is not allowed,
-        sets the same quantity as another one, or sets a physical value of a file without scales.  It reports all
-        errors at once.
+        sets the same quantity as another one, or sets a physical value of a file without scales.  Errors
+        of the file and names of settings are reported together, values of settings once the file is in order.
 
     Warns
     -----
