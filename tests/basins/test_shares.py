@@ -12,7 +12,7 @@ from machines import PAPER
 import carom
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.basins import Share, map_basins, share_of_kicks
-from carom.basins.shares import percent, starts_enough
+from carom.basins.shares import percent
 from carom.disturbances import BaseShock, ContactRelease, Grid, KickPlane, Sample, VelocityKick
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.planes import planes_of
@@ -22,17 +22,6 @@ from carom.sweeps.basins import BasinsTask
 from carom.sweeps.studies import StudyTask
 
 MACHINE = "examples/keogh-cole.toml"
-
-
-@pytest.mark.parametrize("wanted", [0.01, 0.5, 0.9, 0.95, 0.99, 0.999])
-def test_fewest_starts_that_show_a_share(wanted):
-    enough = starts_enough(wanted)
-    assert Share.of(enough, enough, drawn=True).low >= wanted
-    assert enough == 1 or Share.of(enough - 1, enough - 1, drawn=True).low < wanted
-
-
-def test_no_sample_shows_that_all_come_back():
-    assert starts_enough(1.0) is None
 
 
 def test_a_share_says_of_what_it_is_and_how_sure():

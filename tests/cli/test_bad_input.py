@@ -218,7 +218,6 @@ def test_wrong_usage(carom, machine, arguments, words):
         (("basins", "MACHINE", "--plane", "gamma,omega"), "--plane = gamma,omega: allowed only with --gains NxM"),
         (("basins", "MACHINE", "--x", "1,2"), "--x = 1,2: allowed only with --gains"),
         (("basins", "MACHINE", "--y", "1,2"), "--y = 1,2: allowed only with --gains"),
-        (("basins", "MACHINE", "--wanted", "0.9"), "--wanted = 0.9: allowed only with --gains"),
         (("basins", "MACHINE", "--gains", "100000x100000"), "makes 10000000000 cells; at most 5000000 are allowed"),
         (("basins", "MACHINE", "--gains", "1x5"), "must be 2 whole numbers of at least 2, such as 60x60"),
         (

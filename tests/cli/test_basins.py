@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import io
 import json
 
 import numpy as np
 import pytest
-from rich.console import Console
 
-from carom.basins import Basin, GainChange, GainMap, map_basins, map_gains
-from carom.basins.document import basin_document
-from carom.cli.basin_tables import print_gains
-from carom.disturbances import Grid, VelocityKick
-from carom.loading import load
+from carom.basins import Basin, GainMap
 from carom.outcome import Outcome
 
 pytestmark = pytest.mark.jit_only
@@ -170,16 +164,14 @@ def test_states_have_no_smallest_kick(carom, dimensionless):
 
 
 def test_a_sample_of_which_all_come_back_and_what_it_can_show(carom, machine):
-    """100 of 100 show no share of 99 %; 368 do, and then no change is needed."""
+    """100 of 100 show no share of 99 %; 368 do."""
     words = ("basins", machine, "--set", "damping=9000 N s/m", "--kick", "20 mm/s", "--gains", "2x2")
     few, enough = (" ".join(carom(*words, "--starts", count)[1].split()) for count in ("100", "368"))
     assert "4 of 4 bring back at least 99 % of kicks up to 20 mm/s (100 drawn at each)" in few
-    assert "shown with 95 % confidence for none of them: 100 starts are too few, 368 (--starts 368) would" in few
-    assert "No machine" not in few
-    assert "shown with 95 % confidence for 4 of them." in enough
-    assert "No change is needed." in enough
+    assert "shown with 95 % confidence for none; " in few
+    assert "shown with 95 % confidence for 4; " in enough
     document = json.loads(carom(*words, "--starts", "100", "--json")[1])["gains"]
-    assert (document["machines_reaching"], document["machines_sure"], document["starts_enough"]) == (4, 0, 368)
+    assert (document["machines_reaching"], document["machines_sure"]) == (4, 0)
 
 
 @pytest.mark.parametrize(
@@ -205,7 +197,6 @@ def test_a_sample_of_which_all_come_back_and_what_it_can_show(carom, machine):
         (("--gains", "5x5", "--plane", "damping"), "--plane = damping"),
         (("--gains", "5x5", "--plane", "dampin,stiffness"), "did you mean damping"),
         (("--gains", "5x5", "--x", "1e6 N/m,1e6 N/m"), "--x = 1e6 N/m,1e6 N/m"),
-        (("--gains", "5x5", "--wanted", "2"), "--wanted = 2"),
         (("--out", ""), "--out"),
         (("--set", "gamma=0.05"), "disturbance = |U*|"),
     ],
@@ -346,22 +337,6 @@ def test_entries_that_a_machine_cannot_be_stated_by(carom, request, given, plane
     assert err.startswith(f"carom: --plane = {plane}: ")
     assert words in err
     assert err.count("\n") == 1
-
-
-def test_a_change_is_told_as_that_of_the_gain_and_not_of_the_stiffness():
-    rig = load(RIG)
-    plan = Grid(VelocityKick.of(rig, "1 m/s"), (4, 6))
-    found = map_gains(rig, plan, shape=(2, 2))
-    # Two bearings of 50 N/A and -100 N/mm: 390,000 N/m are 5,900 A/m, 30 % more stiffness and 18 % more gain.
-    change = GainChange((390_000.0, 600.0), (0.3, 0.2), found.present_share, 0.9)
-    screen = Console(file=io.StringIO(), width=200)
-    print_gains(screen, found, change, 0.9, rig)
-    document = basin_document(map_basins(rig, plan), None, 0.0, found, change, 0.9, rig)
-
-    text = " ".join(screen.file.getvalue().split())
-    assert "5,900 A/m (+18 %), derivative gain, current over velocity 6 A s/m (+20 %); " in text
-    assert [term["change"] for term in document["gains"]["terms"]] == pytest.approx([0.18, 0.2], rel=1e-12)
-    assert document["gains"]["least_change"]["changes"] == [0.3, 0.2]
 
 
 def test_losses_of_a_blade_under_gravity(carom):

@@ -11,13 +11,11 @@
 ``maps``                maps over two numbers of any measure: the next two
 ``gains``               these measures against two parameters: gain maps
 ``drops``               how drops end and what the bearing bears, against two numbers
-``changes``             the least change of both that brings back a wanted share
 ``document``            results as JSON
 ======================  ==================================================================================
 """
 
 from carom.basins.brackets import SmallestLoss
-from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.drops import DropMap, map_drops
 from carom.basins.gains import GainMap, map_gains
@@ -28,12 +26,10 @@ __all__ = [
     "Basin",
     "Cells",
     "DropMap",
-    "GainChange",
     "GainMap",
     "Population",
     "Share",
     "SmallestLoss",
-    "least_gain_change",
     "map_basins",
     "map_cells",
     "map_drops",

@@ -13,14 +13,13 @@ from typing import Any
 import numpy as np
 
 from carom.basins.brackets import SmallestLoss
-from carom.basins.changes import WANTED, GainChange
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
 from carom.basins.families import size_coordinate
-from carom.basins.gains import GainMap
-from carom.basins.shares import Share, starts_enough
+from carom.basins.gains import WANTED, GainMap
+from carom.basins.shares import Share
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
-from carom.disturbances import BaseShock, BladeLoss, Sample
+from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.echo import plan_words
 from carom.outcome import Outcome
 from carom.parameters import Case, in_terms_of
@@ -33,15 +32,12 @@ def basin_document(
     smallest: SmallestLoss | None,
     harmless: float,
     gains: GainMap | None = None,
-    change: GainChange | None = None,
-    wanted: float = WANTED,
     told_by: Case | None = None,
 ) -> dict[str, Any]:
     """Document of all results about a basin.
 
     The smallest loss is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
-    return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  ``change`` reaches the share
-    ``wanted``.  With a machine ``told_by``, the values of a gain map are there in the terms of its file too.
+    return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  With a machine ``told_by``, the values of a gain map are there in the terms of its file too.
     """
     scales, attributes = basin.scales, basin.dataset.attrs
     document: dict[str, Any] = {
@@ -74,9 +70,9 @@ def basin_document(
     kind = "acceleration" if isinstance(model, BaseShock) else "unbalance"
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:
-        document["gains"] = _gains(gains, change, wanted)
+        document["gains"] = _gains(gains)
         if told_by is not None:
-            document["gains"]["terms"] = _terms(gains, change, told_by)
+            document["gains"]["terms"] = _terms(gains, told_by)
     return document
 
 
@@ -108,20 +104,17 @@ def _share(share: Share) -> dict[str, Any]:
     return fields_of(share, "fraction", "count", "low", "high") | {"method": method}
 
 
-def _terms(gains: GainMap, change: GainChange | None, case: Case) -> list[dict[str, Any]]:
-    """Both parameters of a gain map in the terms of a machine's file: entry, unit, values, and the relative change found."""
-    changes = (None, None) if change is None else change.told(gains, case)
+def _terms(gains: GainMap, case: Case) -> list[dict[str, Any]]:
+    """Both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
     told = []
-    for varied, part in zip(gains.axes, changes, strict=True):
+    for varied in gains.axes:
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]
-        values = [each.value for each in stated]
-        told.append(fields_of(stated[0], "entry", "unit") | {"values": values, "change": part})
+        told.append(fields_of(stated[0], "entry", "unit") | {"values": [each.value for each in stated]})
     return told
 
 
-def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str, Any]:
+def _gains(gains: GainMap) -> dict[str, Any]:
     first, second = gains.axes
-    drawn = isinstance(gains.plan, Sample)
     return {
         "parameters": [first.name, second.name],
         "units": [first.field.unit, second.field.unit],
@@ -130,13 +123,8 @@ def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str
         "levitates": (gains.dataset["levitates"].values > 0.0).tolist(),
         "present": list(gains.present),
         "present_recovered": _share(gains.present_share),
-        "starts_enough": starts_enough(wanted) if drawn else None,
-        "wanted": wanted,
-        "machines_reaching": int((gains.dataset["recovered"].values >= wanted).sum()),
-        "machines_sure": int((gains.dataset["recovered_low"].values >= wanted).sum()),
-        "least_change": fields_of(change, "wanted", "values", "changes") | {"recovered": _share(change.share)}
-        if change is not None
-        else None,
+        "machines_reaching": int((gains.dataset["recovered"].values >= WANTED).sum()),
+        "machines_sure": int((gains.dataset["recovered_low"].values >= WANTED).sum()),
     }
 
 

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 Node: TypeAlias = tuple[Plan, tuple[float, float]]
 """Disturbances, and values of the two parameters."""
+WANTED = 0.99
+"""Share that machines of a map are counted by."""
 CHUNK = 50_000
 """Approximate number of starts in memory at a time."""
 
@@ -117,7 +119,6 @@ def map_gains(
 
     See Also
     --------
-    carom.basins.least_gain_change : the least change that brings back a wanted share
     carom.run_sweep : over any number of parameters
 
     Examples

@@ -172,16 +172,3 @@ def percent(share: float) -> str:
     while float(f"{100.0 * share:.{digits}g}") >= 100.0 > 100.0 * share:
         digits += 1
     return f"{100.0 * share:.{digits}g} %"
-
-
-def starts_enough(wanted: float) -> int | None:
-    """Smallest sample which, if all its starts come back, shows that the share is at least the wanted one.
-
-    For ``n`` of ``n`` the interval begins at ``0.025^{1/n}``.  ``None`` for a share of one, which no sample can show.
-    """
-    if wanted >= 1.0:
-        return None
-    count = max(1, math.floor(math.log(0.5 - 0.5 * CONFIDENCE) / math.log(wanted)))
-    while exact_interval(count, count)[0] < wanted:
-        count += 1
-    return count

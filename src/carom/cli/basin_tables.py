@@ -7,9 +7,9 @@ import math
 import numpy as np
 from rich.console import Console
 
-from carom.basins import Basin, GainChange, GainMap, SmallestLoss
+from carom.basins import Basin, GainMap, SmallestLoss
 from carom.basins.families import has_sizes, size_coordinate
-from carom.basins.shares import starts_enough
+from carom.basins.gains import WANTED
 from carom.cli.fitting import fitted, plain_table
 from carom.disturbances import Coordinate
 from carom.disturbances.echo import plan_words
@@ -50,7 +50,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         screen.print(line)
 
 
-def print_gains(screen: Console, found: GainMap, change: GainChange | None, wanted: float, case: Case) -> None:
+def print_gains(screen: Console, found: GainMap, case: Case) -> None:
     """Print what a gain map says about the present machine, in the terms of its file."""
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
@@ -65,46 +65,15 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     screen.print(f"Map: {'; '.join(f'{low} to {high}' for low, high in told)}.")
     screen.print(f"Present machine: {here}; {back.words}.")
     shape = " x ".join(str(size) for size in share.shape)
-    reach = int((share >= wanted).sum())
-    drawn = back.drawn
+    reach, sure = (int((found.dataset[name].values >= WANTED).sum()) for name in ("recovered", "recovered_low"))
     varied = " and ".join(
         _stated(case, name, value).entry.replace("_", " ") for name, value in zip(names, found.present, strict=True)
     )
+    shown = f" ({back.total} drawn at each), shown with 95 % confidence for {sure or 'none'}" if back.drawn else ""
     screen.print(
         f"Of {shape} machines with other {varied}, {reach} of {share.size} bring back at least "
-        f"{100 * wanted:g} % of {of_what}{f' ({back.total} drawn at each)' if drawn else ''}; {100 * (1 - able.mean()):.3g} % cannot levitate."
+        f"{100 * WANTED:g} % of {of_what}{shown}; {100 * (1 - able.mean()):.3g} % cannot levitate."
     )
-    if drawn:
-        screen.print(_sure(found, wanted, reach))
-    if not all(found.present):
-        return
-    if change is None:
-        if not reach:
-            screen.print(f"No machine of the map brings back {100 * wanted:g} %.")
-        elif (found.dataset["recovered_low"].values >= wanted).any():
-            screen.print(f"No change found brings back {100 * wanted:g} % of a fresh sample too, with 95 % confidence.")
-    elif change.size == 0.0:
-        screen.print("No change is needed.")
-    else:
-        parts = ", ".join(
-            f"{_value(case, name, value)} ({100 * part:+.3g} %)"
-            for name, value, part in zip(names, change.values, change.told(found, case), strict=True)
-        )
-        screen.print(f"Least change found for {100 * wanted:g} %: {parts}; {change.share.words}.")
-
-
-def _sure(found: GainMap, wanted: float, reach: int) -> str:
-    """Say for how many machines the sample shows the wanted share, and how large a sample is needed to show it."""
-    sure = int((found.dataset["recovered_low"].values >= wanted).sum())
-    text = (
-        f"That at least {100 * wanted:g} % of them come back is shown with 95 % confidence for {sure or 'none'} of them"
-    )
-    enough, total = starts_enough(wanted), found.present_share.total
-    if enough is None:
-        return f"{text}: no sample can show that all come back."
-    if sure < reach and total < enough:
-        return f"{text}: {total} starts are too few, {enough} (--starts {enough}) would show it where all of them come back."
-    return f"{text}."
 
 
 def _touching(basin: Basin) -> str:

@@ -53,7 +53,6 @@ PLANE = option(
     "With --gains: the two parameters, by default stiffness,damping, of a flexible machine proportional,derivative; or what a machine file "
     "states them by, such as proportional_gain,derivative_gain.",
 )
-WANTED = option("SHARE", "With --gains: share that must come back after the least change; by default 0.99.")
 
 
 def basins(
@@ -71,7 +70,6 @@ def basins(
     plane: str | None = PLANE,
     x: str | None = options.FIRST_RANGE,
     y: str | None = options.SECOND_RANGE,
-    wanted: float | None = WANTED,
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
@@ -88,9 +86,8 @@ def basins(
         ways = {"--kick": kick, "--shock": shock, "--blade-loss": blade_loss, "--disturbance": disturbance}
         plan = _plan(case, _model(case, ways), grid, starts, seed, instant)
         if gains is None:
-            refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y, "--wanted": wanted})
-        from carom.basins import least_gain_change, map_basins, map_gains, smallest_loss
-        from carom.basins.changes import WANTED
+            refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y})
+        from carom.basins import map_basins, map_gains, smallest_loss
         from carom.basins.document import basin_document
         from carom.basins.families import has_sizes
         from carom.basins.gains import usual_gains
@@ -99,10 +96,7 @@ def basins(
 
         rotor, share = rotor_of(case), 0.45
         if gains is not None:
-            share, goal = 0.2, WANTED if wanted is None else wanted
-            shape = read_cells("--gains", gains, 2, least=2, most=MOST_STARTS)
-            if not 0.0 < goal <= 1.0:
-                raise InputError("--wanted", goal, "must be a share above 0 and at most 1, such as 0.99")
+            share, shape = 0.2, read_cells("--gains", gains, 2, least=2, most=MOST_STARTS)
             asked = read_plane(case, "--plane", plane or ",".join(usual_gains(rotor)), x, y)
         check_output(out)
         source = _source(machine, settings)
@@ -113,11 +107,9 @@ def basins(
             smallest = smallest_loss(rotor, plan.model, progress=tell.part(share, 2.0 * share))
         over: tuple[Any, ...] = ()
         if gains is not None:
-            ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.9)}
-            found, least = map_gains(rotor, plan, asked.names, **ways_of), None  # type: ignore[arg-type]
-            if all(found.present):
-                least = least_gain_change(found, goal, progress=tell.part(0.9, 0.97))
-            over = (found, least, goal, asked.told_by)
+            ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.97)}
+            found = map_gains(rotor, plan, asked.names, **ways_of)  # type: ignore[arg-type]
+            over = (found, asked.told_by)
         document = basin_document(basin, smallest, harmless, *over)
         if out is not None:
             tell(0.97, "drawing")
@@ -125,7 +117,7 @@ def basins(
                 output.figure("basins", basin.plot(smallest))
                 basin.save(output.directory / "basins.nc")
                 if over:
-                    output.figure("gain-map", found.plot(least, told_by=asked.told_by))
+                    output.figure("gain-map", found.plot(told_by=asked.told_by))
                     found.save(output.directory / "gains.nc")
                 output.document("basins", document)
     if as_json:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import number, parameter_label
 
 if TYPE_CHECKING:
-    from carom.basins import GainChange, GainMap
+    from carom.basins import GainMap
     from carom.models import Axis
     from carom.parameters import Case
 
@@ -42,21 +42,18 @@ _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 @styled
 def gain_map(
     found: GainMap,
-    change: GainChange | None = None,
     title: str | None = None,
     *,
     measure: str = "recovered",
     told_by: Case | None = None,
     axes: Axes | None = None,
 ) -> Figure:
-    """Draw the share of disturbances that comes back, with contours, the present machine and the least change.
+    """Draw the share of disturbances that comes back, with contours and the present machine.
 
     A new figure is 126 mm wide.
 
     Parameters
     ----------
-    change : carom.basins.GainChange, optional
-        Least change that reaches a wanted share, to be drawn as an arrow.
     measure : {"recovered", "smallest_unrecovered_kick"}
         The measure that the shades show; contours always show the share that comes back.
     told_by : Case, optional
@@ -73,8 +70,8 @@ def gain_map(
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     told = [_told(axis, now, told_by) for axis, now in zip(found.axes, found.present, strict=True)]
     x, y = (
-        np.array([each.of(value) for value in found.dataset[axis.name].values.tolist()])
-        for axis, each in zip(found.axes, told, strict=True)
+        np.array([of(value) for value in found.dataset[axis.name].values.tolist()])
+        for axis, (_, of) in zip(found.axes, told, strict=True)
     )
     values = np.ma.masked_invalid(found.dataset[measure].values)
     bar = _MEASURES[measure][0]
@@ -83,7 +80,7 @@ def gain_map(
         values, bar = factor * values, f"{bar} ({unit})"
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
-    here = told[0].of(found.present[0]), told[1].of(found.present[1])
+    here = told[0][1](found.present[0]), told[1][1](found.present[1])
     replaced = {"none": "every kick tried comes back"}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
@@ -96,12 +93,7 @@ def gain_map(
         colours.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
     mark_present(drawn, here, f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back")
-    if change is not None and change.size > 0.0:
-        there = told[0].of(change.values[0]), told[1].of(change.values[1])
-        parts = zip(told, change.told(found, told_by), strict=True)
-        said = ", ".join(f"{each.name} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}") for each, part in parts)
-        _arrow(drawn, here, there, f"least change found for {100 * change.wanted:g} %: {said}")
-    drawn.set(xlabel=told[0].label, ylabel=told[1].label, xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+    drawn.set(xlabel=told[0][0], ylabel=told[1][0], xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     if title:
         drawn.set_title(title)
     key(figure, [drawn], columns=2)  # one where they have no room
@@ -112,13 +104,6 @@ def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.
     """Whether a point lies in one of these cells."""
     row, column = (int(np.searchsorted(along, value)) - 1 for along, value in zip(edges, place, strict=True))
     return 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1] and bool(cells[row, column])
-
-
-def _arrow(axes: Axes, here: tuple[float, float], there: tuple[float, float], label: str) -> None:
-    """Draw an arrow from the present machine along the least change."""
-    for colour, width in (("white", 1.6), ("#d55e00", 0.9)):
-        axes.annotate("", there, here, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width, "shrinkA": 4})
-    axes.plot([], [], color="#d55e00", lw=1.2, marker=">", markevery=[1], ms=4, label=label)
 
 
 def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> None:
@@ -133,26 +118,15 @@ def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> No
         axes.plot([], [], color="#1a1a1a", ls=line, lw=0.9, label=f"{100 * level:g} % come back")
 
 
-class _Told(NamedTuple):
-    """A parameter as a figure tells it: the label of its axis, its name in the legend, and a value in the unit of the label."""
-
-    label: str
-    name: str
-    of: Callable[[float], float]
-
-
-def _told(axis: Axis, now: float, case: Case | None) -> _Told:
-    """Tell a parameter in the terms of a machine's file; stiffness and damping are named as gains of a position controller."""
-    unit, field = axis.field.usual_size, axis.field
-    label, name = parameter_label(field), _NAMES.get(axis.name, "")
+def _told(axis: Axis, now: float, case: Case | None) -> tuple[str, Callable[[float], float]]:
+    """Label of a parameter in the terms of a machine's file, and a value in its unit; stiffness and damping are named as gains of a position controller."""
+    unit, field, name = axis.field.usual_size, axis.field, _NAMES.get(axis.name, "")
     if case is None:
-        return _Told(f"{name}: {label}" if name else label, name or axis.name, lambda value: value / unit)
+        label = parameter_label(field)
+        return f"{name}: {label}" if name else label, lambda value: value / unit
     stated = in_terms_of(case, axis.name, now)
     label = parameter_label(stated.field, stated.unit)
-    if stated.entry != axis.name:
-        name = ""
-    return _Told(
-        f"{name}: {label}" if name else label,
-        name or stated.entry.replace("_", " "),
+    return (
+        f"{name}: {label}" if name and stated.entry == axis.name else label,
         lambda value: in_terms_of(case, axis.name, value, digits=EXACT).value,
     )
