@@ -2877,7 +2877,7 @@ THEOREMS = {
 
 # What each theorem may claim, as "about: kind"; its options; and what a reader may expect that it does not claim.
 _STEADY = "levitation: (inside|stable)", r"rub \d+: (solution|pressed|attracts sliding)"
-_WHIRL = ("whirl: (rolls|attracts sliding|slips|absent|absent below)",)
+_WHIRL = ("whirl: (rolls|attracts sliding|absent|absent below)",)
 _SINGLE = (
     *_STEADY,
     *_WHIRL,

@@ -67,7 +67,7 @@ def test_bad_input_is_one_line(capsys, arguments, words):
     assert error.count("\n") == 1
 
 
-def test_kicks_are_proven_gone_on_with_and_verified(capsys, tmp_path):
+def test_kicks_are_proven_and_verified(capsys, tmp_path):
     command = ["prove", SPINDLE, "--kicks-up-to", "105 mm/s", "--most-impacts", "1", "--out", str(tmp_path)]
     assert main([*command, "--time-limit", "1 ms"]) == 0
     assert "undecided" in capsys.readouterr().out

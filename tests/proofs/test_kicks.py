@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import random
 from fractions import Fraction
-from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -203,35 +201,6 @@ def test_other_terms_are_refused(document, change):
         check({**document, **change})
 
 
-def test_interrupted_search_goes_on_from_its_store(tmp_path, monkeypatch):
-    place, tried, batches = tmp_path / "cells.json", [], 4
-
-    def interrupted(self, cells):
-        tried.extend(cells)
-        if len(tried) > batches:
-            raise KeyboardInterrupt
-        return original(self, cells)
-
-    from carom.proofs.kick_discs import Disc
-
-    original = Disc.tried
-    with monkeypatch.context() as patched:
-        patched.setattr(Disc, "tried", interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1)
-    found = len(json.loads(place.read_text())["cells"])
-    proof = prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1, time_limit=None)
-
-    assert 1 < found < len(proof.evidence["cells"])
-    assert proof["kicks all recover"].status == "proven"
-    assert prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1).claims == proof.claims
-    with pytest.raises(InputError, match="another machine, speed, number of impacts or box"):
-        prove_kicks(SPINDLE, "112 mm/s", most_impacts=1, store=place)
-    place.write_text(place.read_text().replace('"cells": "', '"cells": "v'))
-    with pytest.raises(InputError, match="no complete record"):
-        prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place)
-
-
 def test_each_reason_has_a_letter_of_its_own():
     assert len(OPEN) == len(REASONS) + 2
 
@@ -295,16 +264,3 @@ def test_processes_find_and_verify_the_same(document, monkeypatch):
     found = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=2)
 
     assert found.document() == document
-
-
-def test_cells_of_a_store_are_followed_again_before_they_count(tmp_path):
-    """A whole disc said to return without an impact, with a checksum that agrees."""
-    place = tmp_path / "cells.json"
-    prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, time_limit=1e-3, workers=1)
-    found = json.loads(place.read_text())
-    assert found["carom"] == version("carom")
-    changed = found | {"cells": "0", "sha256": hashlib.sha256(b"0").hexdigest()}
-    place.write_text(json.dumps(changed))
-    proof = prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, time_limit=1e-3, workers=1)
-    assert proof["kicks all recover"].status == "undecided"
-    check(proof.document())

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from compilation import sized
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from carom.outcome import InputError
 from carom.proofs import check, prove
@@ -152,39 +151,6 @@ def test_slides_faster_than_the_speed_told_end_in_rolling():
             phases, left = wall.follow(random.uniform(0, 2 * np.pi), w, starting(wall, w), LONG)
             assert not left
             assert [phase[0] for phase in phases] == [starting(wall, w), 0]
-        followed += 1
-
-
-def test_one_slide_repeats_and_its_neighbours_leave():
-    random, followed = np.random.default_rng(4), 0
-    while followed < sized(8, 2, 100):
-        machine = random_machine(random)
-        claim = claims_of(machine).get("slips")
-        if claim is None or claim.status != "proven":
-            continue
-        wall = Wall(machine)
-        low, high = claim.enclosures["slowest"].value, claim.enclosures["fastest"].value
-
-        def turn(w, sign, wall=wall):
-            """Speed after a turn forward or backward in time, and the range passed."""
-            path = solve_ivp(
-                lambda x, y: wall.rate(1, x, y)[1] / (-1 - y),
-                (0, -sign * 2 * np.pi),
-                [w],
-                rtol=1e-11,
-                atol=1e-12,
-                max_step=0.1,
-            )
-            return path.y[0, -1], path.y[0], path.t
-
-        # Backward in time the map of a turn shrinks the range.
-        assert low * (1 - 1e-9) <= turn(low, -1)[0] <= turn(high, -1)[0] <= high * (1 + 1e-9)
-        speed = brentq(lambda w, turn=turn: turn(w, -1)[0] - w, low * (1 - 1e-9), high * (1 + 1e-9), xtol=1e-13)
-        _, speeds, angles = turn(speed, 1)
-        assert low * (1 - 1e-8) < speeds.min() <= speeds.max() < high * (1 + 1e-8) < wall.s * (1 + 1e-8)
-        assert wall.push(angles, speeds).min() > 0
-        assert turn(speed * 1.0001, 1)[0] > speed * 1.0001
-        assert turn(speed * 0.9999, 1)[0] < speed * 0.9999
         followed += 1
 
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from carom.progress import Reporter
     from carom.proofs import Claim, Proof
 
-CERTIFICATE, CELLS = "proof.json", "cells.json"
-"""Names of the certificate, and of the cells of kicks found so far, in the directory given."""
+CERTIFICATE = "proof.json"
+"""Name of the certificate in the directory given."""
 DRAWN = "kicks"
 """Theorem that has a figure."""
 PICTURE, SAMPLED = "figures/proven-kicks", (160, 160)
@@ -110,7 +110,7 @@ def prove(
                 if name not in _ALLOWED[theorem]:
                     beside = theorem or "theorems about equilibria and orbits"
                     raise InputError(name, shown(value), f"cannot be combined with {beside}")
-            proof = _proven(machine, settings or (), theorem, sizes.get(theorem, ""), given, out, part)
+            proof = _proven(machine, settings or (), theorem, sizes.get(theorem, ""), given, part)
         if out is not None:
             _write(proof, Path(out), None if check else machine, tell)
     if as_json:
@@ -139,10 +139,9 @@ def _proven(
     theorem: str,
     size: str,
     given: dict[str, Any],
-    out: str | None,
     tell: Reporter,
 ) -> Proof:
-    """Prove a theorem; one about cells goes on from those in the directory, if there is one."""
+    """Prove a theorem."""
     from carom import proofs
 
     box = _intervals(*(given.pop(name, None) for name in _RANGE))
@@ -154,9 +153,6 @@ def _proven(
         return proofs.prove(machine, settings, along=along, interval=interval, progress=tell, **more)
     if theorem == "--states-up-to":
         return proofs.prove_states(machine, size, settings, progress=tell)
-    if out is not None:
-        Path(out).mkdir(parents=True, exist_ok=True)
-        more["store"] = Path(out) / CELLS
     searches: dict[str, Any] = {
         "--kicks-up-to": proofs.prove_kicks,
         "--shocks-up-to": proofs.prove_shocks,

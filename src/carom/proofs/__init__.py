@@ -10,7 +10,7 @@
 ``slip``            no orbit stops its slip
 ``steady``          levitation, rubs, harmless kicks
 ``rubs``            what acts along the wall next to a rub
-``whirl``           rolling and slides in backward whirl, and where there are none
+``whirl``           rolling in backward whirl, what leads to it, and where there is none
 ``runs``            parts of such an interval as a claim
 ``series``          functions of balls and of power series of balls
 ``courses``         orbits with one impact a period with their derivatives

@@ -14,7 +14,7 @@ from carom.outcome import CaromError
 from carom.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
-from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves, share_of
+from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves
 from carom.proofs.kick_discs import Disc, DiscData, Found, disc_of
 from carom.proofs.passages import LeftOpenError
 
@@ -24,97 +24,51 @@ BATCH = 32
 """Cells that a process tests at a time."""
 ALONE = 2.0
 """Seconds after which other processes are asked to help."""
-PAUSE = 15.0
-"""Seconds between two records of the search."""
 _LAST = 2.0**-50
 """Share of the disc below which a cell is not halved."""
 _LOST_COUNTS = 1 / 4
 """How much the area of a cell whose middle does not return counts beside others."""
 
 _Result = TypeVar("_Result")
-_Listed = TypeVar("_Listed")
 
 
-def search(
-    disc: Disc, tree: Tree, limit: float, workers: int, tell: Reporter, record: Callable[[Tree], None] | None = None
-) -> None:
-    """Halve and prove cells of a tree until none is open, or for so many seconds.
-
-    What the tree says to be closed is shown again first, which the seconds leave out.  ``record`` receives the tree from time to time, also when
-    the search is interrupted.
-    """
-    tell = _follow_again(disc, tree, workers, tell)
+def search(disc: Disc, limit: float, workers: int, tell: Reporter) -> Tree:
+    """Halve and prove cells of a disc until none is open, or for so many seconds."""
+    tree = {disc.whole: AHEAD}
     heap: list[tuple[float, Cell]] = []
-    for cell, letter in leaves(tree):
-        _push(heap, cell, letter)
-    known = {kind: share_of(cell for cell, letter in leaves(tree) if kind(letter)) for kind in (_returns, _ends)}
-    began = recorded = time.monotonic()
+    _push(heap, disc.whole, AHEAD)
+    proven = refuted = 0.0
+    began = time.monotonic()
 
     def batches() -> Iterator[list[Cell]]:
         while heap and time.monotonic() - began < limit:
             size = min(BATCH, max(1, len(heap) // (2 * workers)))
             yield [heapq.heappop(heap)[1] for _ in range(size)]
 
-    try:
-        for cells, found in _each(disc, _tried, batches, workers):
-            for cell, (letter, by) in zip(cells, found, strict=True):
-                tree[cell] = by or letter
-                for kind in known:
-                    known[kind] += cell.share if not by and kind(letter) else 0
-                for half in cell.halves(by) if by else ():
-                    tree[half] = letter
-                    _push(heap, half, letter)
-            now = time.monotonic()
-            proven, refuted = (float(share) for share in known.values())
-            words = f"{100 * proven:.4g} % of the area proven, {100 * refuted:.4g} % refuted, {len(heap)} cells open"
-            tell(max(proven + refuted, min(1.0, (now - began) / limit)), words)
-            if record is not None and now - recorded > PAUSE:
-                record(tree)
-                recorded = now
-    finally:
-        if record is not None:
-            record(tree)
-
-
-def _follow_again(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> Reporter:
-    """Follow again what a tree says to be closed, and open what is not; return who is told of the rest."""
-    told = [cell for cell, letter in leaves(tree) if _is_closed(letter)]
-    again, rest = tell.part(0.0, 0.5 if told else 0.0), tell.part(0.5 if told else 0.0, 1.0)
-    done = 0
-    for cells, found in _each(disc, _tried, _batches_of(told), workers):
-        tree.update({cell: AHEAD if by else letter for cell, (letter, by) in zip(cells, found, strict=True)})
-        done += len(cells)
-        again(done / len(told), f"{done} of {len(told)} cells followed again")
-    return rest
-
-
-def _is_closed(letter: str) -> bool:
-    return _returns(letter) or _ends(letter)
-
-
-def _batches_of(listed: list[_Listed]) -> Callable[[], Iterator[list[_Listed]]]:
-    """Batches of a list, which go on where those asked for before have ended."""
-    ahead = iter([listed[first : first + BATCH] for first in range(0, len(listed), BATCH)])
-    return lambda: ahead
+    for cells, found in _each(disc, _tried, batches, workers):
+        for cell, (letter, by) in zip(cells, found, strict=True):
+            tree[cell] = by or letter
+            if not by:
+                proven += float(cell.share) * (letter in IMPACTS)
+                refuted += float(cell.share) * (letter == REFUTED)
+            for half in cell.halves(by) if by else ():
+                tree[half] = letter
+                _push(heap, half, letter)
+        words = f"{100 * proven:.4g} % of the area proven, {100 * refuted:.4g} % refuted, {len(heap)} cells open"
+        tell(min(1.0, max(proven + refuted, (time.monotonic() - began) / limit)), words)
+    return tree
 
 
 def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
     """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
-    told = [(cell, letter) for cell, letter in leaves(tree) if _is_closed(letter)]
-    done = 0
-    for cells, problem in _each(disc, _shown, _batches_of(told), workers):
+    told = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
+    ahead, done = iter([told[first : first + BATCH] for first in range(0, len(told), BATCH)]), 0
+    # The same batches go on where those asked for before have ended.
+    for cells, problem in _each(disc, _shown, lambda: ahead, workers):
         if problem:
             raise NotShownError(problem)
         done += len(cells)
         tell(done / len(told), f"{done} of {len(told)} cells verified")
-
-
-def _returns(letter: str) -> bool:
-    return letter in IMPACTS
-
-
-def _ends(letter: str) -> bool:
-    return letter == REFUTED
 
 
 def _push(heap: list[tuple[float, Cell]], cell: Cell, letter: str) -> None:

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 import os
 from collections.abc import Iterable, Mapping
-from importlib.metadata import version
-from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
 from carom.arguments import Count, checked, whole
 from carom.core.processors import available_cores
-from carom.files import write_whole
 from carom.models import Subject
 from carom.outcome import InputError, shown
 from carom.parameters import read_quantity
@@ -23,13 +18,12 @@ from carom.proofs.claims import Proof
 from carom.proofs.evidence import NotShownError
 from carom.proofs.families import KICKS, Family
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
-from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
+from carom.proofs.kick_cells import IMPACTS, written
 from carom.proofs.kick_claims import BOX_NOT_CLAIMED, BOX_THEOREM, NOT_CLAIMED, claims_of, options_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
 from carom.proofs.proving import TIME, prove_levitation, without_closed_forms
 
-_STORE = "carom cells of kicks 1"
 USUAL_TIME = "10 min"
 USUAL_IMPACTS = 12
 
@@ -44,7 +38,6 @@ def prove_kicks(
     along: Mapping[str, tuple[Given, Given]] | None = None,
     most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
     time_limit: str | float | None = USUAL_TIME,
-    store: str | os.PathLike[str] | None = None,
     workers: Count | None = None,
     progress: ShowProgress = None,
 ) -> Proof:
@@ -73,16 +66,13 @@ def prove_kicks(
         A kick that may have more of them is left open; at most 35.
     time_limit : str or float
         When to end the search, in s or with a unit; with ``None`` when nothing is open.
-    store : path, optional
-        File for the cells: an interrupted search goes on from there, and one that was ended by its time does with further time.
-        What it says to be proven is proven again before it counts, beyond the time limit.
     workers : int, optional
         Processes; by default as many as there are cores.
 
     Raises
     ------
     InputError
-        A number cannot be used, or the store is that of other kicks.
+        A number cannot be used.
 
     See Also
     --------
@@ -97,7 +87,7 @@ def prove_kicks(
     >>> proof["kicks all recover"].status
     'proven'
     """
-    limits = Limits(most_impacts, time_limit, store, workers)
+    limits = Limits(most_impacts, time_limit, workers)
     if (model := without_closed_forms(machine, settings)) is not None and not along:
         return prove_levitation(
             model, kicks_up_to if isinstance(kicks_up_to, int | float) else str(kicks_up_to), progress=progress
@@ -107,11 +97,10 @@ def prove_kicks(
 
 
 class Limits(NamedTuple):
-    """How far a search goes, and where it is kept: what :func:`prove_kicks` takes."""
+    """How far a search goes: what :func:`prove_kicks` takes."""
 
     most_impacts: int
     time_limit: str | float | None
-    store: str | os.PathLike[str] | None
     workers: int | None
 
 
@@ -132,17 +121,8 @@ def prove_disc(
             disc.middle  # noqa: B018  (raises if there is no levitation)
     except NotShownError as problem:
         raise InputError("machine", shown(hypotheses.values), str(problem)) from None
-    place = None if limits.store is None else Path(limits.store)
-    tree = {disc.whole: AHEAD} if place is None or not place.exists() else _stored(place, disc)
     with at_precision(BITS):
-        search(
-            disc,
-            tree,
-            seconds,
-            limits.workers or available_cores(),
-            tell,
-            None if place is None else lambda now: _store(place, disc, now),
-        )
+        tree = search(disc, seconds, limits.workers or available_cores(), tell)
         claims = claims_of(disc, tree)
     tell(1.0)
     options: dict[str, Any] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
@@ -150,36 +130,3 @@ def prove_disc(
         options["box"] = [list(entry) for entry in box]
     theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (family.about, NOT_CLAIMED)
     return Proof(theorem, hypotheses, options, tuple(claims), BITS, not_claimed, {"cells": written(tree)})
-
-
-def _content(disc: Disc) -> dict[str, Any]:
-    _, document, largest, most, box = disc.data()
-    told = {"box": [list(entry) for entry in box]} if box else {}
-    return {"format": _STORE, "hypotheses": document, disc.family.option: largest, "most_impacts": most, **told}
-
-
-def _store(place: Path, disc: Disc, tree: Tree) -> None:
-    """Write the cells so far, with the version that has found them and a checksum against damage."""
-    cells = written(tree)
-    digest = hashlib.sha256(cells.encode()).hexdigest()
-    write_whole(
-        place, json.dumps({**_content(disc), "carom": version("carom"), "sha256": digest, "cells": cells}).encode()
-    )
-
-
-def _stored(place: Path, disc: Disc) -> Tree:
-    """Read cells of an earlier search."""
-    try:
-        found = json.loads(place.read_bytes())
-        cells = found.pop("cells")
-        if found.pop("sha256") != hashlib.sha256(cells.encode()).hexdigest():
-            raise ValueError("damaged")
-        found.pop("carom")
-        tree = read(cells, len(disc.along))
-    except OSError as problem:
-        raise InputError("store", shown(place), f"cannot be read: {problem.strerror or problem}") from None
-    except (AttributeError, KeyError, NotShownError, TypeError, ValueError):
-        raise InputError("store", shown(place), "is no complete record of cells; remove it to begin anew") from None
-    if found != _content(disc):
-        raise InputError("store", shown(place), "belongs to another machine, speed, number of impacts or box")
-    return tree

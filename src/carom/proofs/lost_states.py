@@ -48,8 +48,6 @@ def steadily_lost(rotor: Rotor) -> Iterator[Lost]:
         yield Lost("backward whirl on the wall that is faster than this runs away to rolling", speed.upper())
     elif "whirl rolls" in proven:
         yield Lost("the rotor can roll on the wall for ever", n.radius_ratio)
-    if "whirl slips" in proven:
-        yield Lost("a slide in backward whirl repeats", sustaining_speed(n, pull_of(n)))
 
 
 def lost_on_orbits(rotor: Rotor, evidence: Evidence) -> Iterator[Lost]:

@@ -26,8 +26,6 @@ _ROUNDING = 1e-12
 """Relative difference of numbers of the same machine, once exact and once in doubles."""
 BEYOND = -1
 """Place of the part of a kick that is not in the disc."""
-_HALVED = {BY_SPEED: -1, BY_ANGLE: -2}
-"""Marks of cells that are halved."""
 
 
 @dataclass(frozen=True)
@@ -218,42 +216,23 @@ class ProvenKicks(Result):
         """
         shares = np.hypot(outward, tangential) / self.largest
         turns = np.arctan2(tangential, outward) / (2.0 * np.pi) % 1.0
-        kinds, second = self._branches
-        node = np.zeros(shares.shape, int)
-        walks = [
-            (mark, value, np.zeros(node.shape), np.ones(node.shape))
-            for mark, value in zip(_HALVED.values(), (shares, turns), strict=True)
-        ]
-        while (kinds[node] < 0).any():
-            for mark, value, low, high in walks:
-                here, middle = kinds[node] == mark, (low + high) / 2.0
-                upper = here & (value >= middle)
-                low[:] = np.where(upper, middle, low)
-                high[:] = np.where(here & ~upper, middle, high)
-                node = np.where(upper, second[node], node + here)
-        return np.where(shares <= 1.0, kinds[node], BEYOND)
-
-    @property
-    def _place_of(self) -> dict[str, int]:
-        return {part.letter: place for place, part in enumerate(self.parts)}
+        found = np.full(shares.shape, BEYOND).ravel()
+        ahead = [(DISC, np.flatnonzero(shares <= 1.0))]
+        while ahead:
+            cell, here = ahead.pop()
+            letter = self.tree[cell]
+            if letter not in (BY_SPEED, BY_ANGLE):
+                found[here] = self._place_of[letter]
+            elif here.size:
+                low, high = cell.halves(letter)
+                middle = float((high.speeds if letter == BY_SPEED else high.angles)[0])
+                above = (shares if letter == BY_SPEED else turns).ravel()[here] >= middle
+                ahead += [(low, here[~above]), (high, here[above])]
+        return found.reshape(shares.shape)
 
     @cached_property
-    def _branches(self) -> tuple[np.ndarray, np.ndarray]:
-        """Of each cell, each halved one before its halves, a mark or the place of its part, and where its second half stands."""
-        order: dict[Cell, int] = {}
-        ahead = [DISC]
-        while ahead:
-            cell = ahead.pop()
-            order[cell] = len(order)
-            letter = self.tree[cell]
-            ahead += reversed(cell.halves(letter)) if letter in _HALVED else ()
-        kinds = _HALVED | self._place_of
-        letters = [self.tree[cell] for cell in order]
-        second = [
-            order[cell.halves(letter)[1]] if letter in _HALVED else 0
-            for cell, letter in zip(order, letters, strict=True)
-        ]
-        return np.array([kinds[letter] for letter in letters]), np.array(second)
+    def _place_of(self) -> dict[str, int]:
+        return {part.letter: place for place, part in enumerate(self.parts)}
 
 
 def _parts(tree: Tree) -> tuple[KickPart, ...]:

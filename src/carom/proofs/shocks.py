@@ -25,7 +25,6 @@ def prove_shocks(
     *,
     most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
     time_limit: str | float | None = USUAL_TIME,
-    store: str | os.PathLike[str] | None = None,
     workers: Count | None = None,
     progress: ShowProgress = None,
 ) -> Proof:
@@ -36,7 +35,7 @@ def prove_shocks(
 
     Parameters
     ----------
-    machine, settings, most_impacts, time_limit, store, workers
+    machine, settings, most_impacts, time_limit, workers
         As for :func:`prove_kicks`.
     shocks_up_to : str
         The largest peak and the duration: ``"5 g, 11 ms"`` for a machine file in SI units, plain numbers in ``c_r Ω²`` and ``1/Ω`` for
@@ -45,7 +44,7 @@ def prove_shocks(
     Raises
     ------
     InputError
-        A number cannot be used, or the store is that of other shocks.
+        A number cannot be used.
 
     See Also
     --------
@@ -59,7 +58,7 @@ def prove_shocks(
     >>> proof["shocks all recover"].status
     'proven'
     """
-    limits = Limits(most_impacts, time_limit, store, workers)
+    limits = Limits(most_impacts, time_limit, workers)
     return prove_disc(SHOCKS, hypotheses_of(machine, settings), shocks_up_to, limits, Reporter.of(progress, "proving"))
 
 
@@ -72,7 +71,6 @@ def prove_unbalance_steps(
     *,
     most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
     time_limit: str | float | None = USUAL_TIME,
-    store: str | os.PathLike[str] | None = None,
     workers: Count | None = None,
     progress: ShowProgress = None,
 ) -> Proof:
@@ -84,7 +82,7 @@ def prove_unbalance_steps(
 
     Parameters
     ----------
-    machine, settings, most_impacts, time_limit, store, workers
+    machine, settings, most_impacts, time_limit, workers
         As for :func:`prove_kicks`.
     unbalance_up_to : str or number
         The largest change: an eccentricity or an unbalance with a unit, ``"0.1 mm"`` or ``"2000 g mm"``, for a machine file in SI units, a
@@ -93,7 +91,7 @@ def prove_unbalance_steps(
     Raises
     ------
     InputError
-        A number cannot be used, or the store is that of other steps.
+        A number cannot be used.
 
     See Also
     --------
@@ -106,6 +104,6 @@ def prove_unbalance_steps(
     >>> proof["unbalance steps all recover"].status
     'proven'
     """
-    limits = Limits(most_impacts, time_limit, store, workers)
+    limits = Limits(most_impacts, time_limit, workers)
     hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
     return prove_disc(STEPS, hypotheses, unbalance_up_to, limits, tell)

@@ -1,4 +1,4 @@
-"""Steady whirl in lasting contact: rolling, slides in backward whirl, and speeds of the shaft at which there is none.
+"""Steady whirl in lasting contact: rolling, what leads to it, and speeds of the shaft at which there is none.
 
 On the wall, with ``x = θ − φ``, the whirl ``W = 1 + θ̇``, ``w = −W`` and the forward slip ``s + W``,
 
@@ -9,11 +9,8 @@ Write ``A = s² − ω²`` and ``p = ρ√(1 + μ²)``, which is the largest val
 *Rolling* has ``W = −s`` and passes all angles, so it needs ``A > ρ`` and ``|ρ sin x − γs| ≤ μN`` at all of them:
 ``μA ≥ |γ|s + p``.
 
-*Slides.*  In backward whirl with forward slip ``w' = μ(w² − ω²) − γw + ρ(sin x + μ cos x)`` lies within ``p`` of
-``−h(w)``, ``h(w) = γw − μ(w² − ω²)``.  Let ``−h(w_c) = p`` and ``−h(w_b) = −p`` at the larger roots.  Beyond ``w_c`` every
-slide gains speed.  Between ``w_b`` and ``w_c`` backward time maps the turn's first speed to a last one, monotonically and into
-the same interval.  At its fixed points the slope is ``exp −∮(2μw − γ)/(1 + w) dx``, less than 1 for ``w ≥ w_b > γ/(2μ)``, so there
-is exactly one; other slides leave the interval.
+*Slides.*  In backward whirl with forward slip ``w' = μ(w² − ω²) − γw + ρ(sin x + μ cos x)`` is at least ``−h(w) − p``,
+``h(w) = γw − μ(w² − ω²)``.  Let ``−h(w_c) = p`` at the larger root: beyond ``w_c`` every slide gains speed.
 
 *None.*  ``docs/theory/proofs.md`` shows: with ``γ ≥ 0`` and ``γs > μA`` no motion on the wall that whirls backward all the time
 repeats after a turn.  At ``ν`` times the speed of the shaft ``γ`` is ``γ/ν`` and ``ω²`` is ``ω²/ν²``: the condition becomes
@@ -23,7 +20,6 @@ repeats after a turn.  At ``ν`` times the speed of the shaft ``γ`` is ``γ/ν`
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import partial
 from typing import Any
 
 from carom.parameters import MACHINE_FIELDS
@@ -38,15 +34,13 @@ BACKWARD = "no motion that is pressed on the wall and whirls backward all the ti
 
 
 def whirl_claims(rotor: Rotor) -> list[Claim]:
-    """Claims about rolling, slides and their absence."""
+    """Claims about rolling and its absence."""
     exact = exact_numbers(rotor)
-    rolls, slips = _rolling_claim(rotor, exact), _slide_claims(rotor, exact)
-    repeats = any(claim.status == "proven" for claim in slips)
+    rolls = _rolling_claim(rotor, exact)
     return [
         rolls,
         _attraction_claim(rotor, exact),
-        *slips,
-        _absence_claim(rotor, exact, rolls.status == "proven", repeats),
+        _absence_claim(rotor, exact, rolls.status == "proven"),
         _below_claim(rotor, exact),
     ]
 
@@ -157,36 +151,10 @@ def sustaining_speed(n: Numbers, pull: Any) -> Any:
     return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + pull)).sqrt()) / (2 * n.mu)
 
 
-def _slide_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
-    """Claim about a slide that repeats; none where unbalance may take it off the wall, to rolling, or to rest."""
-    claim = partial(
-        _claim,
-        rotor,
-        "slips",
-        "A motion slides on the wall in backward whirl slower than rolling, pressed all the time, and repeats after each turn; its speed lies "
-        "between the numbers slowest and fastest, and every other slide leaves this range.",
-    )
-    damping, friction, drag = sign_of(exact.gamma), sign_of(exact.mu), drag_sign(exact)
-    if damping == 0 and friction == 0:
-        return []
-    if damping in (0, -1) or friction == 0:
-        return [claim(-1, "no damping balances the friction" if friction else "there is no friction")]
-    if drag == 1:
-        return [claim(-1, "damping outweighs friction at all speeds up to that of rolling")]
-    n, pull = rotor.numbers, pull_of(rotor.numbers)
-    room = n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared - pull)
-    slowest, fastest = sustaining_speed(n, -pull), sustaining_speed(n, pull)
-    signs = [decided(room), decided(slowest - (n.omega_squared + n.rho).sqrt()), decided(n.radius_ratio - fastest)]
-    if -1 in signs:
-        return []
-    shown = damping == 1 and friction == 1 and 0 not in signs
-    return [claim(1 if shown else None, slowest=slowest, fastest=fastest)]
-
-
-def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool, slips: bool) -> Claim:
+def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool) -> Claim:
     statement = f"Dry-friction whirl in lasting contact is absent: {BACKWARD}."
-    if rolls or slips:
-        return _claim(rotor, "absent", statement, -1, "the rotor can roll" if rolls else "one slide repeats")
+    if rolls:
+        return _claim(rotor, "absent", statement, -1, "the rotor can roll")
     sign = drag_sign(exact)
     reason = "damping is not so strong that all backward whirl dies out" if sign == -1 else ""
     return _claim(rotor, "absent", statement, 0 if sign == -1 else sign, reason)
