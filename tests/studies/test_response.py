@@ -176,9 +176,6 @@ def test_separation_margin():
     [
         ({}, "17.5 µm peak to peak (0.0437 of the clearance: zone A of ISO 14839-2), 164° behind the unbalance"),
         ({}, "exceeded from 5,323 rpm to 7,455 rpm"),
-        ({}, "the rotor touches nowhere in this range"),
-        ({"eccentricity": "0.15 um"}, "nowhere exceeded"),
-        ({"eccentricity": "0.1 mm"}, "the response calculated there is virtual"),
         ({"eccentricity": "0.1 mm", "speed": "6000 rpm"}, "the clearance allows 400 µm: the rotor touches"),
         ({"eccentricity": "0.1 mm", "restitution": 1.0}, "No stable synchronous rub exists there"),
         ({"damping": "20000 N s/m"}, "The response has no peak between"),
