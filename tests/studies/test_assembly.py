@@ -12,7 +12,8 @@ from studies import study_once
 from carom.files import as_json
 from carom.outcome import InputError, Outcome
 from carom.parameters import Case, Machine, Parameters, Requirement, Zones
-from carom.studies import NOT_COVERED, study
+from carom.studies import study
+from carom.studies.coverage import NOT_COVERED
 from carom.studies.facts import about
 from carom.studies.summaries import motion_rows
 
@@ -184,6 +185,13 @@ def test_machine_that_cannot_levitate():
     assert result.verdict.level == "no-contact-free-motion"
     assert result.zone is None
     assert "cannot run without contact" in finding(result, "Levitation")
+
+
+def test_machine_on_the_boundary():
+    result = study_once(SOURCE.replace(gamma=math.sqrt((3 / 7) ** 2 - (1 - 0.76**2) ** 2)))
+
+    assert result.equilibria[0].status == "boundary"
+    assert result.verdict.level == "no-contact-free-motion"
 
 
 @pytest.mark.deep

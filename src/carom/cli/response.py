@@ -113,10 +113,6 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
         rolls = "not known" if steady.rolls is None else "holds" if steady.rolls else "does not hold"
         table.add_row(rpm(stretch.low), rpm(stretch.high), free, rubs, rolls)
     screen.print(fitted(screen, table))
-    zones = plain_table("Zones of ISO 14839-2 of levitation", "from", "to", "zone", right=("from", "to"))
-    for stretch in found.zones:
-        zones.add_row(rpm(stretch.low), rpm(stretch.high), stretch.what or "in contact")
-    screen.print(fitted(screen, zones))
     if out is None:
         screen.print()
         screen.print("Figure and response.json: add --out DIR")

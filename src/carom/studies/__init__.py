@@ -40,46 +40,34 @@ Read them in this order.
 =======================  ========================================================================================
 """
 
-from carom.studies.advice import Change, Margin, Recommendation
 from carom.studies.assembly import Study, study
-from carom.studies.coverage import NOT_COVERED
 from carom.studies.critical_speeds import Critical, Separation
 from carom.studies.document import found_orbits_document, orbits_document
 from carom.studies.drops import DropStudy
-from carom.studies.facts import Fact
 from carom.studies.load_checks import LoadCheck, check_loads
 from carom.studies.motion_documents import trajectory_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
 from carom.studies.response_data import Rubs, Steady, Stretch
-from carom.studies.survives import Survives
 from carom.studies.trials import Check, Lost, check_recovery
-from carom.studies.verdict import Verdict
 from carom.studies.wording import Wording
 
 __all__ = [
-    "NOT_COVERED",
-    "Change",
     "Check",
     "Critical",
     "DropStudy",
-    "Fact",
     "LoadCheck",
     "Lost",
-    "Margin",
     "MotionRange",
-    "Recommendation",
     "Recovery",
     "Rubs",
     "Separation",
     "Steady",
     "Stretch",
     "Study",
-    "Survives",
     "Threshold",
     "UnbalanceResponse",
-    "Verdict",
     "Wording",
     "check_loads",
     "check_recovery",

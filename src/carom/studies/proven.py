@@ -49,26 +49,17 @@ def proven_words(proof: Proof, scales: Scales | None = None) -> str:
     return text
 
 
-def proven_kicks_words(kicks: ProvenKicks) -> str:
-    """What is proven of kicks, and what is left open for which reasons."""
-    text = f"Of kicks out of levitation: {kicks.words}."
-    left = [f"{number(100.0 * part.share, 3)} % of the area ({part.reason})" for part in kicks.parts if part.open]
-    return f"{text} Left open: {listed(left)}." if left else text
-
-
 def proven_kicks_document(kicks: ProvenKicks) -> dict[str, Any]:
-    """The same as plain data for JSON."""
+    """What is proven of kicks, as plain data for JSON."""
     return record(kicks, KICKS, kicks.rotor.scales) | {
         "open": [record(part, "reason share") for part in kicks.parts if part.open]
     }
 
 
 def proofs_of(study: StudyData) -> Iterator[Fact]:
-    """What was proven, if it was asked for."""
+    """What was proven of the motions, if it was asked for; the verdict has what was proven of kicks."""
     if study.proof is not None:
         yield Fact("Proven", proven_words(study.proof, study.rotor.scales), evidence="proven")
-    if study.kicks is not None:
-        yield Fact("Proven", proven_kicks_words(study.kicks), evidence="proven")
 
 
 def is_proven(proof: Proof | None, orbit: Orbit) -> bool:

@@ -228,7 +228,6 @@ def _document(response: UnbalanceResponse) -> dict[str, Any]:
         ],
         "operating_si": list(response.operating),
         "zone_limits": list(response.case.zones.limits),
-        "zones": [_stretch(entry) | {"zone": entry.what or None} for entry in response.zones],
         "exceeds_api_617": [_stretch(entry) for entry in response.exceeds_api_617 if entry.what],
         "saturates": [_stretch(entry) for entry in response.saturating if entry.what],
         "steady": [_stretch(entry) | entry.what._asdict() for entry in response.stretches],

@@ -172,12 +172,6 @@ class ResponseData(Result):
         own: Steady = found[0] if found else self.stretches[0 if self.present < self.interval[0] else -1].what
         return own._replace(contact_free=bool(self.now.reach.max() < 1.0))
 
-    @cached_property
-    def zones(self) -> tuple[Stretch, ...]:
-        """Zone of sag and whirl over speed; an empty letter where there is no contact-free motion."""
-        edges = [speed for limit in (*self.case.zones.limits, 1.0) for speed in self.reaching(limit)]
-        return stretches_between(self.interval, edges, self.zone_at)
-
     @checked
     def zone_at(self, speed: float) -> str:
         """Letter of the zone at a speed; empty where the rotor touches."""
