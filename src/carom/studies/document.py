@@ -17,7 +17,7 @@ from carom.basins import share_of_kicks
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
-from carom.models import Rotor, Span, Subject, rotor_of
+from carom.models import Rotor, Span, rotor_of
 from carom.orbits.exponents import LyapunovExponents
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
@@ -48,10 +48,10 @@ SHARE = "tried=total came_back=count"
 
 @checked
 def orbits_document(
-    subject: Subject, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
+    numbers: Parameters | Rotor, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
 ) -> dict[str, Any]:
     """Return the document of equilibria and periodic orbits of a rotor, with the machine that states it."""
-    rotor = rotor_of(subject)
+    rotor = rotor_of(numbers)
     return {
         **rotor.document(),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
