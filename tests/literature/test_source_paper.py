@@ -17,11 +17,10 @@ from machines import PAPER, flight_matrix, rest_position
 from scipy.linalg import expm
 from scipy.optimize import bisect, brentq, minimize_scalar
 
-from carom import State, find_equilibria, find_orbits, simulate
+from carom import find_equilibria, find_orbits
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import jeffcott
 from carom.orbits import Orbit, OrbitSet, period_condition
-from carom.parameters import Scales
 
 FINE = {"xtol": 1e-15, "rtol": 1e-14}
 
@@ -309,13 +308,6 @@ def test_velocity_in_4_2():
     assert abs(velocity - (orbit.radial_speed + 1j * orbit.angular_speed * orbit.position)) > 0.01
 
 
-def test_number_of_orbits_in_proposition_4_1():
-    """``N`` pairs of periods make up to ``4N`` orbits, not ``2N``."""
-    orbits = orbits_at(0.05)
-    assert len(orbits.periods) == 4
-    assert len(orbits) == 8
-
-
 def test_speeds_of_4_9_and_admissibility_of_proposition_4_1():
     """Below ``γ*`` the two speeds of each period have opposite signs; they are (4.9)."""
     orbits = orbits_at(0.05)
@@ -329,41 +321,3 @@ def test_speeds_of_4_9_and_admissibility_of_proposition_4_1():
         assert low.radial_speed == pytest.approx((-g - root) / square, rel=1e-12)
         assert high.radial_speed == pytest.approx((-g + root) / square, rel=1e-12)
         assert low.radial_speed < 0.0 < high.radial_speed
-
-
-def test_condition_5_4():
-    """The period of the orbits that shrink into the boundary equilibrium solves ``1 + (1 + d)Re((1 + iμ)a₂₂) = 0``."""
-    parameters = PAPER.replace(gamma=boundary_damping())
-    orbit = orbits_at(parameters.gamma + 1e-9)["B1,a"]
-    a22 = np.linalg.inv(expm(-flight_matrix(parameters) * orbit.period) - np.eye(2))[1, 1]
-    change = (1.0 + PAPER.d) * (complex(1.0, PAPER.mu) * a22).real
-    assert 1.0 + change == pytest.approx(0.0, abs=1e-7)
-    assert 1.0 - change == pytest.approx(2.0, abs=1e-7)
-
-
-def test_normal_impulse_of_2_5():
-    """The normal impulse is ``m(1 + d)ṙ⁻``: the momentum that the rotor loses, in N s."""
-    scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-    rotor = jeffcott(PAPER.replace(scales=scales))
-    motion = simulate(rotor, State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
-    impulses = motion.contacts.to_dataset()["normal_impulse"]
-    assert impulses.units == "N s"
-    assert len(impulses) > 5
-    times = motion.contacts.time
-    step = 1e-7
-    # Radial velocities in m/s from positions in m and times in s.
-    seconds = step / scales.speed
-    after = scales.clearance * (motion.radius(times + step) - 1.0) / seconds
-    before = scales.clearance * (1.0 - motion.radius(times - step)) / seconds
-    np.testing.assert_allclose(impulses, scales.mass * (before - after), rtol=1e-5)
-
-
-def test_slip_of_2_3():
-    """The slip velocity is ``RΩ + c_r Θ̇`` with the angular velocity in the fixed frame: ``s + 1 + θ̇`` in the co-rotating one."""
-    motion = simulate(jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
-    contacts = motion.contacts
-    step = 1e-7
-    ends = [motion.position(contacts.time - share * step, frame="fixed") for share in (2.0, 1.0)]
-    fixed_angular_speed = np.angle(ends[1] / ends[0]) / step
-    np.testing.assert_allclose(contacts.slip_before, PAPER.radius_ratio + fixed_angular_speed, rtol=1e-6)
-    assert np.abs(contacts.slip_before - (PAPER.radius_ratio + contacts.angular_speed)).min() > 0.9

@@ -7,14 +7,12 @@ import pytest
 from flexible_machines import munich
 
 import carom as cm
-from carom.disturbances.echo import echo_of_drop
 from carom.models import rotor_of
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull
 from carom.outcome import InputError, Outcome
 from carom.rotors import Support
-from carom.studies import DropStudy
 
 pytestmark = pytest.mark.jit_only
 
@@ -53,15 +51,6 @@ def test_a_motion_stops_where_it_is_beyond_the_model(tmp_path):
     assert before.outcome is Outcome.TIME_REACHED
     # Both take other steps; what the motion makes of their rounding stays below this.
     assert abs(before.at(until)[0] - motion.at(until)[0]) < 1e-6
-
-
-def test_it_is_told_since_when(tmp_path):
-    case = machine(tmp_path)
-    motion = cm.simulate(case, cm.drop())
-    said = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
-    headline = DropStudy(case, said, drop_loads(motion)).headline
-    assert headline.startswith("Beyond the model since ")
-    assert "more than one clearance deep in a touchdown bearing" in headline
 
 
 def test_a_map_ends_a_start_as_one_motion_does(tmp_path):
