@@ -9,7 +9,7 @@ from linear_rotors import random_rotor, tilting, to_fixed, touchdowns
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import from_matrices
-from carom.motions import touchdown_loads
+from carom.motions import drop_loads
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -114,7 +114,7 @@ def test_loads_of_all_planes_are_what_the_ledger_says():
     for _ in range(sized(8, 3, 100)):
         motion = at_random(random)
         ledger, planes = energy_ledger(motion), range(len(motion.rotor.planes))
-        loads = [touchdown_loads(motion.seen_at(plane)) for plane in planes]
+        loads = [drop_loads(motion).planes[plane] for plane in planes]
         lost = sum(each.heat + each.restitution_loss for each in loads)
         assert lost == pytest.approx(-(ledger.impacts[-1] + ledger.friction[-1]), rel=1e-9)
         assert ledger.imbalance < 1e-9

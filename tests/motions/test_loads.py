@@ -16,7 +16,7 @@ from yielding_walls import with_walls
 import carom as cm
 from carom.closed_forms import rolling
 from carom.models import HuntCrossley, KelvinVoigt
-from carom.motions import energy_ledger, touchdown_loads
+from carom.motions import drop_loads, energy_ledger
 from carom.outcome import Outcome
 from carom.parameters import Parameters, Scales
 
@@ -42,7 +42,7 @@ def test_heat_is_that_of_the_ledger():
             cmath.rect(0.9 * math.sqrt(random.uniform()), random.uniform(0, 6.3)), complex(*random.normal(size=2))
         )
         motion = cm.simulate(random_parameters(random), start, 40.0)
-        loads, ledger = touchdown_loads(motion), energy_ledger(motion)
+        loads, ledger = drop_loads(motion).planes[0], energy_ledger(motion)
         lost = -(ledger.impacts[-1] + ledger.friction[-1])
         assert loads.heat + loads.restitution_loss == pytest.approx(lost, rel=1e-10, abs=1e-12)
         assert loads.heat >= 0.0
@@ -84,7 +84,7 @@ def test_sliding_against_an_independent_integration():
         tried += 1
         place = cmath.rect(1.0, angle + at.phi)
         motion = cm.simulate(at, cm.State(place, 1j * (whirl - 1.0) * place), time)
-        loads = touchdown_loads(motion)
+        loads = drop_loads(motion).planes[0]
         assert loads.contact_time == pytest.approx(time)
         assert loads.heat == pytest.approx(heat[-1], rel=1e-7)
         # A smooth maximum between two nodes is missed by less than a thousandth.
@@ -103,7 +103,7 @@ def test_heat_of_impacts_by_the_law_in_polar_form():
     for radial, angular in zip(log.radial_speed, log.angular_speed, strict=True):
         taken = min(PAPER.mu * (1.0 + PAPER.d) * radial, abs(slip + angular)) * math.copysign(1.0, slip + angular)
         heat += taken * (slip + angular - 0.5 * taken)
-    loads = touchdown_loads(motion)
+    loads = drop_loads(motion).planes[0]
     assert loads.heat == pytest.approx(heat, rel=1e-12)
     assert loads.impulse == pytest.approx((1.0 + PAPER.d) * log.radial_speed.max(), rel=1e-12)
     assert loads.restitution_loss == pytest.approx(0.5 * (1.0 - PAPER.d**2) * (log.radial_speed**2).sum(), rel=1e-9)
@@ -113,28 +113,30 @@ def test_heat_of_impacts_by_the_law_in_polar_form():
 
 def test_motions_that_go_on():
     machine = cm.load("examples/keogh-cole.toml")
-    rub = touchdown_loads(cm.simulate(machine, cm.kick(0.1, 2.0), settle=True))
+    rub = drop_loads(cm.simulate(machine, cm.kick(0.1, 2.0), settle=True)).planes[0]
     (equilibrium,) = [one for one in cm.find_equilibria(machine) if one.kind == "rub" and one.stable]
     at = machine.parameters
     assert rub.outcome is Outcome.FORWARD_RUB
     assert rub.lasting_power == pytest.approx(at.mu * equilibrium.normal_force * (at.radius_ratio + 1.0), rel=1e-6)
     assert rub.goes_on
     assert not rub.goes_on_bouncing
-    bouncing = touchdown_loads(cm.simulate(machine, cm.kick("50 mm/s"), settle=True))
+    bouncing = drop_loads(cm.simulate(machine, cm.kick("50 mm/s"), settle=True)).planes[0]
     orbit = cm.find_orbits(machine)["B1,d"]
     taken = at.mu * (1.0 + at.d) * orbit.radial_speed
     power = taken * (at.radius_ratio + 1.0 + orbit.angular_speed - 0.5 * taken) / orbit.period
     assert bouncing.goes_on_bouncing
     assert bouncing.lasting_power == pytest.approx(power, rel=1e-6)
     place = cmath.rect(1.0, 0.3)
-    roll = touchdown_loads(cm.simulate(machine, cm.State(place, -1j * (1.0 + at.radius_ratio) * place), settle=True))
+    roll = drop_loads(cm.simulate(machine, cm.State(place, -1j * (1.0 + at.radius_ratio) * place), settle=True)).planes[
+        0
+    ]
     assert roll.outcome is Outcome.ROLLING
     assert roll.force == rolling(machine).largest_force
     assert roll.lasting_power == pytest.approx(0.0, abs=1e-9)
 
 
 def test_no_contact_no_load():
-    loads = touchdown_loads(cm.simulate(PAPER, cm.kick(1e-3), 10.0))
+    loads = drop_loads(cm.simulate(PAPER, cm.kick(1e-3), 10.0)).planes[0]
     assert (loads.contacts, loads.impulse, loads.force, loads.power, loads.heat) == (0, 0.0, 0.0, 0.0, 0.0)
     assert loads.si() is None
 
@@ -142,7 +144,7 @@ def test_no_contact_no_load():
 def test_si():
     scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     machine = Parameters(**PAPER.as_dict(), scales=scales)
-    loads = touchdown_loads(cm.simulate(machine, cm.State(0.2, 0.6 + 0.2j), 30.0))
+    loads = drop_loads(cm.simulate(machine, cm.State(0.2, 0.6 + 0.2j), 30.0)).planes[0]
     si = loads.si()
     assert si["impulse"] == pytest.approx(loads.impulse * 50.0 * 0.7e-3 * 184.2)
     assert si["heat"] == pytest.approx(loads.heat * 50.0 * (0.7e-3 * 184.2) ** 2)
@@ -153,7 +155,7 @@ def test_si():
 def test_any_linear_rotor():
     machine = tilting()
     motion = cm.simulate(machine.model, cm.kick(1.5), 60.0)
-    loads, ledger = touchdown_loads(motion), energy_ledger(motion)
+    loads, ledger = drop_loads(motion).planes[0], energy_ledger(motion)
     assert loads.contacts == len(motion.contacts)
     assert loads.heat > 0.0
     assert np.isfinite(ledger.friction[-1])
@@ -164,7 +166,7 @@ def test_any_linear_rotor():
 def test_walls_that_give_way(law):
     """Against the contacts and the ledger; a stiff wall bears nearly the impulses and heat of the rigid one."""
     motion = cm.simulate(with_walls(single(1), law), cm.State(0.2 + 0.1j, 1.0), 20.0)
-    loads, touches, ledger = touchdown_loads(motion), motion.touches, energy_ledger(motion)
+    loads, touches, ledger = drop_loads(motion).planes[0], motion.touches, energy_ledger(motion)
     assert loads.contacts == len(touches) > 5
     assert loads.impulse == touches.normal_impulse.max()
     assert loads.force == pytest.approx(motion.forces(touches.peak_time)[0].max(), rel=1e-9)
@@ -184,11 +186,11 @@ def test_the_rigid_limit():
     damped, rotor = 0.0164982, single(1, restitution=0.95)
     (mass,) = rotor.felt
     start = cm.State(0.2 + 0.1j, 1.0)
-    rigid = touchdown_loads(cm.simulate(rotor.model, start, 1.2))
+    rigid = drop_loads(cm.simulate(rotor.model, start, 1.2)).planes[0]
     errors = []
     for stiffness in (1e6, 1e8):
         law = KelvinVoigt(stiffness, 2.0 * damped * math.sqrt(stiffness * mass))
-        loads = touchdown_loads(cm.simulate(with_walls(rotor, law), start, 1.2))
+        loads = drop_loads(cm.simulate(with_walls(rotor, law), start, 1.2)).planes[0]
         assert loads.contacts == rigid.contacts == 1
         errors.append(
             [abs(getattr(loads, name) / getattr(rigid, name) - 1.0) for name in ("impulse", "heat", "restitution_loss")]

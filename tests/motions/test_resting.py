@@ -14,7 +14,7 @@ import pytest
 import carom as cm
 from carom.core.fate import memory
 from carom.models import Force, jeffcott
-from carom.motions import touchdown_loads
+from carom.motions import drop_loads
 from carom.motions.resting import lies
 from carom.outcome import Outcome, Phase
 
@@ -81,7 +81,7 @@ def test_a_rotor_on_a_race_that_has_come_up_to_its_speed_rests_too():
     motion = cm.simulate(cm.load("examples/touchdown-balls.toml", ["touchdown_dissipation=20 s/m"]), cm.drop())
     assert motion.segment_phases[-1, 0] == Phase.ROLLING
     assert motion.outcome is Outcome.AT_REST
-    assert touchdown_loads(motion).lasting_power == 0.0
+    assert drop_loads(motion).planes[0].lasting_power == 0.0
 
 
 def test_many_drops_end_at_rest_like_one():

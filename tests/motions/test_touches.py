@@ -13,7 +13,7 @@ from yielding_walls import SUMS, contacts_of, free_mass, with_walls
 
 from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL, POWER
 from carom.models import HuntCrossley, KelvinVoigt
-from carom.motions import State, energy_ledger, simulate, touchdown_loads
+from carom.motions import State, drop_loads, energy_ledger, simulate
 from carom.motions.contacts import presses, slip_velocity
 from carom.motions.ledger import NODES, WEIGHTS
 from carom.motions.touches import contact_works
@@ -142,7 +142,7 @@ def test_a_contact_that_goes_on():
     """Pressed into the wall by the unbalance until the end: not left, and its impulse is no impact's."""
     rotor = single(1, friction=0.15, radius_ratio=20.0, forcing=np.array([1.5]))
     motion = simulate(with_walls(rotor, KelvinVoigt(1e3, 20.0)), State(0.5 + 0j, 0j), 30.0)
-    touches, loads = motion.touches, touchdown_loads(motion)
+    touches, loads = motion.touches, drop_loads(motion).planes[0]
     assert touches.lasts[-1]
     assert not touches.lasts[:-1].any()
     assert touches.end[-1] == motion.time
@@ -164,7 +164,7 @@ def test_rigid_walls_have_no_such_contacts():
     assert motion.is_impact.any()
     assert len(motion.touches) == 0
     assert len(motion.touches) == 0
-    assert touchdown_loads(motion).depth == 0.0
+    assert drop_loads(motion).planes[0].depth == 0.0
 
 
 def test_in_si():
@@ -176,7 +176,7 @@ def test_in_si():
     assert table["deepest"].values == pytest.approx(touches.deepest * 0.7e-3)
     assert table["start"].values == pytest.approx(touches.start / 184.2)
     assert table["phase"].attrs["flag_meanings"].split()[int(table["phase"][0])] == "forward_slip"
-    assert touchdown_loads(motion).si()["depth"] == pytest.approx(0.7e-3 * touches.deepest.max())
+    assert drop_loads(motion).planes[0].si()["depth"] == pytest.approx(0.7e-3 * touches.deepest.max())
 
 
 @pytest.mark.parametrize("law", [None, KelvinVoigt(300.0, 8.0), HuntCrossley(300.0, 0.2, 1.5)])

@@ -8,7 +8,7 @@ import pytest
 
 import carom as cm
 from carom.models import rotor_of
-from carom.motions import drop_loads, touchdown_loads
+from carom.motions import drop_loads
 from carom.parameters import Case, LoadLimits, Required, Shock, Zones
 from carom.studies import check_loads
 from carom.studies.full_size import all_round, at_full_size
@@ -22,7 +22,7 @@ def motion(start):
 
 
 def test_each_limit_is_compared_with_its_load():
-    loads = touchdown_loads(motion(cm.kick(0.1, 2.0)))
+    loads = drop_loads(motion(cm.kick(0.1, 2.0))).planes[0]
     checks = {check.name: check for check in check_loads(loads, ALL)}
     si = loads.si()
     assert list(checks) == ["impulse", "force", "power", "heat", "impacts"]
@@ -43,14 +43,14 @@ def test_each_limit_is_compared_with_its_load():
 
 def test_the_heat_of_a_rub_reaches_its_limit_when_it_is_said_to():
     start = cm.kick(0.1, 2.0)
-    (heat,) = check_loads(touchdown_loads(motion(start)), LoadLimits(heat="1 kJ"))
+    (heat,) = check_loads(drop_loads(motion(start)).planes[0], LoadLimits(heat="1 kJ"))
     time = motion(start).time + heat.after / MACHINE.parameters.scales.time
-    followed = touchdown_loads(cm.simulate(MACHINE, start, time))
+    followed = drop_loads(cm.simulate(MACHINE, start, time)).planes[0]
     assert followed.si()["heat"] == pytest.approx(1000.0, rel=1e-5)
 
 
 def test_bouncing_has_no_end_of_impacts():
-    loads = touchdown_loads(motion(cm.kick("50 mm/s")))
+    loads = drop_loads(motion(cm.kick("50 mm/s"))).planes[0]
     (impacts,) = check_loads(loads, LoadLimits(impacts=100_000))
     assert impacts.exceeded
     assert impacts.endless
@@ -59,7 +59,7 @@ def test_bouncing_has_no_end_of_impacts():
 
 def test_a_motion_that_comes_back_keeps_what_it_has_not_exceeded():
     quiet = MACHINE.replace(eccentricity="10 um", damping="3000 N s/m")
-    loads = touchdown_loads(cm.simulate(quiet, cm.kick("200 mm/s"), settle=True))
+    loads = drop_loads(cm.simulate(quiet, cm.kick("200 mm/s"), settle=True)).planes[0]
     assert loads.contacts > 0
     assert not loads.goes_on
     exact = LoadLimits(impacts=loads.contacts, impulse=loads.si()["impulse"] * (1.0 + 1e-9))
@@ -70,7 +70,7 @@ def test_a_motion_that_comes_back_keeps_what_it_has_not_exceeded():
 
 def test_nothing_is_compared_without_scales():
     case = cm.load("examples/source-paper.toml")
-    assert check_loads(touchdown_loads(cm.simulate(case, cm.kick(0.4), 20.0)), ALL) == ()
+    assert check_loads(drop_loads(cm.simulate(case, cm.kick(0.4), 20.0)).planes[0], ALL) == ()
 
 
 @pytest.mark.jit_only

@@ -16,7 +16,7 @@ from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
 from carom.cli.tables import TEXT_WIDTH, complex_words
-from carom.motions import TouchLog, Trajectory, drop_loads, touchdown_loads
+from carom.motions import TouchLog, Trajectory, drop_loads
 from carom.motions.contacts import yields
 from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
@@ -153,7 +153,7 @@ def _end_words(motion: Trajectory) -> str:
 
 def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory) -> None:
     """Print the loads on the touchdown bearing, and the limits that are stated for it."""
-    loads = touchdown_loads(motion)
+    (loads,) = drop_loads(motion).planes
     if loads.force > 0.0:
         power = f"friction power up to {say.power(loads.power)}"
         console.print(f"Lasting contact: normal force up to {say.force(loads.force)}, {power}.")

@@ -27,7 +27,7 @@ from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
-from carom.motions.load_sums import drop_loads, follow_loads, touchdown_loads
+from carom.motions.load_sums import drop_loads, follow_loads
 from carom.motions.loads import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
@@ -59,5 +59,4 @@ __all__ = [
     "kick",
     "settle",
     "simulate",
-    "touchdown_loads",
 ]

@@ -73,7 +73,9 @@ def follow_loads(
 def drop_loads(motion: Trajectory) -> DropLoads:
     """Evaluate a drop, or any other touchdown, over all its stages and at all contact planes.
 
-    A contact that goes on from one stage into the next counts once.
+    A contact that goes on from one stage into the next counts once.  Friction does the work ``F v`` on the contact point, which slips with
+    ``v = s + 1 + θ̇``; in an impact the work is that of the impulse on the mean of the slip velocities before and after.  Loads on a wall that
+    gives way are those of :attr:`Trajectory.touches`.
 
     Parameters
     ----------
@@ -97,16 +99,6 @@ def drop_loads(motion: Trajectory) -> DropLoads:
     1318 N after 6.0 ms
     """
     return _added(motion.parts)
-
-
-@checked
-def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
-    """Evaluate the loads of a motion, or of its last stage, at its contact plane.
-
-    Friction does the work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``; in an impact the work is that of the
-    impulse on the mean of the slip velocities before and after.  Loads on a wall that gives way are those of :attr:`Trajectory.touches`.
-    """
-    return _added([trajectory]).planes[trajectory.plane]
 
 
 def _added(pieces: Iterable[Trajectory]) -> DropLoads:

@@ -1,4 +1,4 @@
-"""Motions as datasets: their course at chosen times for people, and their segments in a file, exact to the last bit."""
+"""Motions in files: their segments, exact to the last bit."""
 
 from __future__ import annotations
 
@@ -34,17 +34,6 @@ ATTRIBUTES = {"segment_starts": {"units": "1/Omega"}, "segment_phases": phase_fl
 NUMBERS = {"time": float, "multiplicity": int, "plane": int, "begins": float}
 
 
-def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> xarray.Dataset:
-    """Course of a motion: position, velocity, phase and contact forces at given times.
-
-    Times are in ``1/Ω``, by default those of :meth:`Trajectory.sample`.  The dataset is in SI units where the scales are known,
-    in the co-rotating frame, and describes the first contact plane.
-    """
-    times = motion.sample() if times is None else np.asarray(times, float)
-    dataset = motion.history(times).to_dataset()
-    return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion), begins=motion.begins)
-
-
 def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
     """Write a motion as netCDF, completely or not at all, so that :func:`load_trajectory` gives the same motion.
 
@@ -61,7 +50,7 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
             if name in COMPLEX:  # netCDF has no complex numbers
                 values, own = np.stack([values.real, values.imag], axis=-1), [*own, "part"]
             columns[f"{name}{mark}"] = own, values, ATTRIBUTES.get(name, {})
-        told = _provenance(part) | {name: getattr(part, name) for name in NUMBERS}
+        told = provenance(part) | {name: getattr(part, name) for name in NUMBERS}
         told |= {name: json.dumps(_numbers(getattr(part, name))) for name in ("start", "final")}
         attributes |= {f"{name}{mark}": value for name, value in told.items()}
     netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
@@ -94,7 +83,8 @@ def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
     )
 
 
-def _provenance(motion: Trajectory) -> dict[str, Any]:
+def provenance(motion: Trajectory) -> dict[str, Any]:
+    """Where a dataset of a motion comes from, and how it ended."""
     return {
         "Conventions": "CF-1.11",
         "title": "Motion of a rotor inside its touchdown bearing",

@@ -314,12 +314,16 @@ class Trajectory(Result):
 
     @checked
     def to_dataset(self, times: Reals | None = None) -> xarray.Dataset:
-        """Course of the motion at given times; see :func:`~carom.motions.storage.trajectory_dataset`."""
-        from carom.motions.storage import trajectory_dataset
+        """Course of the motion: places, velocities, phases and contact forces at given times, by default those of :meth:`sample`.
+
+        It is in SI units where the scales are known, in the co-rotating frame, and describes the contact plane.
+        """
+        from carom.motions.storage import provenance
 
         if times is not None and np.ndim(times) != 1:
             raise InputError("times", np.shape(times), "times in one dimension")
-        return trajectory_dataset(self, times)
+        course = self.history(times).to_dataset()
+        return course.assign_coords(time=course["time"]).assign_attrs(provenance(self), begins=self.begins)
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:
