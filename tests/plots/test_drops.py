@@ -50,9 +50,9 @@ def test_the_orbit_and_how_deep_it_goes(soft):
 
 def test_force_slip_and_race_over_time(soft):
     (plane,) = drop_loads(soft).planes
-    figure = plots.drop_loads(soft)
+    figure = plots.touchdown(soft)
     gap, force, speed = figure.axes
-    drawn = line(force, "force")
+    drawn = line(force, "normal force")
     assert drawn.get_ydata().max() == pytest.approx(plane.si()["force"], rel=1e-12)
     peak = drawn.get_xdata()[drawn.get_ydata().argmax()]
     assert peak == pytest.approx(1e3 * plane.force_at * soft.rotor.scales.time, rel=1e-9)
@@ -65,7 +65,7 @@ def test_force_slip_and_race_over_time(soft):
 
 def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole(rigid):
     (plane,) = drop_loads(rigid).planes
-    figure = plots.drop_loads(rigid)
+    figure = plots.touchdown(rigid)
     beside = [axes for axes in figure.axes if axes.get_ylabel().startswith("impulse")]
     dots = beside[-1].lines[0].get_ydata()
     assert dots.max() == pytest.approx(plane.si()["impulse"], rel=1e-12)
@@ -87,10 +87,10 @@ def test_a_whirl_over_the_top_is_drawn_without_lines_across():
 
 def test_the_first_contacts_have_a_column_of_their_own(soft):
     long = cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(), "700 ms")
-    figure = plots.drop_loads(long)
+    figure = plots.touchdown(long)
     first, whole = figure.axes[0], figure.axes[1]
     assert first.get_title() == "the first contacts"
-    assert whole.get_title() == "the whole drop"
+    assert whole.get_title() == "the whole motion"
     assert first.get_xlim()[1] < 0.25 * whole.get_xlim()[1]
     assert plots.drop_orbit(long).axes[0].get_title() == "fixed frame, the first 30 contacts"
 
@@ -98,7 +98,7 @@ def test_the_first_contacts_have_a_column_of_their_own(soft):
 def test_in_units_of_the_equations():
     rotor = cm.models.jeffcott(cm.parameters.Parameters(0.1, 0.76, 0.4, 0.0, 0.15, 0.5, 50.0))
     motion = cm.simulate(rotor, cm.kick(0.5), 20.0)
-    assert "c_" in plots.drop_loads(motion).axes[0].get_ylabel()
+    assert "c_" in plots.touchdown(motion).axes[0].get_ylabel()
     assert "c_" in plots.drop_orbit(motion).axes[1].get_ylabel()
 
 
@@ -106,4 +106,4 @@ def test_nothing_followed_cannot_be_drawn():
     nothing = cm.simulate(cm.load("examples/keogh-cole.toml"), cm.kick(1e-6))
     assert nothing.time == 0.0  # known at once
     with pytest.raises(InputError, match="motion = no time followed"):
-        plots.drop_loads(nothing)
+        plots.touchdown(nothing)

@@ -127,7 +127,8 @@ def _write(
                 title = f"{contacts_in_words(shown)} \N{EM DASH} {ends}" if ends else None
                 output.figure(f"motion{mark}", plots.motion(shown, title=title))
                 touched = len(shown.contacts) or shown.lasting_contacts
-                over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
+                ledger = None if shown.begins else energy_ledger(shown)  # of one stage
+                over_time = plots.touchdown(shown, ledger) if touched else plots.radius(shown, case.zones)
                 output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)
         output.document("simulation", document)
 

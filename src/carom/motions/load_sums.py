@@ -87,7 +87,7 @@ def drop_loads(motion: Trajectory) -> DropLoads:
     carom.motions.follow_loads : the same of a motion that is not recorded
     carom.drop : levitation lost
     carom.studies.check_loads : compare the ``loads`` of a plane with the limits of the bearing
-    carom.plots.drop_orbit, carom.plots.drop_loads : draw it
+    carom.plots.drop_orbit, carom.plots.touchdown : draw it
 
     Examples
     --------

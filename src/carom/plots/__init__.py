@@ -6,10 +6,10 @@ does not change the user's settings or backend.  :mod:`carom.plots.style` explai
 Where a function has the argument `axes`, it draws into these axes of the user; by default it makes a new figure.  A new
 figure is 180 mm wide (two columns of a page) unless its function says otherwise.  What is drawn is in
 the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units, and otherwise in those of the equations.
-Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
+Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``shapes`` and ``conditions``; along
+Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``shapes`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
 ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells`` (the looks of motions), ``maps`` (a number over two
@@ -21,13 +21,13 @@ from __future__ import annotations
 from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin, basin_pair
 from carom.plots.conditions import period_condition
+from carom.plots.courses import energies, forces, radius, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.drop_maps import drop_map
-from carom.plots.drops import drop_loads, drop_orbit
+from carom.plots.drops import drop_orbit
 from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
-from carom.plots.histories import radius
 from carom.plots.kick_proofs import proven_kicks
 from carom.plots.levitation import campbell, sensitivity
 from carom.plots.motions import motion, orbit
@@ -39,7 +39,6 @@ from carom.plots.sheet import applied
 from carom.plots.spectra import multipliers
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
 from carom.plots.sweeps import sweep_map
-from carom.plots.touchdowns import energies, forces, regimes, touchdown
 
 __all__ = [
     "LOOKS",
@@ -53,7 +52,6 @@ __all__ = [
     "basin_pair",
     "bifurcation_diagram",
     "campbell",
-    "drop_loads",
     "drop_map",
     "drop_orbit",
     "energies",
@@ -71,7 +69,6 @@ __all__ = [
     "period_condition",
     "proven_kicks",
     "radius",
-    "regimes",
     "region_map",
     "save",
     "sensitivity",

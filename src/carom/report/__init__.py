@@ -6,7 +6,6 @@
 ``page``            the HTML page of a study
 ``drop``            the HTML page of a drop
 ``film``            a drop in slow motion on it
-``strips``          the curves beside the film
 ``figure_files``    figures drawn into files, and embedded in a page
 ``html``            what pages share
 ==================  ============================================================

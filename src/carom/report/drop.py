@@ -9,6 +9,7 @@ from carom.arguments import checked
 from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES
 from carom.motions import Trajectory
+from carom.motions.courses import shown_until
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.film import Film, film_of, film_script
 from carom.report.html import InlineFigure, inline_figure, page_template, versions
@@ -20,8 +21,8 @@ _ORBIT = (
     "The orbit of the rotor centre in the fixed frame, and close to the wall: its gap over the angle from the direction of the fall. "
     "The arrow shows the weight."
 )
-_SOFT = "Gap to the wall (depth where it is negative), normal force, slip of the contact and speed of the surface of the race."
-_RIGID = "Gap to the wall, force of lasting contact with the impulse of each impact, and slip of the contact."
+_SOFT = "Distance from the centre, forces of the contact, its slip and the speed of the surface of the race."
+_RIGID = "Distance from the centre, forces of lasting contact with the impulse of each impact, and slip of the contact."
 _WALLS = {
     True: "The pressure of balls, if it is told, is that of Hertz under the peak force, of which the most loaded ball bears 5/Z (Stribeck).",
     False: "The wall is rigid: an impact has an impulse and no duration, so no peak force can be told.",
@@ -58,7 +59,7 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
             seen, mark = motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
             which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
             films.append((f"film{plane.plane}-", film_of(seen)))
-            orbit, loads = plots.drop_orbit(seen), plots.drop_loads(seen)
+            orbit, loads = plots.drop_orbit(seen), plots.touchdown(seen, until=shown_until(seen))
             captions = {"orbit": (orbit, _ORBIT), "loads": (loads, _SOFT if plane.gives_way else _RIGID)}
             for name, (figure, caption) in captions.items():
                 paths = plots.save(figure, place / FIGURES / f"drop-{name}{mark}")

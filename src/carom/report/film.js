@@ -1,14 +1,14 @@
-// Plays the films of drops on the page: the rotor in its bearing in slow motion, with a cursor in the curves beside it.
+// Plays the films of drops on the page: the rotor in its bearing in slow motion, with its readings.
 //
-// A film is a figure with the picture of one instant, drawn without this script, and its samples as JSON.
+// A film is a figure, hidden without this script, with its samples as JSON.
 "use strict";
 
 const playFilm = (figure) => {
   const film = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
   const one = (chosen) => figure.querySelector(chosen), all = (chosen) => [...figure.querySelectorAll(chosen)];
-  const [rotor, clearance, arrow, width] = film.sizes, [ofTime, ofLength, ofForce, ofSpeed, ofImpulse] = film.units;
+  const [rotor, clearance, arrow] = film.sizes, [ofTime, ofLength, ofForce, ofSpeed, ofImpulse] = film.units;
   const still = matchMedia("(prefers-reduced-motion: reduce)"), end = film.t[film.t.length - 1], flash = 0.03 * film.turn;
-  const [play, slider, pace, springs, curves] = [".play", ".time", ".pace", ".springs", ".strips svg"].map(one);
+  const [play, slider, pace, springs] = [".play", ".time", ".pace", ".springs"].map(one);
   const readings = Object.fromEntries(all("[data-reading]").map((place) => [place.dataset.reading, place]));
   const parts = { ring: all(".ring, .overlap"), turning: one(".turning"), shaft: one(".shaft"), race: one(".race"), balls: one(".balls") };
   let now = film.t[film.poster], running = false, untouched = true, last = 0, waiting = 0;
@@ -60,7 +60,6 @@ const playFilm = (figure) => {
     one(".trail").setAttribute("d", `${trail(here[0])}${cx} ${-cy}`);
     one(".arrow.normal").setAttribute("d", line(tx, ty, -arrow * n * ex, -arrow * n * ey));
     one(".arrow.friction").setAttribute("d", line(tx, ty, -arrow * f * ey, arrow * f * ex));
-    one(".cursor").setAttribute("transform", `translate(${(width * now) / end} 0)`);
     tell(here, radius, blow);
   };
 
@@ -110,20 +109,13 @@ const playFilm = (figure) => {
   play.addEventListener("click", () => (running ? halt() : begin()));
   slider.addEventListener("input", () => { halt(); show((end * slider.value) / slider.max); });
   all(".step").forEach((button) => button.addEventListener("click", () => { halt(); toContact(+button.dataset.step); }));
-  const point = (event) => {
-    const inside = new DOMPoint(event.clientX, event.clientY).matrixTransform(curves.getScreenCTM().inverse());
-    halt();
-    show((end * inside.x) / width);
-  };
-  curves.addEventListener("pointerdown", (event) => { curves.setPointerCapture(event.pointerId); point(event); });
-  curves.addEventListener("pointermove", (event) => { if (event.buttons) point(event); });
   figure.addEventListener("keydown", (event) => {
     if (event.key !== " " || /^(BUTTON|SELECT)$/.test(event.target.tagName)) return;
     event.preventDefault();
     play.click();
   });
 
-  one(".cursor").setAttribute("d", "M0 0v112m0 40v112m0 40v112");
+  figure.hidden = false;
   all("[hidden]").forEach((part) => { part.hidden = false; });
   draw();
 };

@@ -1,21 +1,21 @@
-"""A drop in slow motion: what the film on the page shows, with its picture at one instant for those who do not play it."""
+"""A drop in slow motion: what the film on the page shows."""
 
 from __future__ import annotations
 
-import cmath
 import json
 import math
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
 
 from carom.motions import Trajectory
 from carom.motions.courses import FOLLOWED, Blows, Course, course_of, first_contacts, shown_until
-from carom.report.strips import WIDTH, Strip, Units, strips_of
+from carom.parameters import Scales
+from carom.parameters.told import shown_in
 from carom.studies.wording import Wording
 
 TURNS = 40.0
@@ -26,21 +26,28 @@ FEWEST, MOST = 1200, 4000
 """Samples of a film; what would take more is filmed for a shorter time."""
 SLOWER = (10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 """How many times slower than the machine a film can be played."""
-ROTOR, CLEARANCE, RING, HOUSING, ARROW = 112.0, 60.0, 20.0, 26.0, 84.0
+ROTOR, CLEARANCE, RING, HOUSING, ARROW = SIZES = 112.0, 60.0, 20.0, 26.0, 84.0
 """Radius of the drawn rotor, the drawn clearance, the thickness of race and housing, and the longest arrow, in units of the picture."""
 
 
-class Still(NamedTuple):
-    """Places, angles in degrees and paths of one instant, as scalable graphics have them: y grows downward."""
+class Units(NamedTuple):
+    """Units of a film: by what to multiply, and the unit."""
 
-    rotor: complex
-    ring: complex
-    shaft: float
-    race: float
-    normal: str
-    friction: str
-    trail: str
-    cursor: float
+    time: tuple[float, str]
+    length: tuple[float, str]
+    force: tuple[float, str]
+    speed: tuple[float, str]
+    impulse: tuple[float, str]
+
+    @classmethod
+    def of(cls, scales: Scales | None) -> Units:
+        """Those of machines: ms, µm, N, m/s; without scales those of the equations."""
+        time, length, force, speed, impulse = (
+            shown_in(kind, scales) for kind in ("time", "length", "force", "velocity", "impulse")
+        )
+        if scales is not None:
+            length, speed = (1e3 * length[0], "µm"), (scales.velocity, "m/s")
+        return cls(time, length, force, speed, impulse)
 
 
 @dataclass(frozen=True)
@@ -74,37 +81,14 @@ class Film:
             return int(course.force.argmax())
         return int(np.searchsorted(course.times, course.blows.times[course.blows.impulses.argmax()]))
 
-    @property
-    def strips(self) -> tuple[Strip, ...]:
-        """Gap, forces and speeds over time."""
-        return strips_of(self.course, self.units)
-
-    @property
-    def rotor(self) -> float:
-        """Radius of the drawn rotor."""
-        return ROTOR
-
-    @property
-    def inner(self) -> float:
-        """Radius of the drawn wall."""
-        return ROTOR + CLEARANCE
-
-    @property
-    def outer(self) -> float:
-        """Radius of the drawn race on the outside."""
-        return self.inner + RING
-
-    @property
-    def housing(self) -> float:
-        """Radius of the drawn housing."""
-        return self.outer + HOUSING
+    sizes: ClassVar[tuple[float, ...]] = SIZES
 
     @property
     def reach(self) -> float:
         """Half the side of the picture."""
         moved = 0.0 if self.course.mount is None else float(np.abs(self.course.mount).max())
         rim = 8.0 if self.course.mount is None else 26.0 + CLEARANCE * moved
-        return round(self.housing + rim, 1)
+        return round(ROTOR + CLEARANCE + RING + HOUSING + rim, 1)
 
     @property
     def slower(self) -> list[tuple[int, bool]]:
@@ -164,38 +148,6 @@ class Film:
         return f"Shown: {what}, {time:.4g} {self.units.time[1]} after the release."
 
     @property
-    def still(self) -> Still:
-        """The picture at that instant, as the script would draw it."""
-        course, at, y_down = self.course, self.poster, np.conj
-        mount = 0j if course.mount is None else complex(course.mount[at])
-        rotor, outward = mount + complex(course.place[at]), cmath.exp(1j * cmath.phase(complex(course.place[at])))
-        normal, friction = float(course.force[at]), float(course.friction[at])
-        if course.blows is None:
-            normal, friction = normal / self._largest(course.force), friction / self._largest(course.friction)
-        else:
-            hardest = course.blows.impulses.argmax() if len(course.blows.impulses) else None
-            normal = 0.0 if hardest is None else 1.0
-            friction = (
-                0.0
-                if hardest is None
-                else float(course.blows.frictions[hardest]) / self._largest(course.blows.frictions)
-            )
-        centre, touch = CLEARANCE * rotor, CLEARANCE * rotor + ROTOR * outward
-        recent = (course.times <= course.times[at]) & (course.times > course.times[at] - math.tau)
-        trail = CLEARANCE * (course.place if course.mount is None else course.place + course.mount)[recent]
-        race = self._race_angles
-        return Still(
-            rotor=y_down(centre),
-            ring=y_down(CLEARANCE * mount),
-            shaft=-math.degrees(float(course.heavy[at])),
-            race=0.0 if race is None else -math.degrees(float(race[at])),
-            normal=_line(touch, -ARROW * normal * outward),
-            friction=_line(touch, 1j * ARROW * friction * outward),
-            trail="".join(f"{'L' if number else 'M'}{z.real:.1f} {-z.imag:.1f}" for number, z in enumerate(trail)),
-            cursor=WIDTH * float(course.times[at] / course.times[-1]),
-        )
-
-    @property
     def _race_angles(self) -> np.ndarray | None:
         """Angle of the race, from zero at the release."""
         course = self.course
@@ -232,7 +184,7 @@ class Film:
             "largest": [units.force[0] * self._largest(each) for each in (course.force, course.friction)],
             "finer": units.length[0],
             "units": [unit for _, unit in (units.time, units.length, units.force, units.speed, units.impulse)],
-            "sizes": [ROTOR, CLEARANCE, ARROW, WIDTH],
+            "sizes": [ROTOR, CLEARANCE, ARROW],
             "seconds": 1e-3 if course.scales is not None else 1.0,
         }
         return Markup(json.dumps(entries, separators=(",", ":")).replace("<", "\\u003c"))
@@ -255,12 +207,6 @@ class Film:
     @staticmethod
     def _largest(values: np.ndarray) -> float:
         return float(np.abs(values).max(initial=0.0)) or 1.0
-
-
-def _line(start: complex, along: complex) -> str:
-    """Path of an arrow; empty if it has hardly any length."""
-    end = start + along
-    return f"M{start.real:.1f} {-start.imag:.1f}L{end.real:.1f} {-end.imag:.1f}" if abs(along) > 1.0 else ""
 
 
 def film_of(motion: Trajectory) -> Film:

@@ -1,11 +1,13 @@
-"""Radius over time."""
+"""Motions over time."""
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 import carom
 from carom import plots
+from carom.motions.ledger import energy_ledger
 
 
 def test_wall_line_and_impacts_upon_it(damped, bouncing, read):
@@ -23,14 +25,6 @@ def test_axes_are_in_the_units_of_the_machine(bouncing, damped):
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time $t$ (ms)", "radius $r$ (mm)")
     assert axes.get_xlim()[1] == pytest.approx(60.0 * damped.ms)
     assert axes.child_axes == []
-
-
-def test_without_scales_units_are_those_of_the_equations(damped):
-    parameters = damped.rotor.parameters.replace(scales=None)
-    motion = carom.simulate(carom.models.jeffcott(parameters), carom.kick(0.35), until=20.0)
-    (axes,) = plots.radius(motion).axes
-    assert axes.child_axes == []
-    assert axes.get_xlabel() == r"time $t$ ($1/\Omega$)"
 
 
 def test_near_the_wall_the_gap_is_told_in_micrometres(damped):
@@ -97,38 +91,6 @@ def test_motion_that_ends_at_its_start(damped, read):
     assert axes.get_ylim()[0] == 0.0
 
 
-@pytest.fixture(scope="module")
-def long(damped):
-    """Many bounces on B1,d after some irregular ones."""
-    return carom.simulate(damped.rotor, carom.kick(0.35, angle=0.2), until=600.0)
-
-
-@pytest.mark.jit_only
-def test_a_long_motion_is_an_envelope_and_its_last_turns(damped, long, read):
-    figure = plots.radius(long)
-    whole, last = figure.axes
-    assert read.lines(whole, "path") == []
-    (band,) = [entry for entry in whole.collections if entry.get_gid() == "envelope"]
-    corners = band.get_paths()[0].vertices
-    settled = corners[corners[:, 0] > 500.0 * damped.ms]
-    orbit = np.abs(damped.orbits["B1,d"].path(np.linspace(0.0, damped.orbits["B1,d"].period, 2001)))
-    assert settled[:, 1].min() == pytest.approx(damped.mm * orbit.min(), rel=2e-3)
-    assert settled[:, 1].max() == pytest.approx(0.7, rel=1e-6)
-    assert read.marked(whole, "forward") == read.marked(whole, "backward") == 0, "hundreds of marks would hide the wall"
-    (path,) = read.lines(last, "path")
-    assert last.get_xlim() == pytest.approx((damped.ms * (600.0 - 16.0 * np.pi), damped.ms * 600.0))
-    assert read.marked(last, "backward") == (long.contacts.time >= 600.0 - 16.0 * np.pi).sum()
-    assert np.nanmin(path.get_ydata()) == pytest.approx(damped.mm * orbit.min(), rel=2e-3)
-    assert "radius, from smallest to largest" in read.legend(figure)
-
-
-@pytest.mark.jit_only
-def test_a_settled_end_needs_no_panel_of_its_own(damped):
-    """A rub that follows many bounces shows nothing in its last turns."""
-    motion = carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=60.0)
-    assert len(plots.radius(motion).axes) == 1
-
-
 @pytest.mark.jit_only
 def test_long_motions_stay_small_files(damped, tmp_path):
     long = carom.simulate(damped.rotor, carom.kick(0.9, angle=0.2), until=60_000.0)
@@ -141,3 +103,60 @@ def test_own_axes(bouncing):
     axes = figure.subplots()
     assert plots.radius(bouncing, axes=axes) is figure
     assert axes.get_legend() is not None
+
+
+@pytest.fixture(scope="module")
+def rub(damped):
+    """A kick that ends in the stable rub."""
+    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=45.0)
+
+
+@pytest.fixture(scope="module")
+def ledger(rub):
+    return energy_ledger(rub)
+
+
+def _words(figure) -> str:
+    texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+    return " | ".join(texts)
+
+
+def test_forces_are_drawn_in_contact_only_and_in_newtons(rub, damped):
+    figure = plots.forces(rub)
+    line = next(line for line in figure.axes[0].lines if "normal force" in line.get_label())
+    times, values = line.get_data()
+    shown = np.isfinite(values)
+    assert times[shown].min() >= damped.ms * rub.lasting_contacts[0].start
+    normal, _ = rub.forces(times[shown] / damped.ms)
+    np.testing.assert_allclose(values[shown], normal * damped.scales.force)
+
+
+def test_energies_draw_every_account(ledger):
+    figure = plots.energies(ledger)
+    drawn = {line.get_label(): line.get_ydata() for line in figure.axes[0].lines}
+    np.testing.assert_allclose(drawn["work of the drive"], ledger.scales.energy * ledger.drive)
+    assert "(J)" in figure.axes[0].get_ylabel()
+    assert len([label for label in drawn if not label.startswith("_")]) == 6
+
+
+def test_user_settings_are_left_alone(rub, ledger):
+    before = dict(mpl.rcParams)
+    plots.touchdown(rub, ledger)
+    assert dict(mpl.rcParams) == before
+
+
+def test_touchdown_tells_forces_speeds_and_energies_in_words_and_units(rub, ledger, read):
+    figure = plots.touchdown(rub, ledger, title="kick")
+    words = read.legend(figure)
+    assert {"normal force", "slip of the contact", "work of the drive", "lasting contact, sliding"} <= set(words)
+    labels = " ".join(axes.get_ylabel() for axes in figure.axes)
+    for unit in ("(mm)", "(N)", "(N s)", "(m/s)", "(J)"):
+        assert unit in labels
+
+
+def test_forces_of_a_motion_without_lasting_contact_show_impulses_alone(bouncing, damped):
+    left, right = plots.forces(bouncing).axes
+    assert len(right.collections[0].get_segments()) == len(bouncing.contacts)
+    assert (list(left.get_yticks()), left.get_ylabel()) == ([], "no lasting contact")
+    (axes,) = plots.forces(carom.simulate(damped.rotor, carom.kick(0.01), until=5.0)).axes
+    assert axes.get_ylabel() == "no lasting contact"

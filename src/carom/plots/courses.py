@@ -1,0 +1,342 @@
+"""Motions over time: distance from the centre, contact forces and impulses, speeds of the contact, energies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.transforms import blended_transform_factory
+
+from carom.arguments import Count, Positive, checked
+from carom.outcome import Outcome
+from carom.plots.figure import StyledFigure, narrow
+from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
+from carom.plots.words import axis_label, axis_time, clearance, orbit_look, orbit_title, told_in
+
+if TYPE_CHECKING:
+    from carom.motions.courses import Blows, Course
+    from carom.motions.ledger import EnergyLedger
+    from carom.motions.trajectories import Trajectory
+    from carom.orbits.orbit import Orbit
+    from carom.parameters import Scales, Zones
+
+_PERIODS = 3
+_FIRST = 12
+"""Contacts shown in the left column, before the whole motion."""
+_SHORT = 0.25
+"""Length of the first contacts, over that of the motion, above which they need no column of their own."""
+_LARGE = 1e5
+"""Size in N and J from which kN and kJ are written."""
+_STICKS = 1e-6
+"""Slip [c_r Ω] below which a contact rolls."""
+_WIDE_RANGE = 50.0
+"""Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
+_MOST_MARKED = 300
+"""Number of impacts above which they are not marked."""
+RACE = Look("#009e73", "surface of the race", line="--", width=1.1)
+SLIP = Look("#d55e00", "slip of the contact", line="-", width=0.9)
+
+
+@checked
+@styled
+def radius(
+    motion: Trajectory | Orbit,
+    zones: Zones | None = None,
+    periods: Count = _PERIODS,
+    title: str | None = None,
+    *,
+    axes: Axes | None = None,
+) -> Figure:
+    """Draw the distance of the rotor centre from the bearing centre over time, with the wall and the impacts.
+
+    Near the wall a second axis of a machine in SI units shows the gap in micrometres.
+
+    Parameters
+    ----------
+    zones : carom.parameters.Zones, optional
+        Vibration zones A to D, drawn as bands behind the curve.
+    periods : int
+        Number of periods drawn of an orbit.
+    title : str, optional
+        Default: for an orbit its name and stability in words.
+    """
+    from carom.motions.trajectories import Trajectory
+
+    figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
+    if isinstance(motion, Trajectory):
+        if motion.begins + motion.time > 0.0:
+            _distance(drawn, motion, sampled(motion, motion.begins + motion.time))
+        else:
+            place = clearance(motion.scales) * np.abs(motion.at_plane(np.zeros(1))[0])
+            _curve(drawn, np.zeros(1), place, motion.scales, replace(LOOKS["path"], words="radius"))
+            point(drawn, complex(0.0, place[0]), "end", label=f"end: {motion.outcome.words}", clip=False)
+    else:
+        title = title or orbit_title(motion)
+        look, (times, position), (struck, speeds) = (
+            LOOKS[orbit_look(motion)],
+            orbit_path(motion, periods),
+            orbit_impacts(motion, periods),
+        )
+        unit = told_in("time", motion.scales)[0]
+        _curve(drawn, unit * times, np.abs(position), motion.scales, replace(look, words=f"radius ({look.words})"))
+        _impacts(drawn, unit * struck, speeds > -1.0, clearance(motion.scales))
+    if zones is not None:
+        drawn.set_ylim(bottom=0.0)
+        _zones(drawn, zones, clearance(motion.scales))
+    _gap_axis(drawn, motion.scales)
+    return finish(figure, drawn, axes, title, columns=5)
+
+
+@checked
+@styled
+def touchdown(
+    motion: Trajectory, ledger: EnergyLedger | None = None, title: str | None = None, *, until: Positive | None = None
+) -> Figure:
+    """Draw a motion with contact over time, with all its stages: distance, force, speeds of the contact, and energies if a ledger is given.
+
+    Of a long motion the first contacts are drawn at the left, and the whole at the right.  On a rigid wall the impulse of each impact is drawn
+    beside the force of lasting contact.
+
+    Parameters
+    ----------
+    until : float, optional
+        Draw it up to this time from its beginning, in ``1/Ω``; by default as far as it was followed.
+
+    Raises
+    ------
+    InputError
+        No time was followed.
+    """
+    from carom.motions.courses import first_contacts, shown_until
+
+    settled, whole = shown_until(motion), motion.begins + motion.time
+    end = whole if until is None else min(until, whole)
+    first = first_contacts(motion, _FIRST)
+    spans = [end] if first > _SHORT * end or narrow() else [first, end]
+    rows = 3 if ledger is None else 4
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * rows * TWO_COLUMNS))
+    grid = figure.subplots(rows, len(spans), sharex="col", squeeze=False)
+    for place, span in enumerate(spans):
+        panels, course = grid[:, place], sampled(motion, span)
+        _distance(panels[0], motion, course)
+        _force(panels[1], course, last=place == len(spans) - 1)
+        _speeds(panels[2], course)
+        if ledger is not None:
+            energies(ledger, axes=panels[3])
+        panels[-1].set(xlim=(0.0, float(course.times[-1])), xlabel=axis_time(course.scales))
+        for axes in panels:
+            axes.label_outer()
+            for begins in course.stages:
+                axes.axvline(begins, color="#7d6a4f", lw=0.8, ls=":", label="next stage", gid="stage")
+    for axes, letter in zip(grid.T.ravel(), "abcdefgh", strict=False):
+        axes.set_title(f"({letter})", loc="left", y=1.0)
+    if len(spans) > 1:
+        grid[0, 0].set_title("the first contacts", y=1.0)
+        rests = "until it rests or whirls" if end <= settled < whole else "as far as it is drawn"
+        grid[0, 1].set_title("the whole motion" if end == whole else rests, y=1.0)
+    if title:
+        figure.suptitle(title)
+    key(figure, grid.ravel().tolist(), columns=4)
+    return figure
+
+
+@checked
+@styled
+def forces(motion: Trajectory, *, axes: Axes | None = None) -> Figure:
+    """Draw the normal and friction force of contact over time, and on a rigid wall the impulse of each impact.
+
+    Forces are in N and impulses in N s (right axis) if the machine is known, otherwise in units of the equations.
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    course = sampled(motion, motion.begins + motion.time)
+    _force(drawn, course, last=True)
+    drawn.set(xlim=(0.0, float(course.times[-1])), xlabel=axis_time(course.scales))
+    if axes is None:
+        key(figure, [drawn], columns=4)
+    return figure
+
+
+@checked
+@styled
+def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
+    """Draw the energy of the rotor and the works that change it; circulatory ones, of weight and in a wall where there are any."""
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    scales = ledger.scales
+    largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
+    unit, short = _large(largest, "energy", scales)
+    times = told_in("time", scales)[0] * ledger.times
+    drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
+    for name, look in WORKS.items():
+        values = getattr(ledger, name)
+        if name not in ("circulatory", "forces", "wall_loss") or values.any():
+            drawn.plot(times, unit * values, **look.stroke, label=look.words)
+    drawn.set(xlim=(0.0, float(times[-1])), xlabel=axis_time(scales), ylabel=f"energy, work since the start ({short})")
+    if axes is None:
+        key(figure, [drawn], columns=3)
+    return figure
+
+
+def _large(largest: float, kind: str, scales: Scales | None) -> tuple[float, str]:
+    """Return the factor to a unit in which large numbers need no power of ten, and its name."""
+    unit, name = told_in(kind, scales)
+    return (1e-3 * unit, f"k{name}") if scales and unit * largest >= _LARGE else (unit, name)
+
+
+def sampled(motion: Trajectory, until: float) -> Course:
+    """Sample a motion in the units of figures; speeds in m/s."""
+    from carom.motions.courses import course_of
+
+    course = course_of(motion, until)
+    scales, blows = course.scales, course.blows
+    time, length, force, impulse = (told_in(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
+    speed = 1.0 if scales is None else scales.velocity
+    if blows is not None:
+        blows = blows._replace(
+            times=time * blows.times,
+            impulses=impulse * blows.impulses,
+            frictions=impulse * blows.frictions,
+            slips=speed * blows.slips,
+        )
+    return replace(
+        course,
+        times=time * course.times,
+        place=length * course.place,
+        mount=None if course.mount is None else length * course.mount,
+        force=force * course.force,
+        friction=force * course.friction,
+        slip=speed * course.slip,
+        race=None if course.race is None else speed * course.race,
+        blows=blows,
+        stages=tuple(time * each for each in course.stages),
+    )
+
+
+def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
+    """Draw the distance from the centre with the contacts, and why the motion ends."""
+    scales, distance = course.scales, np.abs(course.place)
+    _curve(axes, course.times, distance, scales, replace(LOOKS["path"], words="radius"), soft=course.blows is None)
+    rolls = course.slip <= _STICKS * (1.0 if scales is None else scales.velocity)
+    for meaning, those in (("slide", course.held & ~rolls), ("roll", course.held & rolls)):
+        if those.any():
+            look = {**LOOKS[meaning].stroke, "solid_capstyle": "butt", "dash_capstyle": "butt", "zorder": 3}
+            words = LOOKS[meaning].words
+            axes.plot(course.times, np.where(those, distance, np.nan), **look, label=words, gid=meaning)
+    logs = [(part.begins, part.seen_at(motion.plane).contacts) for part in motion.parts]
+    times = told_in("time", scales)[0] * np.concatenate([begins + log.time for begins, log in logs])
+    shown = times <= course.times[-1]
+    speeds = np.concatenate([log.angular_speed for _, log in logs])
+    _impacts(axes, times[shown], speeds[shown] > -1.0, clearance(scales))
+    whole = told_in("time", scales)[0] * (motion.begins + motion.time)
+    if motion.outcome is not Outcome.TIME_REACHED and course.times[-1] >= 0.999 * whole:
+        place = complex(course.times[-1], distance[-1])
+        point(axes, place, "end", label=f"end: {motion.outcome.words}", clip=False)
+
+
+def _curve(
+    axes: Axes, times: Floats, distance: Floats, scales: Scales | None, look: Look, *, soft: bool = False
+) -> None:
+    """Draw a distance over time with the wall, from the bearing centre on, or enlarged if it stays near the wall."""
+    wall = clearance(scales)
+    axes.axhline(wall, **LOOKS["wall"].stroke, label="wall (touchdown bearing)", gid="wall")
+    outside = (distance > wall * (1.0 + 1e-9)) & (not soft)
+    beyond = LOOKS["outside"]
+    for part, drawn in ((~outside, look), (outside, beyond)):
+        if part.any():
+            axes.plot(
+                times,
+                np.where(part, distance, np.nan),
+                **drawn.stroke | {"lw": max(drawn.width, 0.7)},
+                rasterized=len(times) > MANY_POINTS,
+                label=drawn.words,
+                gid="outside" if drawn is beyond else "path",
+            )
+    lowest, highest = float(distance.min()), max(wall, float(distance.max()))
+    whole = lowest < 0.5 * wall or highest - lowest < 1e-9 * wall
+    bottom = 0.0 if whole else lowest - 0.12 * (highest - lowest)
+    end = times[-1] if times[-1] > times[0] else times[0] + 1.0
+    axes.set(xlim=(times[0], end), ylim=(bottom, highest + 0.06 * (highest - bottom)))
+    axes.set(xlabel=axis_time(scales), ylabel=axis_label("radius $r$", "length", scales))
+
+
+def _impacts(axes: Axes, times: Floats, forward: np.ndarray, wall: float) -> None:
+    """Mark impacts on the wall line by the sense of the whirl, unless they are too many."""
+    for meaning, chosen in (("forward", forward), ("backward", ~forward)):
+        if chosen.any() and len(times) <= _MOST_MARKED:
+            places = np.asarray(times[chosen] + 1j * wall, complex)
+            point(axes, places, meaning, size=marker_size(len(times)), clip=False)
+
+
+def _zones(axes: Axes, zones: Zones, wall: float) -> None:
+    axes.fill_between([], [], color=ZONE_SHADES[-1], lw=0, label="zones A to D")
+    bottom, top = axes.get_ylim()
+    edges = (bottom, *(wall * limit for limit in zones.limits), min(top, wall))
+    beside = blended_transform_factory(axes.transAxes, axes.transData)
+    for low, high, letter, shade in zip(edges[:-1], edges[1:], zones.labels, ZONE_SHADES, strict=True):
+        axes.axhspan(low, high, color=shade, lw=0, zorder=0, gid=f"zone {letter}")
+        axes.text(0.992, (low + high) / 2.0, letter, transform=beside, ha="right", va="center", fontsize=7)
+
+
+def _gap_axis(axes: Axes, scales: Scales | None) -> None:
+    """Near the wall of a known machine, show the gap in micrometres: the radii would have many equal digits."""
+    wall = clearance(scales)
+    if scales is None or axes.get_ylim()[0] <= 0.9 * wall:
+        return
+
+    def turned(value: Floats) -> Floats:
+        """From mm to µm, which are 0 at the wall."""
+        return 1e3 * (wall - np.asarray(value))
+
+    def back(gap: Floats) -> Floats:
+        return wall - 1e-3 * np.asarray(gap)
+
+    axes.secondary_yaxis("right", functions=(turned, back)).set_ylabel("gap to the wall (\N{GREEK SMALL LETTER MU}m)")
+
+
+def _force(axes: Axes, course: Course, *, last: bool) -> None:
+    """Draw the forces of contact, and impulses on an axis of their own if the wall is rigid."""
+    factor, unit = _large(float(course.force.max()), "force", course.scales)
+    factor /= told_in("force", course.scales)[0]
+    normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
+    friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
+    for values, look, words in ((normal, LOOKS["wall"], "normal force"), (friction, LOOKS["roll"], "friction, size")):
+        axes.plot(course.times, values, **look.stroke | {"lw": 0.8}, label=words, gid=words.split(",")[0])
+    held = normal[course.held & (course.force > 0.0)]
+    if course.blows is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(0.0, 1.08 * float(np.max(held, initial=0.0)) or 1.0)
+    axes.set_ylabel(f"contact force ({unit})")
+    if not len(held):
+        axes.set_yticks([])
+        axes.set_ylabel("no lasting contact" if course.blows is not None else "no contact")
+    if course.blows is not None and len(course.blows.times):
+        _impulses(axes, course.blows, axis_label("impulse", "impulse", course.scales) if last else "")
+
+
+def _impulses(axes: Axes, blows: Blows, label: str) -> None:
+    """Draw impulses as stems, on a separate axis at the right."""
+    beside = axes.twinx()
+    dots: dict[str, Any] = {"ls": "none", "marker": "o", "ms": 2.2, "color": LOOKS["path"].colour}
+    beside.vlines(blows.times, 0.0, blows.impulses, color=LOOKS["path"].colour, lw=0.6)
+    beside.plot(blows.times, blows.impulses, **dots)
+    beside.set(ylim=(0.0, 1.15 * float(blows.impulses.max())), ylabel=label)
+    axes.plot([], [], **dots, label="impulse of an impact (right axis)")
+
+
+def _speeds(axes: Axes, course: Course) -> None:
+    """Draw the slip in contact, or before each impact on a rigid wall, and the speed of the race's surface."""
+    slips, race = np.where(course.held, course.slip, np.nan), np.zeros(1) if course.race is None else course.race
+    axes.plot(course.times, slips, **SLIP.stroke, label=SLIP.words, gid="slip")
+    tallest = max(float(np.nanmax(slips, initial=0.0)), float(race.max()))
+    if course.blows is not None:
+        times, slips = course.blows.times, course.blows.slips
+        axes.plot(times, slips, "o", ms=2.2, color=SLIP.colour, label="slip before an impact")
+        tallest = max(tallest, float(slips.max(initial=0.0)))
+    if course.race is not None:
+        axes.plot(course.times, race, **RACE.stroke, label=RACE.words, gid="race")
+    unit = told_in("velocity", None)[1] if course.scales is None else "m/s"
+    axes.set(ylim=(min(0.0, 1.1 * float(race.min())), 1.1 * tallest or 1.0), ylabel=f"speed ({unit})")
