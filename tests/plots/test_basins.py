@@ -7,7 +7,6 @@ import pytest
 from drawn_legends import fits
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
-from matplotlib.contour import QuadContourSet
 
 import carom
 from carom import plots
@@ -184,12 +183,12 @@ def test_cells_are_where_their_start_is(rotor):
 def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
     found = map_basins(rotor, plan)
     axes = plots.basin(found).axes[0]
-    hatched = [entry for entry in axes.collections if isinstance(entry, QuadContourSet)]
+    hatched = [patch for patch in axes.patches if patch.get_hatch()]
     looks = {plots.OUTCOMES[Outcome(code).label].hatch for code in np.unique(found.outcomes)} - {""}
-    assert {hatch for entry in hatched for hatch in entry.hatches} == looks
+    assert {patch.get_hatch() for patch in hatched} == looks
     (mesh,) = [entry for entry in axes.collections if isinstance(entry, QuadMesh)]
-    corners = np.vstack([path.vertices for entry in hatched for path in entry.get_paths()])
-    np.testing.assert_allclose(np.hypot(*corners.T).max(), np.hypot(*mesh.get_coordinates().T).max(), rtol=1e-2)
+    corners = np.vstack([patch.get_path().vertices for patch in hatched])
+    np.testing.assert_allclose(np.hypot(*corners.T).max(), np.hypot(*mesh.get_coordinates().T).max(), rtol=1e-9)
 
 
 def test_without_scales_units_are_those_of_the_equations():

@@ -34,8 +34,7 @@ def test_both_panels_show_the_cells(found):
     left, right = figure.axes[:2]
     shown = np.ma.filled(mesh(right).get_array(), np.nan).reshape(4, 6)
     assert shown == pytest.approx(1e-3 * found.dataset["force"].values.T)
-    painted = mesh(left).get_array().reshape(32, 48)
-    assert (painted == np.repeat(np.repeat(painted[::8, ::8], 8, axis=0), 8, axis=1)).all()
+    painted = mesh(left).get_array()
     names = [str(found.motions[place]) for place in found.dataset["motion"].values.ravel()]
     assert len(np.unique(painted)) == len(set(names))
     # Cells of the phase fill a turn; the present machine is marked in both.

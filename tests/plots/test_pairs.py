@@ -78,12 +78,6 @@ def test_the_wider_range_holds_for_both(before):
             assert axes.get_xlim()[1] == pytest.approx(1.04 * 2.0 * 1e3 * MACHINE.scales.velocity)
 
 
-def test_an_orbit_is_named_only_beside_others(before):
-    found = [name for name in before.motions if name.orbit]
-    assert len(found) == 1
-    assert "bouncing" in words(plots.basin_pair([("now", before)]))
-
-
 def test_words_stand_where_there_is_no_basin(after):
     figure = plots.basin_pair([("now", "There is no stable levitation to come back to."), ("then", after)])
     first, second = figure.axes

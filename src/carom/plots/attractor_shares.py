@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.arguments import checked
-from carom.plots.cells import looks_of
+from carom.plots.cells import looks_of, share_bars
 from carom.plots.plane import one_axes
 from carom.plots.style import TWO_COLUMNS, styled
 
@@ -24,19 +24,15 @@ _ROW, _EDGES = 0.26, 0.9
 def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | None = None) -> Figure:
     """Draw the share of the disturbances that end on each attractor, of any rotor.
 
-    An attractor that only starts next to it have reached has no bar; motions that were given up are hatched.
+    An attractor that only starts next to it have reached has no bar.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, _EDGES + _ROW * len(found)))
     total = len(found.disturbances)
     looks = looks_of([member.name for member in found], [member.share_of_disturbances for member in found])
     by_row = sorted(looks, key=lambda look: look.index)
-    for row, (member, look) in enumerate(zip(found, by_row, strict=True)):
-        share, filled = 100.0 * member.share_of_disturbances, look.filled
-        drawn.barh(row, share, 0.7, **filled if member.settled else filled | {"hatch": "////"}, lw=0.3)
-        drawn.annotate(f"{member.count} of {total}", (share, row), (4, 0), textcoords="offset points", va="center")
-    drawn.set_yticks(range(len(found)), [look.words for look in by_row])
-    drawn.invert_yaxis()
-    drawn.set(xlim=(0.0, 115.0), xticks=range(0, 101, 20), xlabel="share of the disturbances (%)")
+    counts = [f"{member.count} of {total}" for member in found]
+    share_bars(drawn, by_row, counts, [100.0 * look.share for look in by_row])
+    drawn.set_xlabel("share of the disturbances (%)")
     if title:
         drawn.set_title(title)
     return figure

@@ -14,7 +14,7 @@ from matplotlib.patches import Circle
 from carom.arguments import checked
 from carom.disturbances import outward_from
 from carom.outcome import InputError
-from carom.plots.cells import MotionLook, around, finish, looks_of, motion_looks, paint
+from carom.plots.cells import MotionLook, around, finish, looks_of, motion_looks, paint, share_bars
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
@@ -168,7 +168,7 @@ def draw_cells(axes: Axes, basin: Cells, motions: Sequence[MotionLook]) -> None:
         axes.set_aspect("equal")
     if basin.plan.model.kind == "slice":
         wall = clearance(scales)
-        for cells in axes.collections:  # those cut by the wall
+        for cells in (*axes.collections, *axes.patches):  # those cut by the wall
             cells.set_clip_path(Circle((0.0, 0.0), wall, transform=axes.transData))
         clearance_circle(axes, reach=1.05, wall=wall)
         label_frame(axes, "rotating", scales)
@@ -232,16 +232,14 @@ def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     """Draw the shares of a sample with their confidence intervals."""
     figure = StyledFigure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
     axes = figure.subplots()
-    for row, entry in enumerate(reversed(motions)):
-        share = basin.share_of(basin.motions[entry.index])
-        axes.barh(row, 100.0 * share.fraction, 0.62, **entry.filled, lw=0.3)
-        axes.plot([100.0 * share.low, 100.0 * share.high], [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
-        said = f"{number(100.0 * share.fraction, 3)} %"
-        axes.annotate(said, (100.0 * share.high, row), (4, 0), textcoords="offset points", va="center", fontsize=7)
-    axes.set_yticks(range(len(motions)), [entry.words for entry in reversed(motions)])
-    axes.tick_params(axis="y", length=0)
-    words = f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence"
-    axes.set(xlim=(0.0, 112.0), xticks=range(0, 101, 20), xlabel=words)
+    shares = [basin.share_of(basin.motions[entry.index]) for entry in motions]
+    ends = [(100.0 * share.low, 100.0 * share.high) for share in shares]
+    share_bars(
+        axes, motions, [f"{number(100.0 * share.fraction, 3)} %" for share in shares], [high for _, high in ends]
+    )
+    for row, span in enumerate(ends):
+        axes.plot(span, [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
+    axes.set_xlabel(f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence")
     if title:
         figure.suptitle(title)
     return figure

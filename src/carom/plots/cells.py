@@ -10,8 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, hsv_to_rgb, rgb_to_hsv, to_hex, to_rgb
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, PathPatch
 
+from carom.plots.maps import cells_path
 from carom.plots.plane import Floats, unique_entries
 from carom.plots.style import OUTCOMES, Look
 
@@ -112,34 +113,26 @@ def paint(
         places[index == entry.index] = order[entry.index]
     colours = ListedColormap([entry.colour for entry in motions])
     levels = BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions))
-    mesh = axes.pcolormesh(
-        *bend(*np.meshgrid(x, y)),
-        np.ma.masked_invalid(places).T,
-        cmap=colours,
-        norm=levels,
-        shading="flat",
-        rasterized=True,
-        gid="cells",
-    )
+    corners = bend(*np.meshgrid(x, y))
+    shown = np.ma.masked_invalid(places).T
+    mesh = axes.pcolormesh(*corners, shown, cmap=colours, norm=levels, shading="flat", rasterized=True, gid="cells")
     mesh.set_edgecolor("face")
     mesh.set_linewidth(0.1)
-    _hatch(axes, bend(*np.meshgrid(_nodes(x), _nodes(y))), np.pad(index, 1, mode="edge"), motions)
+    for entry in motions:  # hatched, so that they can be told apart without colour too
+        if entry.look.hatch and (index == entry.index).any():
+            drawn: dict[str, Any] = {"hatch": entry.look.hatch, "ec": ink(entry.colour), "lw": 0.0, "zorder": 1.2}
+            axes.add_patch(PathPatch(cells_path(corners, index == entry.index), fc="none", rasterized=True, **drawn))
 
 
-def _nodes(edges: Floats) -> Floats:
-    """Return the centres of cells, and the outermost edges."""
-    return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
-
-
-def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[MotionLook]) -> None:
-    """Hatch the areas of motions, so that they can be distinguished in greyscale too."""
-    for entry in motions:
-        inside = (index == entry.index).astype(float)
-        if entry.look.hatch and inside.any():
-            area = axes.contourf(*nodes, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.look.hatch])
-            area.set_edgecolor(ink(entry.colour))
-            area.set_linewidth(0.0)
-            area.set_rasterized(True)
+def share_bars(axes: Axes, looks: Sequence[MotionLook], words: Sequence[str], ends: Sequence[float]) -> None:
+    """Draw the share of each motion as a bar, the first on top, with words behind its end [%]."""
+    for row, (look, said, end) in enumerate(zip(looks, words, ends, strict=True)):
+        axes.barh(row, 100.0 * look.share, 0.65, **look.filled, lw=0.3)
+        axes.annotate(said, (end, row), (4, 0), textcoords="offset points", va="center", fontsize=7)
+    axes.set_yticks(range(len(looks)), [look.words for look in looks])
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
+    axes.set(xlim=(0.0, 115.0), xticks=range(0, 101, 20))
 
 
 def around(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:

@@ -13,7 +13,7 @@ from carom.outcome import InputError
 from carom.parameters.told import number as plain
 from carom.plots.cells import finish, looks_of, paint
 from carom.plots.figure import StyledFigure
-from carom.plots.maps import cell_edges, draw_map, mark_cells, mark_present
+from carom.plots.maps import BLANKS, cell_edges, draw_map, mark_cells, mark_present
 from carom.plots.style import TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label
 
@@ -36,8 +36,6 @@ _SHOWN = {
     "whirl": (1.0, "Hz"),
 }
 """Units of the loads in figures."""
-_PARTS = 8
-"""Parts along each side into which a cell is divided for its hatching."""
 _QUARTERS = 90.0
 """Ticks of an angle over a whole turn, in degrees."""
 
@@ -66,9 +64,8 @@ def drop_map(found: DropMap, measure: str | None = None, title: str | None = Non
     first, second = found.axes
     edges = _edges(first, found), _edges(second, found)
     looks = looks_of(found.motions, [found.fractions[motion] for motion in found.motions])
-    # Hatching ends halfway between the nodes of an area: in parts of cells it fills these.
-    index = np.repeat(np.repeat(found.dataset["motion"].values, _PARTS, axis=0), _PARTS, axis=1)
-    paint(left, _divided(edges[0]), _divided(edges[1]), index, looks)
+    paint(left, *edges, found.dataset["motion"].values, looks)
+    mark_cells(left, edges, ~found.exists, BLANKS["no-levitation"], "no-levitation")
     left.set_title("(a) how the drop ends", loc="left", y=1.0)
     factor, unit = _SHOWN[name]
     values = np.ma.masked_invalid(factor * found.dataset[name].values)
@@ -96,20 +93,10 @@ def _edges(varied: Axis, found: DropMap) -> Floats:
     return cell_edges(found.dataset[varied.name].values / varied.field.usual_size)
 
 
-def _divided(edges: Floats) -> Floats:
-    """Edges of the parts of cells."""
-    return np.interp(np.arange(_PARTS * (len(edges) - 1) + 1) / _PARTS, np.arange(len(edges)), edges)
-
-
 def _axes(axes: Axes, first: Axis, second: Axis, edges: tuple[Floats, Floats]) -> None:
     """Set labels and limits; a whole turn has ticks at quarters."""
     for direction, varied, along in zip("xy", (first, second), edges, strict=True):
-        axes.set(**{f"{direction}label": parameter_label(varied.field) if varied.field.symbol else _label(varied)})
+        axes.set(**{f"{direction}label": parameter_label(varied.field)})
         axes.set(**{f"{direction}lim": (along[0], along[-1])})
         if varied.field.usual_unit == "°" and abs(along[-1] - along[0] - 360.0) < 1e-6:
             axes.set(**{f"{direction}ticks": np.arange(0.0, 360.0 + _QUARTERS, _QUARTERS)})
-
-
-def _label(varied: Axis) -> str:
-    """Words and unit of what has no symbol."""
-    return f"{varied.field.words} ({varied.field.usual_unit})"

@@ -33,8 +33,6 @@ _GREYS = ("#e9e5dc", "#d0cabb", "#b7b1a1", "#9f9989", "#868071")
 """Of open cells, that of the largest area first."""
 _RUB = "#a52f74"
 """Of kicks that are proven to end in the rub."""
-_EDGES = 0.018
-"""Least side of a proven cell whose edges are drawn, relative to the largest kick."""
 _CHORD = 1.0 / 120.0
 """Largest angle of a straight edge, in turns."""
 _VEIL = 0.62
@@ -100,7 +98,7 @@ def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells, motions: list[MotionL
     """Paint where kicks end, pale where nothing is proven."""
     draw_cells(axes, basin, motions)
     reach = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
-    for cells in axes.collections:  # those on the rim
+    for cells in (*axes.collections, *axes.patches):  # those on the rim
         cells.set_clip_path(Circle((0.0, 0.0), reach, transform=axes.transData))
     line = np.linspace(-kicks.largest, kicks.largest, PIXELS)
     proven = np.array([*(not part.open for part in kicks.parts), False])[kicks.at(*np.meshgrid(line, line))]
@@ -122,9 +120,6 @@ def _proven(axes: Axes, kicks: ProvenKicks) -> None:
         # Edges of their own colour, for no gap shows between cells then.
         edge = {"edgecolor": look["facecolor"], "lw": 0.2, "gid": "open" if part.open else "proven"}
         axes.add_collection(PolyCollection(cells, **look, **edge, rasterized=True, label=_words(part)))
-    proven = np.array([not part.open for part in kicks.parts])[kicks.places]
-    wide = [outlines[cell] for cell in np.flatnonzero(proven & (_sides(kicks.edges) > _EDGES))]
-    axes.add_collection(PolyCollection(wide, fc="none", ec="#06402a", lw=0.15, rasterized=True))
 
 
 def _looks(kicks: ProvenKicks) -> list[dict[str, Any]]:
@@ -148,12 +143,6 @@ def _words(part: KickPart) -> str:
     if part.impacts == 0:
         return f"proven, never touches: {share}"
     return f"proven, at most {counted(part.impacts, 'impact')}: {share}"
-
-
-def _sides(edges: np.ndarray) -> np.ndarray:
-    """The shorter side of each cell, relative to the largest kick."""
-    slow, fast, first, last = edges.T
-    return np.minimum(fast - slow, 2.0 * np.pi * fast * (last - first))
 
 
 def _outline(edges: np.ndarray) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
@@ -75,8 +75,8 @@ def draw_map(
 def mark_cells(axes: Axes, edges: tuple[Floats, Floats], cells: np.ndarray, look: Look, gid: str) -> None:
     """Fill or hatch cells with a look, whose words stand in the legend."""
     if cells.any():
-        drawn: dict[str, Any] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK}
-        axes.add_patch(PathPatch(_outline(edges, cells), lw=0.0, zorder=0.5, gid=gid, label=look.words, **drawn))
+        drawn: dict[str, Any] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK, "zorder": 1.5}
+        axes.add_patch(PathPatch(cells_path(np.meshgrid(*edges), cells), lw=0.0, gid=gid, label=look.words, **drawn))
 
 
 def mark_present(axes: Axes, place: tuple[float, float], words: str) -> None:
@@ -85,12 +85,10 @@ def mark_present(axes: Axes, place: tuple[float, float], words: str) -> None:
     axes.plot(*place, **star, gid="present", clip_on=False, zorder=4, label=words)
 
 
-def _outline(edges: tuple[Floats, Floats], cells: np.ndarray) -> Path:
-    """Return cells as one path, so that hatching is continuous: a rectangle for each run along a row."""
-    rectangles = []
-    for row, inside in enumerate(cells.T):
-        turns = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
-        low, high = edges[1][row : row + 2]
-        for left, right in edges[0][turns.reshape(-1, 2)]:
-            rectangles.append(Path([(left, low), (right, low), (right, high), (left, high), (left, low)], closed=True))
-    return Path.make_compound_path(*rectangles)
+def cells_path(corners: Sequence[Floats], inside: np.ndarray) -> Path:
+    """Return cells, bool of shape (n, m), between corners of shape (m + 1, n + 1) as one path, so that hatching is continuous."""
+    x, y = corners
+    row, column = np.nonzero(inside.T)
+    around = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column), (row, column)]
+    vertices = np.stack([np.stack([x[place], y[place]], axis=-1) for place in around], axis=1)
+    return Path(vertices.reshape(-1, 2), [Path.MOVETO, *[Path.LINETO] * 3, Path.CLOSEPOLY] * len(row))

@@ -34,7 +34,6 @@ from carom.plots.words import (
     clearance,
     contacts_in_words,
     counted,
-    number,
     orbit_look,
     orbit_title,
     time_in_words,
@@ -47,9 +46,6 @@ if TYPE_CHECKING:
 
 _LONG = 3.0
 """Ratio of the length of a motion to that of its last turns beyond which the rest is thinned."""
-_FIRST = 0.5
-"""Length of the beginning drawn of such a motion, relative to its last turns."""
-_BEGINNING = replace(LOOKS["path"], colour="#a7b3c2")
 _ONCE: dict[str, Any] = {"marker": ".", "ms": 3.4, "mew": 0.0, "color": "#5d6f87", "zorder": 1.5}
 
 
@@ -135,8 +131,7 @@ def motion(
 ) -> Figure:
     """Draw a simulated motion in the co-rotating and in the fixed frame.
 
-    Of a long motion the last turns of the shaft are drawn, in the co-rotating frame also the first ones, pale; between
-    them the position once a turn.
+    Of a long motion the last turns of the shaft are drawn, and before them the position once a turn.
 
     Parameters
     ----------
@@ -165,7 +160,9 @@ def motion(
         clearance_circle(drawn, wall=clearance(trajectory.scales))
         label_frame(drawn, frame, trajectory.scales, bearing)
         if long:
-            _before(drawn, trajectory, frame, since, last, _FIRST * turns * math.tau)
+            places = clearance(trajectory.scales) * trajectory.position(np.arange(since, last, math.tau), frame)
+            words = "before: once a turn of the shaft"
+            drawn.plot(places.real, places.imag, ls="none", **_ONCE, label=words, gid="once a turn")
         words = f"{LOOKS['path'].words}, last {counted(turns, 'turn')}" if long else LOOKS["path"].words
         _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words))
         bands_on_the_circle(drawn, trajectory, frame, since)
@@ -193,19 +190,6 @@ def _stretch(axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float
     shown = (log.time >= ends[0]) & (log.time <= ends[1])
     if shown.any():
         impacts(axes, trajectory.position(log.time[shown], frame) * complex(wall), log.angular_speed[shown])
-
-
-def _before(axes: Axes, trajectory: Trajectory, frame: Frame, since: float, last: float, beginning: float) -> None:
-    """Draw what comes before the last turns: the position once a turn, and in the co-rotating frame the first turns.
-
-    In the fixed frame the path of a few turns more would hide the last ones.
-    """
-    if frame == "rotating":
-        look = replace(_BEGINNING, words=f"its first {number(beginning / math.tau)} turns")
-        _stretch(axes, trajectory, frame, (since, since + beginning), look)
-    times = np.arange(since, last, math.tau)
-    places = clearance(trajectory.scales) * trajectory.position(times, frame)
-    axes.plot(places.real, places.imag, ls="none", **_ONCE, label="before: once a turn of the shaft", gid="once a turn")
 
 
 def _levitation(axes: Axes, equilibrium: complex, wall: float) -> None:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -31,6 +30,7 @@ from carom.plots.words import clearance, orbit_look, orbit_symbol
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet
+    from carom.models import Rotor
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
     from carom.studies import Study
@@ -41,23 +41,6 @@ _FARTHEST = 3.0
 """Displacement beyond which an equilibrium is left out of a picture of a contact plane."""
 _LABEL_RING, _LABEL_GAP = 1.17, 0.14
 """Radius of the ring around the clearance circle on which the names sit, and the least angle between two [rad]."""
-
-
-@dataclass(frozen=True)
-class _Drawn:
-    """An orbit with its path over one period from its first impact, complex positions in the co-rotating frame as they are drawn."""
-
-    orbit: Orbit
-    path: Complex
-
-    @property
-    def place(self) -> complex:
-        """Where it is at its first impact."""
-        return complex(self.path[0])
-
-    @property
-    def meaning(self) -> str:
-        return orbit_look(self.orbit)
 
 
 @checked
@@ -92,17 +75,12 @@ def equilibria_and_orbits(
     if plane >= planes:
         raise InputError("plane", plane, f"a contact plane, from 0 to {planes - 1}")
     wanted = [orbit for orbit in orbits if orbit.admissible or virtual]
-    shown = sorted(
-        (_Drawn(orbit, orbit_path(orbit, 1, plane)[1]) for orbit in wanted), key=lambda drawn: _ORDER[drawn.meaning]
-    )
-    scales = orbits.rotor.system.scales_at(plane, orbits.rotor.scales)
-    wall = clearance(scales)
+    shown = {
+        orbit: orbit_path(orbit, 1, plane)[1] for orbit in sorted(wanted, key=lambda orbit: _ORDER[orbit_look(orbit)])
+    }
     size = (ONE_COLUMN, 1.25 * ONE_COLUMN) if narrow() else (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS)
     figure, whole = one_axes(axes, size)
-    clearance_circle(whole, 1.36, wall)
-    label_frame(whole, "rotating", scales, f"touchdown bearing {plane + 1}" if planes > 1 else "")
-    for equilibrium in equilibria:
-        _draw_equilibrium(whole, equilibrium, wall * complex(equilibrium.places[plane]))
+    wall = _draw_equilibria(whole, orbits.rotor, plane, equilibria, 1.36)
     _draw_orbits(whole, shown, wall)
     _name(whole, shown, wall)
     return finish(figure, whole, axes, title, columns=2)
@@ -124,23 +102,23 @@ def overview(study: Study, title: str | None = None, *, virtual: bool = False) -
     return equilibria_and_orbits(study.orbits, points, title, virtual=virtual)
 
 
-def _draw_orbits(axes: Axes, shown: Sequence[_Drawn], wall: float) -> None:
+def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
     """Draw the paths of orbits, with a mark at the first impact of each and an entry of the legend for each kind."""
-    for drawn in shown:
-        look = LOOKS["outside" if drawn.meaning == "virtual" else drawn.meaning]
-        path(axes, drawn.path, look, label="", wall=wall)
-        if drawn.meaning != "virtual":
-            direction_arrow(axes, drawn.path, look)
-        hollow = drawn.meaning != "stable"
-        point(axes, drawn.place, drawn.meaning, hollow=hollow, size=3.2, label="", layer=5.0)
-    for meaning in dict.fromkeys(drawn.meaning for drawn in reversed(shown)):
-        look, line = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
+    for orbit, line in shown.items():
+        meaning = orbit_look(orbit)
+        look = LOOKS["outside" if meaning == "virtual" else meaning]
+        path(axes, line, look, label="", wall=wall)
+        if meaning != "virtual":
+            direction_arrow(axes, line, look)
+        point(axes, complex(line[0]), meaning, hollow=meaning != "stable", size=3.2, label="", layer=5.0)
+    for meaning in dict.fromkeys(orbit_look(orbit) for orbit in reversed(shown)):
+        look, line_look = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
         axes.plot(
             [],
             [],
-            linestyle=line.line,
-            color=line.colour,
-            lw=line.width,
+            linestyle=line_look.line,
+            color=line_look.colour,
+            lw=line_look.width,
             marker=look.marker,
             markersize=3.2,
             markerfacecolor=look.colour if meaning == "stable" else "white",
@@ -165,48 +143,48 @@ def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
     figure = StyledFigure(figsize=size)
     panels = figure.subplots(1, count, squeeze=False)[0]
     for plane, drawn in enumerate(panels):
-        scales = found.rotor.system.scales_at(plane, found.rotor.scales)
-        wall = clearance(scales)
         shown = [entry for entry in found if abs(entry.places[plane]) <= _FARTHEST]
         reach = max(1.12, *(1.06 * abs(entry.places[plane]) for entry in shown)) if shown else 1.12
-        clearance_circle(drawn, reach, wall)
-        for entry in shown:
-            _draw_equilibrium(drawn, entry, wall * complex(entry.places[plane]))
-        label_frame(drawn, "rotating", scales, f"touchdown bearing {plane + 1}" if count > 1 else "")
+        _draw_equilibria(drawn, found.rotor, plane, shown, reach)
     if title:
         figure.suptitle(title)
     key(figure, panels, columns=2)
     return figure
 
 
-def _draw_equilibrium(axes: Axes, equilibrium: Equilibrium, place: complex) -> None:
-    """Draw it filled if it can be observed (stable and not virtual), hollow otherwise, grey if virtual."""
-    virtual = equilibrium.status == "virtual"
-    kind = "stable" if equilibrium.stable else "unstable"
-    state = LOOKS["virtual"].words if virtual else f"{_STATUS[equilibrium.status]}, {kind}"
-    point(
-        axes,
-        place,
-        equilibrium.kind,
-        hollow=virtual or not equilibrium.stable,
-        size=6.0,
-        label=f"{LOOKS[equilibrium.kind].words}: {state}",
-        colour=LOOKS["virtual"].colour if virtual else None,
-    )
+def _draw_equilibria(axes: Axes, rotor: Rotor, plane: int, shown: Iterable[Equilibrium], reach: float) -> float:
+    """Draw equilibria in a circle: filled if stable and not virtual, hollow otherwise, grey if virtual; return its radius as it is drawn."""
+    scales = rotor.system.scales_at(plane, rotor.scales)
+    wall = clearance(scales)
+    clearance_circle(axes, reach, wall)
+    label_frame(axes, "rotating", scales, f"touchdown bearing {plane + 1}" if len(rotor.system.contacts) > 1 else "")
+    for each in shown:
+        virtual = each.status == "virtual"
+        kind = f"{_STATUS[each.status]}, {'stable' if each.stable else 'unstable'}" if not virtual else ""
+        point(
+            axes,
+            wall * complex(each.places[plane]),
+            each.kind,
+            hollow=virtual or not each.stable,
+            size=6.0,
+            label=f"{LOOKS[each.kind].words}: {kind or LOOKS['virtual'].words}",
+            colour=LOOKS["virtual"].colour if virtual else None,
+        )
+    return wall
 
 
-def _name(axes: Axes, shown: Sequence[_Drawn], wall: float) -> None:
+def _name(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
     """Write names on a ring around the clearance circle, joined to the impact points by thin lines."""
-    angles = spread_angles([np.angle(drawn.place) for drawn in shown], _LABEL_GAP)
-    for drawn, angle in zip(shown, angles, strict=True):
+    angles = spread_angles([np.angle(line[0]) for line in shown.values()], _LABEL_GAP)
+    for (orbit, line), angle in zip(shown.items(), angles, strict=True):
         axes.annotate(
-            orbit_symbol(drawn.orbit.name),
-            xy=(drawn.place.real, drawn.place.imag),
+            orbit_symbol(orbit.name),
+            xy=(line[0].real, line[0].imag),
             xytext=(_LABEL_RING * wall * np.cos(angle), _LABEL_RING * wall * np.sin(angle)),
             ha="center",
             va="center",
             fontsize=8,
-            color=LOOKS[drawn.meaning].colour,
+            color=LOOKS[orbit_look(orbit)].colour,
             bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"},
             arrowprops={"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 2},
             annotation_clip=False,

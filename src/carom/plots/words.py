@@ -119,7 +119,7 @@ def parameter_label(field: Field, unit: str | None = None) -> str:
     symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
         field.symbol, field.symbol
     )
-    return rf"{field.words} ${symbol}$" + (f" ({unit})" if unit else "")
+    return field.words + (f" ${symbol}$" if symbol else "") + (f" ({unit})" if unit else "")
 
 
 def turns(time: float) -> str:

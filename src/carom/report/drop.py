@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from carom import plots
 from carom.arguments import checked
 from carom.files import staged_directory, write_json
-from carom.files.directory import FIGURES
 from carom.motions import Trajectory
 from carom.motions.courses import shown_until
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.report.figure_files import Picture, draw_figures
 from carom.report.film import Film, film_of, film_script
-from carom.report.html import InlineFigure, inline_figure, page_template, versions
+from carom.report.html import page_template, versions
 from carom.studies.drops import DropStudy
 from carom.studies.wording import Wording, machine_heading
 
@@ -46,26 +47,20 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
     InputError
         The directory cannot be written; nothing has been changed then.
     """
-    tell, inline, names = Reporter.of(progress, "drawing"), list[InlineFigure](), list[str]()
-    films = list[tuple[str, Film]]()
+    films, wanted = list[tuple[str, Film]](), list[Picture]()
     planes, drawn, cut = found.loads.planes, motion.begins + motion.time, ""
     if drawn < found.loads.time and not motion.outcome.settled:
         say = Wording(found.case.parameters.scales)
         cut = f" Drawn: the first {say.time(drawn)} of {say.time(found.loads.time)}."
+    for plane in planes:
+        seen, mark = motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
+        which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
+        films.append((f"film{plane.plane}-", film_of(seen)))
+        loads = partial(plots.touchdown, seen, until=shown_until(seen))
+        wanted.append(Picture(f"drop-orbit{mark}", "drop", _ORBIT + which, partial(plots.drop_orbit, seen)))
+        wanted.append(Picture(f"drop-loads{mark}", "drop", (_SOFT if plane.gives_way else _RIGID) + which, loads))
     with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
-        (place / FIGURES).mkdir()
-        for done, plane in enumerate(planes):
-            tell(done / len(planes))
-            seen, mark = motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
-            which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
-            films.append((f"film{plane.plane}-", film_of(seen)))
-            orbit, loads = plots.drop_orbit(seen), plots.touchdown(seen, until=shown_until(seen))
-            captions = {"orbit": (orbit, _ORBIT), "loads": (loads, _SOFT if plane.gives_way else _RIGID)}
-            for name, (figure, caption) in captions.items():
-                paths = plots.save(figure, place / FIGURES / f"drop-{name}{mark}")
-                names += [f"{FIGURES}/{path.name}" for path in paths]
-                text = paths[0].read_text(encoding="utf-8")
-                inline.append(inline_figure("drop", caption + which, text, f"f{len(inline) + 1}-"))
+        inline, names = draw_figures(wanted, place, Reporter.of(progress, "drawing"))
         write_json(place / DROP_NUMBERS, {**found.document(), "figures": names})
         page = page_template("drop.html.jinja").render(
             found=found,

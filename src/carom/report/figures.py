@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,9 +12,7 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.attractors import Ending
 from carom.models import Rotor
-from carom.motions import Trajectory
 from carom.motions.simulation import simulate
-from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, period_condition
 from carom.parameters import Zones
 from carom.report import basins
@@ -39,31 +38,39 @@ SHOWN_TAIL = 4.0
 def pictures(study: Study) -> list[Picture]:
     """Return all figures of a study in the order of the report."""
     possible = sorted((orbit for orbit in study.orbits if orbit.admissible), key=lambda orbit: not orbit.stable)
-    figures = []
+    figures, kicks = list[Picture](), study.kicks
     if basins.drawable(study):
         figures.append(Picture("basins", "basins", basins.caption(study), lambda: basins.draw(study)))
     if not study.heavy:  # under weight levitation is no point there
-        figures.append(_overview(study))
-    figures += _of_disturbances(study)
-    figures += [*_of_levitation(study), *_of_loads(study)]
-    if study.kicks is not None:
-        figures.append(_proven_kicks(study, study.kicks))
-    figures += [_of_orbit(study, orbit) for orbit in study.stable_orbits[:MOST_ORBITS]]
+        words = (
+            "All steady motions and single-impact orbits, seen turning with the shaft: a steady whirl is a point, a bounce a "
+            "loop, and what lies on the circle touches the bearing."
+        )
+        figures.append(Picture("overview", "motions", words, study.plot))
+    figures += [*_of_disturbances(study), *_of_levitation(study), *_of_loads(study)]
+    if kicks is not None:
+        words = (
+            "Each point is a kick of the levitating rotor. Above its colour says where simulation finds that it ends, full where this is proven "
+            "and pale where it is not; below what is proven of each cell of kicks, and why the others are open."
+        )
+        drawn = partial(_proven_kicks, study, kicks)
+        figures.append(Picture("proven-kicks", "proven", words, drawn))
+    for orbit in study.stable_orbits[:MOST_ORBITS]:
+        words = (
+            f"How the rotor bounces for ever on {orbit.name}, with an impact every {study.wording.time(orbit.period)}: above as seen "
+            "turning with the shaft, where each bounce is the same loop, below as seen in the room."
+        )
+        figures.append(Picture(f"orbit-{_file_name(orbit.name)}", "method", words, partial(plots.orbit, orbit)))
     if study.known.orbits:
-        figures.append(_condition(study.orbits))
+        words = "Each zero of this curve is a period of up to two single-impact orbits, so the zeros show that the list is complete."
+        figures.append(Picture("period-condition", "method", words, partial(_condition, study.orbits)))
     if possible:
-        figures.append(_multipliers(possible))
+        words = (
+            "A small disturbance of an orbit is multiplied by these numbers from impact to impact: the orbit is stable if all lie "
+            "inside the unit circle."
+        )
+        figures.append(Picture("multipliers", "method", words, partial(plots.multipliers, possible[:12])))
     return figures
-
-
-def _overview(study: Study) -> Picture:
-    return Picture(
-        "overview",
-        "motions",
-        "All steady motions and single-impact orbits, seen turning with the shaft: a steady whirl is a point, a bounce a "
-        "loop, and what lies on the circle touches the bearing.",
-        study.plot,
-    )
 
 
 def _zones(study: Study, radii: np.ndarray) -> Zones | None:
@@ -88,7 +95,7 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
             f"After {what}{fast} the rotor ends {ending_phrase(member.name)}, "
             f"as {'does' if member.count == 1 else 'do'} {member.count} of {len(study.attractors.disturbances)} disturbances "
             f"tried: {shown}.",
-            lambda example=example: _history(study, example),  # type: ignore[misc]
+            partial(_history, study, example),
         )
 
 
@@ -125,13 +132,8 @@ def _of_loads(study: Study) -> Iterator[Picture]:
             at = f" at touchdown bearing {plane + 1}" if several else ""
             title = f"{name.replace('_', ' ').capitalize()}{f', touchdown bearing {plane + 1}' if several else ''}"
             words = f"Orbit of the shaft{at} {when}, in the fixed frame, and its gap to the bearing."
-            yield Picture(
-                f"{name}{f'-{plane + 1}' if several else ''}", "loads", words, _orbit_in(motion, plane, title)
-            )
-
-
-def _orbit_in(motion: Trajectory, plane: int, title: str) -> Callable[[], Figure]:
-    return lambda: plots.drop_orbit(motion.seen_at(plane), title=title)
+            drawn = partial(plots.drop_orbit, motion.seen_at(plane), title=title)
+            yield Picture(f"{name}{f'-{plane + 1}' if several else ''}", "loads", words, drawn)
 
 
 def _file_name(name: str) -> str:
@@ -155,45 +157,13 @@ def until_decayed(rotor: Rotor, time: float) -> float:
     return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)
 
 
-def _proven_kicks(study: Study, kicks: ProvenKicks) -> Picture:
-    return Picture(
-        "proven-kicks",
-        "proven",
-        "Each point is a kick of the levitating rotor. Above its colour says where simulation finds that it ends, full where this is proven and pale where it is not; "
-        "below what is proven of each cell of kicks, and why the others are open.",
-        lambda: plots.proven_kicks(kicks, basins.of_kicks(study, kicks.largest)),
-    )
+def _proven_kicks(study: Study, kicks: ProvenKicks) -> Figure:
+    return plots.proven_kicks(kicks, basins.of_kicks(study, kicks.largest))
 
 
-def _of_orbit(study: Study, orbit: Orbit) -> Picture:
-    return Picture(
-        f"orbit-{_file_name(orbit.name)}",
-        "method",
-        f"How the rotor bounces for ever on {orbit.name}, with an impact every {study.wording.time(orbit.period)}: above as seen "
-        "turning with the shaft, where each bounce is the same loop, below as seen in the room.",
-        lambda: plots.orbit(orbit),
-    )
-
-
-def _condition(orbits: OrbitSet) -> Picture:
-    roots = orbits.periods
+def _condition(orbits: OrbitSet) -> Figure:
     end = orbits.longest_period
-    if len(roots):
-        end = min(end, max(1.5 * float(roots[-1]), 10.0))
+    if len(orbits.periods):
+        end = min(end, max(1.5 * float(orbits.periods[-1]), 10.0))
     periods = np.linspace(end / 4000.0, end, 4000)
-    return Picture(
-        "period-condition",
-        "method",
-        "Each zero of this curve is a period of up to two single-impact orbits, so the zeros show that the list is complete.",
-        lambda: plots.period_condition(orbits, periods, period_condition(orbits.rotor, periods)),
-    )
-
-
-def _multipliers(possible: list[Orbit]) -> Picture:
-    return Picture(
-        "multipliers",
-        "method",
-        "A small disturbance of an orbit is multiplied by these numbers from impact to impact: the orbit is stable if all lie "
-        "inside the unit circle.",
-        lambda: plots.multipliers(possible[:12]),
-    )
+    return plots.period_condition(orbits, periods, period_condition(orbits.rotor, periods))
