@@ -15,5 +15,5 @@ print(orbits.argument)
 
 # %%
 # What to see: each orbit is a loop that touches the wall once, in the frame that turns with the shaft.  Only the large solid one, B1,d, is
-# stable: on it the machine bounces for ever.  The dashed ones, enlarged, are unstable.
+# stable: on it the machine bounces for ever.  The dashed ones are unstable; those beside the rub are too small to be seen here, and :meth:`carom.orbits.Orbit.plot` enlarges them.
 figure = orbits.plot(cm.find_equilibria(machine))

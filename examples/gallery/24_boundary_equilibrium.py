@@ -13,7 +13,7 @@ machine = cm.load("../source-paper.toml")
 print(boundary.words)
 
 # %%
-# What to see: near the wall, enlarged in (b), a small unstable loop beside levitation, the pentagon.  It bounds what levitation recovers from,
-# and shrinks into it as the damping falls.  The large loop and (c) are orbits that do not take part.
+# What to see: near the wall, enlarged, a small unstable loop beside levitation, the pentagon.  It bounds what levitation recovers from, and
+# shrinks into it as the damping falls.
 near = machine.replace(gamma=boundary.value + 0.002)
-figure = cm.find_orbits(near).plot(cm.find_equilibria(near))
+figure = cm.find_orbits(near)["B1,b"].plot()

@@ -303,7 +303,8 @@ def _force(axes: Axes, course: Course, *, last: bool) -> None:
     normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
     for values, look, words in ((normal, LOOKS["wall"], "normal force"), (friction, LOOKS["roll"], "friction, size")):
-        axes.plot(course.times, values, **look.stroke | {"lw": 0.8}, label=words, gid=words.split(",")[0])
+        if course.held.any():
+            axes.plot(course.times, values, **look.stroke | {"lw": 0.8}, label=words, gid=words.split(",")[0])
     held = normal[course.held & (course.force > 0.0)]
     if course.blows is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
         axes.set_yscale("log")
@@ -330,7 +331,8 @@ def _impulses(axes: Axes, blows: Blows, label: str) -> None:
 def _speeds(axes: Axes, course: Course) -> None:
     """Draw the slip in contact, or before each impact on a rigid wall, and the speed of the race's surface."""
     slips, race = np.where(course.held, course.slip, np.nan), np.zeros(1) if course.race is None else course.race
-    axes.plot(course.times, slips, **SLIP.stroke, label=SLIP.words, gid="slip")
+    if course.held.any():
+        axes.plot(course.times, slips, **SLIP.stroke, label=SLIP.words, gid="slip")
     tallest = max(float(np.nanmax(slips, initial=0.0)), float(race.max()))
     if course.blows is not None:
         times, slips = course.blows.times, course.blows.slips
