@@ -5,10 +5,9 @@ import pytest
 from carom.attractors import MotionName, find_attractors
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
-from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.studies.endings import ending_phrase, ending_words, hardest_impulse, motion_words, shown_example, touching
+from carom.studies.endings import ending_words, hardest_impulse, shown_example, touching
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -18,20 +17,6 @@ pytestmark = pytest.mark.jit_only
 @pytest.fixture(scope="module")
 def found():
     return find_attractors(jeffcott(SOURCE))
-
-
-@pytest.mark.parametrize(
-    ("attractor", "phrase"),
-    [
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "in regular bouncing"),
-        (MotionName(Outcome.BOUNCING), "in irregular bouncing"),
-        (MotionName(Outcome.LEVITATED), "in levitation"),
-        (MotionName(Outcome.ROLLING), "in rolling backward whirl"),
-        (MotionName(Outcome.TIME_REACHED), "unresolved: time-reached"),
-    ],
-)
-def test_endings_follow_a_verb(attractor, phrase):
-    assert ending_phrase(attractor) == phrase
 
 
 SYNCHRONOUS, DRIFTING = MotionName(Outcome.FORWARD_RUB), MotionName(Outcome.FORWARD_RUB, drifting=True)
@@ -51,10 +36,6 @@ SYNCHRONOUS, DRIFTING = MotionName(Outcome.FORWARD_RUB), MotionName(Outcome.FORW
 )
 def test_outcomes_in_sentences(outcome, motions, words):
     assert ending_words(outcome, motions) == words
-
-
-def test_motions_that_stand_alone():
-    assert motion_words(MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True))) == "regular bouncing"
 
 
 def test_touching_are_those_whose_motion_reaches_the_wall(found):
@@ -80,21 +61,3 @@ def test_example_has_contact_where_there_is_one_with_contact(found):
             assert example.start.disturbance
         touched = [ending for ending in touching(found) if ending.attractor == member.name]
         assert not touched or example in touched
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        (MotionName(Outcome.LEVITATED), "levitation"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "regular bouncing"),
-        (
-            MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)),
-            "regular bouncing (pair 12, quick, soft, slipping backward)",
-        ),
-        (MotionName(Outcome.ROLLING), "rolling backward whirl"),
-        (MotionName(Outcome.BOUNCING, 2), "2-impact bouncing"),
-        (MotionName(Outcome.GRAZING), "unresolved: grazing"),
-    ],
-)
-def test_words(name, words):
-    assert name.words == words

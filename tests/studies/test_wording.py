@@ -6,32 +6,10 @@ import pytest
 
 from carom.models import Edge, Span
 from carom.parameters import Scales
-from carom.parameters.told import number, told_entry
 from carom.studies.wording import Wording, counted, listed
 
 SI = Wording(Scales(mass=50.0, clearance=0.7e-3, speed=184.2))
 PLAIN = Wording(None)
-
-
-@pytest.mark.parametrize(
-    ("value", "digits", "text"),
-    [
-        (0.0, 4, "0"),
-        (1400.0, 4, "1,400"),
-        (3407.84, 4, "3,408"),
-        (980000.0, 4, "980,000"),
-        (2375862.1, 4, "2,376,000"),
-        (0.0728524, 3, "0.0729"),
-        (-0.15, 3, "-0.15"),
-        (999.96, 4, "1,000"),
-        (1e-5, 3, "1×10⁻⁵"),
-        (5.4363e9, 4, "5.436×10⁹"),
-        (math.inf, 4, "inf"),
-        (12.0, 3, "12"),
-    ],
-)
-def test_number(value, digits, text):
-    assert number(value, digits) == text
 
 
 def test_lists_and_counts():
@@ -56,14 +34,6 @@ def test_quantities_with_units():
     assert SI.per_second(2.328416) == "79.1 times a second"
     assert SI.value("gamma", 0.37001594) == "3,408 N s/m"
     assert SI.value("omega", 0.76) == "979,900 N/m"
-
-
-def test_entries_of_a_machine_are_in_usual_units_and_short_lengths_in_micrometres():
-    assert told_entry("speed", 184.2) == "1,759 rpm"
-    assert told_entry("clearance", 0.7e-3) == "0.7 mm"
-    assert told_entry("clearance", 1e-4) == "0.1 mm"
-    assert told_entry("eccentricity", 1.5918e-6) == "1.592 µm"
-    assert told_entry("eccentricity", 0.0) == "0 mm"
 
 
 def test_quantities_without_scales_keep_the_units_of_the_equations():
@@ -99,7 +69,3 @@ def span(low, high):
 )
 def test_where(spans, searched, text):
     assert PLAIN.where("gamma", spans, searched) == text
-
-
-def test_where_in_si():
-    assert SI.where("gamma", (span(0.0, 0.37001594),)) == "below 3,408 N s/m"
