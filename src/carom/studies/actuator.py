@@ -139,8 +139,12 @@ def slew_limit_of(case: Case) -> SlewLimit | None:
 
 
 def bearing_demand(case: Case, found: AttractorSet, required: Iterable[Sample]) -> BearingDemand | None:
-    """What motions have to do with the limits of the magnetic bearings; ``None`` if these have none."""
-    limits, slew = rotor_of(case).limits, slew_limit_of(case)
+    """What motions have to do with the limits of the magnetic bearings; ``None`` if these have none.
+
+    The rate of the current is that of what is ``required`` to be survived; nothing is said of it where that is nothing.
+    """
+    limits, required = rotor_of(case).limits, tuple(required)
+    slew = slew_limit_of(case) if required else None
     control = limits if isinstance(limits, ControlLimit) else None
     if control is None and slew is None:
         return None
@@ -150,7 +154,9 @@ def bearing_demand(case: Case, found: AttractorSet, required: Iterable[Sample]) 
         for ending in tried  # until their ends are known
         if (simulate(ending.rotor, ending.start.state, max(ending.time, SHORTEST)).segment_limits > WITHIN).any()
     ]
-    return BearingDemand(control, slew, asked_by(case, required), len(at_limit), sum(at_limit), len(tried))
+    return BearingDemand(
+        control, slew, asked_by(case, required) if slew else None, len(at_limit), sum(at_limit), len(tried)
+    )
 
 
 def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:

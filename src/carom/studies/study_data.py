@@ -181,4 +181,5 @@ class StudyData(Result):
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
         """What the motions have to do with the limits of the magnetic bearings; ``None`` if the machine has none of these."""
-        return bearing_demand(self.case, self.attractors, required_disturbances(self.required, 1))
+        tried = required_disturbances(self.required, 1) if self.levitates else ()
+        return bearing_demand(self.case, self.attractors, tried)
