@@ -1,14 +1,15 @@
-"""Files are complete or absent, and what a killed process leaves is removed at the next write."""
+"""Files are complete or absent, and what a killed process leaves is removed a day later."""
 
 import os
 import signal
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
 
-from carom.files import staged_directory, unfinished, whole, write_whole
+from carom.files import unfinished, write_whole
 
 KILLED = """
 import os, signal, sys
@@ -24,29 +25,20 @@ def kill_within(name, call):
     assert done.returncode == -signal.SIGKILL
 
 
-posix = pytest.mark.skipif(os.name != "posix", reason="locks of POSIX systems")
-
-
-@posix
-def test_what_a_killed_process_leaves_goes_at_the_next_write(tmp_path):
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX systems")
+def test_what_a_killed_process_has_left_goes_a_day_later(tmp_path):
     for name, call in (
         ("unfinished", f"unfinished(Path({str(tmp_path)!r}))"),
         ("staged_directory", f"staged_directory({str(tmp_path)!r}, '--out')"),
-        ("staged_directory", f"staged_directory({str(tmp_path / 'new')!r}, '--out')"),
     ):
         kill_within(name, call)
-        assert len(list(tmp_path.iterdir())) == 1
+    write_whole(tmp_path / "motion.nc", b"content")
+    left = [file for file in tmp_path.iterdir() if file.name != "motion.nc"]
+    assert len(left) == 2
+    for file in left:
+        os.utime(file, (0.0, time.time() - 90_000.0))
     write_whole(tmp_path / "motion.nc", b"content")
     assert [file.name for file in tmp_path.iterdir()] == ["motion.nc"]
-
-
-@posix
-def test_what_a_killed_process_leaves_goes_at_the_next_study(tmp_path):
-    kill_within("staged_directory", f"staged_directory({str(tmp_path / 'out')!r}, '--out')")
-
-    with staged_directory(str(tmp_path / "out"), "--out") as place:
-        (place / "study.json").write_text("{}")
-    assert [str(file.relative_to(tmp_path)) for file in sorted(tmp_path.rglob("*"))] == ["out", "out/study.json"]
 
 
 def test_what_is_being_written_stays(tmp_path):
@@ -62,30 +54,6 @@ def test_files_of_others_stay(tmp_path, name):
     (tmp_path / name).write_text("mine")
     write_whole(tmp_path / "motion.nc", b"content")
     assert (tmp_path / name).read_text() == "mine"
-
-
-@pytest.mark.parametrize("folder", [False, True])
-def test_a_name_is_never_used_twice(tmp_path, monkeypatch, folder):
-    """What another process takes for left, and removes before it is locked, is made again by another name: that process may
-    still be about to remove what has the first name."""
-    tried, made = [], whole._made
-
-    def taken_at_first(part, is_folder):
-        tried.append(part)
-        return made(part, is_folder)
-
-    def lock(handle, *, wait=False):
-        if wait and len(tried) < 3:
-            whole._remove(tried[-1])
-        return True
-
-    monkeypatch.setattr(whole, "_made", taken_at_first)
-    monkeypatch.setattr(whole, "_lock", lock)
-    with unfinished(tmp_path, folder=folder) as part:
-        assert part == tried[-1]
-        assert part.is_dir() == folder
-        assert len(tried) == len(set(tried)) == 3
-    assert not list(tmp_path.iterdir())
 
 
 def test_many_may_write_at_the_same_time(tmp_path):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import asdict
 from typing import Any
 
 from carom.attractors import DisturbanceSet, document_of, exact_interval
@@ -15,7 +15,16 @@ from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.searched import Searched
 from carom.parameters import Scales
-from carom.results import fields_of
+from carom.results import record
+
+POINT = "kind branch=name parameter value period radial_speed admissible detail"
+BRANCH = "values period admissible stable ends=stops"
+SAMPLE = "value name outcome whirl count share radial_speeds known_starts=known"
+CURVE = "kind orbits points periods radial_speeds admissible ends=stops"
+MOTIONS = (
+    "name=region words contact_free orbits stable_orbits stable_orbit_names=stable_names unstable_orbit_names=unstable_names "
+    "rub rolling source_region"
+)
 
 
 def diagram_document(diagram: Diagram) -> dict[str, Any]:
@@ -27,35 +36,19 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
     return {
         **diagram.model.document(),
         **_axis(diagram.axis),
-        **fields_of(diagram, "interval"),
+        **record(diagram, "interval"),
         "points": [
-            fields_of(point, "kind", branch="name")
-            | fields_of(point, "parameter", "value", "period", "radial_speed", "admissible", "detail")
-            | _word(point.orbit if point.motion in ("orbit", "rubbing") else None)
+            record(point, POINT) | _word(point.orbit if point.motion in ("orbit", "rubbing") else None)
             for point in diagram.points
         ],
-        "branches": [
-            fields_of(branch, "names", "values", "period", "radial_speed", "admissible", "stable", ends="stops")
-            for branch in diagram.orbits
-        ],
-        "several": [
-            fields_of(branch, "name", "values", "period", "radial_speeds", "admissible", "stable", ends="stops")
-            | _word(branch)
-            for branch in diagram.several
-        ],
+        "branches": [record(branch, f"names {BRANCH} radial_speed") for branch in diagram.orbits],
+        "several": [record(branch, f"name {BRANCH} radial_speeds") | _word(branch) for branch in diagram.several],
         "search": None if diagram.search is None else search_document(diagram.search),
         "equilibria": [
-            fields_of(branch, "kind", "values", "radius", "normal_force", "admissible", "stable")
-            for branch in diagram.equilibria
+            record(branch, "kind values radius normal_force admissible stable") for branch in diagram.equilibria
         ],
-        "rolling": fields_of(diagram.rolling, "values", "largest_force", "holds"),
-        "attractors": [
-            fields_of(
-                sample, "value", "name", "outcome", "whirl", "count", "share", "radial_speeds", known_starts="known"
-            )
-            | document_of(sample.survival)
-            for sample in diagram.attractors
-        ],
+        "rolling": record(diagram.rolling, "values largest_force holds"),
+        "attractors": [record(sample, SAMPLE) | document_of(sample.survival) for sample in diagram.attractors],
         "disturbances": _disturbances(diagram.disturbances, diagram.model.scales) if diagram.disturbances else None,
     }
 
@@ -63,7 +56,7 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
 def search_document(searched: Searched) -> dict[str, Any]:
     """How much a search for orbits has tried, and the share of fresh motions that end on the orbits listed, with its interval of 95 %."""
     return {
-        **fields_of(searched, *(each.name for each in fields(searched))),
+        **asdict(searched),
         "share_on_listed": [searched.share_on_listed, *exact_interval(searched.on_listed, searched.fresh)],
     }
 
@@ -81,19 +74,10 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
             {**_axis(axis), "range": list(limits)}
             for axis, limits in ((first, plane.first_range), (second, plane.second_range))
         ],
-        "curves": [
-            fields_of(curve, "kind", "orbits", "points", "periods", "radial_speeds", "admissible", ends="stops")
-            for curve in found.curves
-        ],
-        "codim2": [
-            fields_of(point, "kind", "value", "period", "radial_speed", "admissible") for point in found.codimension2
-        ],
+        "curves": [record(curve, CURVE) for curve in found.curves],
+        "codim2": [record(point, "kind value period radial_speed admissible") for point in found.codimension2],
         "regions": [
-            {"number": number}
-            | fields_of(region.motions, "words", "contact_free", "orbits", "stable_orbits", name="region")
-            | fields_of(region.motions, stable_orbit_names="stable_names", unstable_orbit_names="unstable_names")
-            | fields_of(region.motions, "rub", "rolling", "source_region")
-            | fields_of(region, "point", "share")
+            {"number": number, **record(region.motions, MOTIONS), **record(region, "point share")}
             for number, region in enumerate(found.regions, start=1)
         ],
         "present": {
@@ -102,10 +86,9 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
             "words": found.present_motions.words,
         },
         "unexplained": [
-            fields_of(change, "point", "reason") | {"before": change.before.words, "after": change.after.words}
-            for change in found.unexplained
+            record(change, "point reason before=before.words after=after.words") for change in found.unexplained
         ],
-        **fields_of(found, "everywhere", "lost"),
+        **record(found, "everywhere lost"),
     }
 
 
@@ -120,4 +103,4 @@ def _axis(axis: Axis) -> dict[str, Any]:
 
 def _disturbances(tried: DisturbanceSet, scales: Scales | None) -> dict[str, Any]:
     words = {"words": tried.general_words(scales), "patience": PATIENCE}
-    return fields_of(tried, "count", "seed", "fastest") | words
+    return record(tried, "count seed fastest") | words

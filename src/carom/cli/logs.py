@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from importlib.metadata import version
 from io import StringIO
+from itertools import repeat
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,20 +27,14 @@ if TYPE_CHECKING:
 
 def check_file(option: str, path: str) -> None:
     """Refuse early a path that cannot become a file."""
-    target = Path(path)
-    if not path.strip() or "\0" in path:
-        raise InputError(option, path, "must be the path of a file to write")
+    target, allowed = Path(path), "must be the path of a file to write, in a directory that exists"
     try:
-        directory, special = target.is_dir(), target.exists() and not target.is_file()
-        homeless = not target.parent.is_dir()
+        named = path.strip() and "\0" not in path and target.parent.is_dir()
+        fits = named and (target.is_file() or not target.exists())  # what is there is replaced as a whole
     except OSError as problem:
-        raise InputError(option, path, f"must be the path of a file to write ({problem.strerror})") from None
-    if directory:
-        raise InputError(option, path, "must be the path of a file to write, not a directory")
-    if homeless:
-        raise InputError(option, path, "must lie in a directory that exists")
-    if special:
-        raise InputError(option, path, "must be a regular file: what is there is replaced as a whole")
+        raise InputError(option, path, f"{allowed} ({problem.strerror})") from None
+    if not fits:
+        raise InputError(option, path, allowed)
     with _refusals(option, path):
         try_place(target)
 
@@ -47,48 +42,26 @@ def check_file(option: str, path: str) -> None:
 def write_csv(motion: Trajectory, path: str) -> None:
     """Write impacts and lasting contacts at all touchdown bearings as CSV in order of time, in SI units if the machine is known.
 
-    A lasting contact fills only ``kind``, ``time``, ``end`` and ``touchdown_bearing``.  Of walls that give way each contact is a row of its own
+    A lasting contact fills only ``kind``, ``time``, ``end`` and ``touchdown_bearing``.  Of compliant bearings each contact is a row of its own
     table.
     """
-    from carom.motions.contacts import yields
-
-    table = _touches if yields(motion.rotor.system, motion.plane) else _impacts
+    log, scale = _log(motion), _time_scale(motion)
+    columns = {name: column for name, column in log.items() if name != "phase"}
+    header = [f"{name} [{column.attrs['units']}]" for name, column in columns.items()]
+    kinds = [Phase(phase).label for phase in log["phase"].values.tolist()] if "phase" in log else repeat("impact")
+    rows = [[*row] for row in zip(kinds, *(column.values.tolist() for column in columns.values()), strict=False)]
+    if "phase" not in log:
+        # The bearing is the first column of the table of impacts after the time.
+        header.insert(1, f"end [{log['time'].attrs['units']}]")
+        rows = [[kind, time, "", *rest] for kind, time, *rest in rows]
+        for bearing, each in _lasting(motion):
+            row = [f"{each.kind} ({each.phase.label})", each.start * scale, each.end * scale, bearing]
+            rows.append([*row, *[""] * (len(header) - 3)])
+        rows.sort(key=lambda row: row[1])
     text = StringIO(newline="")
-    writer = csv.writer(text)
-    header, rows = table(motion)
-    writer.writerow(header)
-    writer.writerows(rows)
+    csv.writer(text).writerows([["kind", *header], *rows])
     with _refusals("--csv", path):
         write_whole(Path(path), text.getvalue().encode())
-
-
-def _impacts(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
-    """Heading and rows of impacts and lasting contacts."""
-    log = _log(motion)
-    time_unit = log["time"].attrs["units"]
-    rest = [column for name, column in log.items() if name != "time"]
-    header = ["kind", f"time [{time_unit}]", f"end [{time_unit}]"]
-    header += [f"{column.name} [{column.attrs['units']}]" for column in rest]
-    rows: list[tuple[float, list[object]]] = []
-    for time, *values in zip(log["time"].values.tolist(), *(column.values.tolist() for column in rest), strict=True):
-        rows.append((time, ["impact", time, "", *values]))
-    scale = _time_scale(motion)
-    for bearing, contact in _lasting(motion):
-        start, end = contact.start * scale, contact.end * scale
-        # The bearing is the first column of the table of impacts after the time.
-        row = [f"{contact.kind} ({contact.phase.label})", start, end, bearing, *[""] * (len(rest) - 1)]
-        rows.append((start, row))
-
-    return header, [row for _, row in sorted(rows, key=lambda entry: entry[0])]
-
-
-def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
-    """Heading and rows of contacts with walls that give way."""
-    table = _log(motion)
-    rest = [column for name, column in table.items() if name != "phase"]
-    header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in rest)]
-    kinds = [Phase(phase).label for phase in table["phase"].values.tolist()]
-    return header, [[*row] for row in zip(kinds, *(column.values.tolist() for column in rest), strict=True)]
 
 
 def _log(motion: Trajectory) -> xarray.Dataset:

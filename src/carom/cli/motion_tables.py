@@ -21,7 +21,7 @@ from carom.motions.contacts import yields
 from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
 from carom.parameters.told import number, told, told_angle
-from carom.studies import LoadCheck, Wording, check_loads
+from carom.studies import LoadCheck, Wording
 from carom.studies.load_checks import checks_of_planes
 from carom.studies.load_tables import load_tables
 from carom.studies.wording import counted, listed, no_rigid_wall
@@ -41,15 +41,14 @@ _SINCE = {"drop": "the release", "shock": "the shock began", "kick": "the kick",
 
 def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> None:
     """Print how a motion after a disturbance of a kind ended, and its contacts, stage by stage; then what the bearing bears in all."""
-    together = len(motion.parts) > 1 or len(motion.at_each) > 1 or yields(motion.rotor.system, motion.plane)
     for part in motion.parts:
         if len(motion.parts) > 1:
             console.print()
             begun = f"From {told(part.begins, 'time', case.parameters.scales)}:"
             console.print(begun if part.begins else _FIRST.get(kind, "From the beginning:"))
-        print_motion(console, case, part, loads=not together)
-    found = drop_loads(motion) if together else None
-    if found is not None and any(plane.contacts or plane.contact_time for plane in found.planes):
+        print_motion(console, case, part)
+    found = drop_loads(motion)
+    if any(plane.contacts or plane.contact_time for plane in found.planes):
         print_tables(console, load_tables(found, _SINCE.get(kind, "the start")))
         print_checks(console, checks_of_planes(found, case.limits))
 
@@ -78,8 +77,8 @@ def print_checks(console: Console, checks: Iterable[LoadCheck]) -> None:
         console.print(words, width=min(console.width, TEXT_WIDTH))
 
 
-def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: bool = True) -> None:
-    """Print how a motion ended, and its contacts, with the ``loads`` on the touchdown bearing unless these are told elsewhere."""
+def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
+    """Print how a motion ended, and its contacts."""
     say = Wording(case.parameters.scales)
     if motion.outcome is not Outcome.TRIGGERED:
         console.print(Text(_end_words(motion), style="bold"))
@@ -89,13 +88,11 @@ def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: boo
     followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
     console.print(f"{followed}: {_counts(motion)}.")
     for seen in motion.at_each:
-        if len(log := seen.contacts):
-            soft = no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
-            hardest = f"Hardest hit{_where(seen)}: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
-            console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
+        if len(log := seen.contacts) and (
+            soft := no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
+        ):
+            console.print(f"Hardest impact{_where(seen)}: {soft}.")
     if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
-        if loads:
-            _print_loads(console, say, case, motion)
         console.print()
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
@@ -149,19 +146,6 @@ def _end_words(motion: Trajectory) -> str:
     name = MotionName(motion.outcome, drifting=not settled.synchronous)
     how = "turns with the shaft" if settled.synchronous else "slides in the sense of rotation"
     return f"The rotor ends in {name}: it stays in contact with the touchdown bearing and {how}."
-
-
-def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory) -> None:
-    """Print the loads on the touchdown bearing, and the limits that are stated for it."""
-    (loads,) = drop_loads(motion).planes
-    if loads.force > 0.0:
-        power = f"friction power up to {say.power(loads.power)}"
-        console.print(f"Lasting contact: normal force up to {say.force(loads.force)}, {power}.")
-    goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
-    console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
-    for check in check_loads(loads, case.limits):
-        words = f"{check.words[0].upper()}{check.words[1:]}."
-        console.print(Text(words, style="bold" if check.exceeded else ""))
 
 
 def _events(say: Wording, motion: Trajectory) -> Table:

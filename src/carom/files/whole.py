@@ -6,10 +6,13 @@ import os
 import re
 import secrets
 import shutil
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+ABANDONED = 86_400.0
+"""Seconds after which nobody writes to an unfinished file any more."""
 _PART = re.compile(r"\.carom\.[0-9a-f]{16}\.part")
 
 
@@ -39,66 +42,22 @@ def try_place(target: Path) -> None:
 def unfinished(directory: Path, *, folder: bool = False) -> Iterator[Path]:
     """Provide a new file or folder of a temporary name; at the end it is removed if it is still there.
 
-    One that a killed process has left is removed when the next is made in the same directory.  That its process is still alive is
-    told by a lock; where the file system has none, nothing is removed.
+    One that a killed process has left is removed when another is made in the same directory a day later.
     """
-    _clear(directory)
-    handle, part = None, directory
-    try:
-        while handle is None:
-            # Chosen before it is made, so that it is removed after an interruption at any moment; never used twice, since
-            # another process may still be about to remove what had the name before.
-            part = directory / f".carom.{secrets.token_hex(8)}.part"
-            handle = _made(part, folder)
-        yield part
-    finally:
-        if handle is not None:
-            os.close(handle)
-        if part != directory:
-            _remove(part)
-
-
-def _made(part: Path, folder: bool) -> int | None:
-    """Make and lock a file or folder, and return its handle; None if another has taken it for left before it was locked."""
-    if folder:
-        part.mkdir()
-    else:
-        part.touch(exist_ok=False)
-    try:
-        handle = os.open(part, os.O_RDONLY)
-    except FileNotFoundError:
-        return None
-    _lock(handle, wait=True)
-    if part.exists():
-        return handle
-    os.close(handle)
-    return None
-
-
-def _clear(directory: Path) -> None:
-    """Remove what killed processes have left in a directory."""
     with suppress(OSError), os.scandir(directory) as entries:
         for entry in entries:
-            if not _PART.fullmatch(entry.name):
-                continue
-            with suppress(OSError):
-                handle = os.open(entry.path, os.O_RDONLY)
-                try:
-                    if _lock(handle):
-                        _remove(Path(entry.path))
-                finally:
-                    os.close(handle)
-
-
-def _lock(handle: int, *, wait: bool = False) -> bool:
-    """Lock an open file or folder until it is closed; whether this was possible."""
+            if _PART.fullmatch(entry.name) and time.time() - entry.stat().st_mtime > ABANDONED:
+                _remove(Path(entry.path))
+    # Chosen before it is made, so that it is removed after an interruption at any moment.
+    part = directory / f".carom.{secrets.token_hex(8)}.part"
     try:
-        import fcntl
-
-        fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-    except (ImportError, OSError):
-        return False
-    return True
+        if folder:
+            part.mkdir()
+        else:
+            part.touch(exist_ok=False)
+        yield part
+    finally:
+        _remove(part)
 
 
 def _remove(part: Path) -> None:
