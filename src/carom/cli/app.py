@@ -14,25 +14,12 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, TextIO
 
 import typer
 
-from carom.cli.attractors import attractors
-from carom.cli.basins import basins
-from carom.cli.bifurcations import bifurcations, regions
-from carom.cli.drop import drop
-from carom.cli.explore import explore
-from carom.cli.import_rotor import import_rotor
-from carom.cli.orbits import orbits
-from carom.cli.paper import paper
-from carom.cli.prove import prove
-from carom.cli.response import response
-from carom.cli.simulate import simulate
-from carom.cli.study import study
-from carom.cli.sweep import sweep
-from carom.cli.template import template
 from carom.cli.terminal import InterruptionError
 from carom.outcome import CaromError, CaromWarning, InputError, printable, shown
 
@@ -52,27 +39,27 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
-for each in (
-    study,
-    simulate,
-    drop,
-    orbits,
-    attractors,
-    prove,
-    response,
-    bifurcations,
-    regions,
-    basins,
-    sweep,
-    paper,
-    explore,
-    template,
-    import_rotor,
-):
+for name in [
+    "study",
+    "simulate",
+    "drop",
+    "orbits",
+    "attractors",
+    "prove",
+    "response",
+    "bifurcations",
+    "regions",
+    "basins",
+    "sweep",
+    "paper",
+    "explore",
+    "template",
+    "import_rotor",
+]:
+    command = getattr(import_module(f"carom.cli.{name}"), name)
     # The list of commands shows the first line of each whole, not its beginning.
-    app.command(each.__name__.replace("_", "-"), help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(
-        each
-    )
+    short = str(command.__doc__).partition("\n")[0]
+    app.command(name.replace("_", "-"), help=command.__doc__, short_help=short)(command)
 
 
 def _print_version(wanted: bool) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from carom.cli import options
-from carom.cli.options import flag, option
+from carom.cli.options import option
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import check_output, console, print_document, progress
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError
@@ -21,9 +21,6 @@ IMPACTS = option(
     min=1,
     max=64,
 )
-VIRTUAL = flag(
-    "--virtual", "Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions."
-)
 SAMPLED = option(
     "N",
     "Simulate N disturbances at each of 31 values and show where they settle: bouncing, rub, rolling and so on.",
@@ -33,9 +30,6 @@ SAMPLED = option(
 )
 FROM = option("A", "First value of the parameter, dimensionless or with a unit.", "--from", default=...)
 TO = option("B", "Last value of the parameter.", "--to", default=...)
-NODES = option("N", "Number of grid points per axis that determine the regions.", default=24, min=2, max=400)
-AROUND = (0.25, 2.5)
-"""Default range of a parameter, relative to its present value."""
 
 
 def bifurcations(
@@ -45,7 +39,7 @@ def bifurcations(
     end: str = TO,
     settings: list[str] | None = options.SETTINGS,
     impacts: int = IMPACTS,
-    virtual: bool = VIRTUAL,
+    virtual: bool = options.VIRTUAL,
     attractors: int = SAMPLED,
     seed: int | None = options.SEED,
     out: str | None = options.OUT,
@@ -94,61 +88,6 @@ def bifurcations(
     say_where(out)
 
 
-def regions(
-    machine: str = options.MACHINE,
-    plane: str = options.PLANE,
-    x: str | None = options.FIRST_RANGE,
-    y: str | None = options.SECOND_RANGE,
-    settings: list[str] | None = options.SETTINGS,
-    grid: int = NODES,
-    virtual: bool = VIRTUAL,
-    out: str | None = options.OUT,
-    as_json: bool = options.AS_JSON,
-) -> None:
-    """Map the plane of two parameters: curves of bifurcations, their meeting points, and the regions between them.
-
-    Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
-    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  Of machines whose
-    orbits have no closed forms, the regions are told by where disturbances settle, without curves.
-    """
-    with progress("loading") as tell:
-        from carom.bifurcations import Plane, map_regions
-        from carom.bifurcations.documents import regions_document
-        from carom.cli.starts import read_plane
-        from carom.loading import load
-        from carom.models import rotor_of
-        from carom.models.axes import usual_range
-
-        case = load(machine, settings or ())
-        model = rotor_of(case)
-        subject = model.parameters if model.has_closed_forms else model
-        axes, given, _ = read_plane(case, "--plane", plane, x, y)
-        ranges = [
-            limits or usual_range(varied, subject.value(varied.name), name, AROUND)
-            for varied, limits, name in zip(axes, given, ("--x", "--y"), strict=True)
-        ]
-        check_output(out)
-        found = map_regions(
-            subject,
-            Plane(axes[0].name, axes[1].name, *ranges),
-            grid=grid,
-            virtual=virtual,
-            progress=tell,
-        )
-    document = regions_document(found)
-    if out is not None:
-        with output_directory(out, case) as output:
-            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(virtual=virtual))
-            output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
-    if as_json:
-        print_document(document)
-    else:
-        from carom.cli.region_tables import print_map
-
-        print_map(console(), found)
-    say_where(out)
-
-
 def _shown(varied: Axis, value: float) -> str:
     """Write a value in the unit in which people usually say it."""
     return f"{varied.field.in_usual_unit(value):.10g} {varied.field.usual_unit}".rstrip()
@@ -156,7 +95,7 @@ def _shown(varied: Axis, value: float) -> str:
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.cli.fitting import fitted, plain_table
-    from carom.cli.region_tables import named
+    from carom.cli.regions import named
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)

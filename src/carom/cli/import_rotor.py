@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import typer
@@ -18,6 +19,9 @@ NAME = option("NAME", "Name of the rotor in the program, or of a function that r
 PYTHON = option("PYTHON", "Python of an environment with ROSS, by default the present one.")
 
 
+COLUMNS = "nodes_si=nodes names mass_si=mass polar_inertia_si=polar_inertia diametral_inertia_si=diametral_inertia"
+
+
 def import_rotor(
     source: str = SOURCE,
     out: str = OUT,
@@ -31,6 +35,7 @@ def import_rotor(
     discs; bearings are in the machine file that is printed, and what it marks as ASSUMED is for you to state:
     carom import-rotor model.py -o rotor.npz > machine.toml
     """
+    from carom.results import record
     from carom.rotors.ross_import import import_rotor as read
     from carom.rotors.rotor_files import check_target, write_rotor
     from carom.rotors.starter import starter_text
@@ -47,12 +52,8 @@ def import_rotor(
     print_document(
         {
             "file": out,
-            "nodes_si": rotor.nodes.tolist(),
-            "names": list(rotor.names),
-            "mass_si": rotor.mass,
-            "polar_inertia_si": rotor.polar_inertia,
-            "diametral_inertia_si": rotor.diametral_inertia,
-            "free_frequencies_si": (rotor.free_modes.frequencies[2:8] / 6.283185307179586).tolist(),
+            **record(rotor, COLUMNS),
+            "free_frequencies_si": (rotor.free_modes.frequencies[2:8] / math.tau).tolist(),
             "damped": found.is_damped,
             "bearings": [dict(each) for each in found.bearings],
             "remarks": list(found.remarks),

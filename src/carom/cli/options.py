@@ -64,3 +64,6 @@ PLANE = option(
 FIRST_RANGE = option("A,B", "Range of the first parameter, by default around its present value.", "--x")
 SECOND_RANGE = option("C,D", "Range of the second parameter.", "--y")
 SEED = option("S", "Seed of the sample, by default 0.", min=0)
+VIRTUAL = flag(
+    "--virtual", "Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions."
+)

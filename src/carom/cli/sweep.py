@@ -121,20 +121,15 @@ def _place(failure: dict[str, Any]) -> str:
 
 
 def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
-    from carom.cli.fitting import plain_table
     from carom.progress import duration_words
     from carom.sweeps.running import rate_words
 
     screen = console()
-    table = plain_table("", "", "points", right=("points",))
-    table.add_row("done", f"{tally.done:,}")
-    table.add_row("failed", f"{tally.failed:,}")
-    table.add_row("all", f"{tally.points:,}")
     grid = " x ".join(f"{axis.count} {axis.name}" for axis in plan.axes)
     screen.print(f"Sweep of {plan.name} ({plan.task.kind}): {grid}")
     seed = f" Seed {plan.seed}." if plan.task.starts else ""
     screen.print(f"Disturbances: {plan.task.words}.{seed}")
-    screen.print(table)
+    screen.print(f"{tally.done:,} of {tally.points:,} points are done, {tally.failed:,} failed.")
     if tally.computed:
         rate = rate_words(tally.rate, "points")
         if plan.task.starts:

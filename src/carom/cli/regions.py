@@ -1,21 +1,80 @@
-"""What ``carom regions`` prints."""
+"""``carom regions``: where motions appear, vanish and change, in a plane of two parameters."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from rich.console import Console
-from rich.table import Table
-
-from carom.cli.fitting import fitted, plain_table
+from carom.cli import options
+from carom.cli.options import option
+from carom.cli.output import output_directory, say_where
+from carom.cli.terminal import check_output, console, print_document, progress
 
 if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
     from carom.bifurcations import RegionMap
     from carom.models import Axis
 
+NODES = option("N", "Number of grid points per axis that determine the regions.", default=24, min=2, max=400)
+AROUND = (0.25, 2.5)
+"""Default range of a parameter, relative to its present value."""
 _NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}
 """Names of bifurcations that keep hyphens or capitals."""
+
+
+def regions(
+    machine: str = options.MACHINE,
+    plane: str = options.PLANE,
+    x: str | None = options.FIRST_RANGE,
+    y: str | None = options.SECOND_RANGE,
+    settings: list[str] | None = options.SETTINGS,
+    grid: int = NODES,
+    virtual: bool = options.VIRTUAL,
+    out: str | None = options.OUT,
+    as_json: bool = options.AS_JSON,
+) -> None:
+    """Map the plane of two parameters: curves of bifurcations, their meeting points, and the regions between them.
+
+    Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
+    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  Of machines whose
+    orbits have no closed forms, the regions are told by where disturbances settle, without curves.
+    """
+    with progress("loading") as tell:
+        from carom.bifurcations import Plane, map_regions
+        from carom.bifurcations.documents import regions_document
+        from carom.cli.starts import read_plane
+        from carom.loading import load
+        from carom.models import rotor_of
+        from carom.models.axes import usual_range
+
+        case = load(machine, settings or ())
+        model = rotor_of(case)
+        subject = model.parameters if model.has_closed_forms else model
+        axes, given, _ = read_plane(case, "--plane", plane, x, y)
+        ranges = [
+            limits or usual_range(varied, subject.value(varied.name), name, AROUND)
+            for varied, limits, name in zip(axes, given, ("--x", "--y"), strict=True)
+        ]
+        check_output(out)
+        found = map_regions(
+            subject,
+            Plane(axes[0].name, axes[1].name, *ranges),
+            grid=grid,
+            virtual=virtual,
+            progress=tell,
+        )
+    document = regions_document(found)
+    if out is not None:
+        with output_directory(out, case) as output:
+            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(virtual=virtual))
+            output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
+    if as_json:
+        print_document(document)
+    else:
+        _print_map(console(), found)
+    say_where(out)
 
 
 def named(kind: str) -> str:
@@ -23,8 +82,10 @@ def named(kind: str) -> str:
     return _NAMED.get(kind, kind.replace("-", " "))
 
 
-def print_map(screen: Console, found: RegionMap) -> None:
+def _print_map(screen: Console, found: RegionMap) -> None:
     """Print the curves of a map, their meeting points, the regions, and in which of them the machine lies."""
+    from carom.cli.fitting import fitted
+
     names = tuple(map(_quantity, found.axes))
     first, second = (f"{axis.field.words} {name}" for axis, name in zip(found.axes, names, strict=True))
     screen.print(f"Plane of {first} and {second}")
@@ -41,6 +102,8 @@ def print_map(screen: Console, found: RegionMap) -> None:
 
 
 def _tables(found: RegionMap, names: tuple[str, ...]) -> Iterator[Table]:
+    from carom.cli.fitting import plain_table
+
     table = plain_table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
     for curve in found.curves:
         ends = [_place(found, curve.points[end]) for end in (0, -1)]
