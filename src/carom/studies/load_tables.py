@@ -53,7 +53,8 @@ def _rows(plane: TouchdownLoads, outcome: Outcome, since: str) -> list[tuple[str
         rows.append(("restitution seen", f"{number(plane.restitution, 4)} in the fastest hit"))
     goes_on = f"; it goes on with {say.power(plane.lasting_power)}" if plane.lasting_power * _unit(say) > 0.1 else ""
     rows.append(("slip energy (heat)", f"{say.energy(plane.heat)}{goes_on}"))
-    rows.append(("friction power", f"up to {say.power(plane.power)}"))
+    if plane.power > 0.0:
+        rows.append(("friction power", f"up to {say.power(plane.power)}"))
     if plane.race_at_end is not None and plane.fastest_race is not None:
         end, fastest = (_speed(each, plane.scales) for each in (plane.race_at_end, plane.fastest_race))
         rows.append(("race", f"{end} at the end, at most {fastest} (shaft {_speed(1.0, plane.scales)})"))
