@@ -67,24 +67,8 @@ def test_no_roots(quiet, read):
     assert "no root: no orbit with one impact a period" in read.legend(figure)
 
 
-def test_many_roots_names_do_not_crowd(damped):
-    rotor = carom.models.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
-    orbits = carom.find_orbits(rotor)
-    assert len(orbits.periods) > 10
-    periods = np.linspace(1e-3, orbits.longest_period, 2000)
-    (axes,) = plots.period_condition(orbits, periods, carom.orbits.period_condition(rotor, periods)).axes
-    physical = {orbit.period for orbit in orbits if orbit.admissible}
-    assert len(axes.texts) == len(physical)
-
-
 def test_names_do_not_overlap(damped, read):
     boxes = read.boxes(_drawn(damped).axes[0])
     assert len(boxes) == 2
     for left, right in pairwise(boxes):
         assert left.x1 < right.x0
-
-
-def test_units(damped):
-    (axes,) = _drawn(damped).axes
-    assert axes.get_xlabel() == "period $T$ (ms)"
-    assert "no unit" in axes.get_ylabel()

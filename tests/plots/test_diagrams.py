@@ -9,7 +9,6 @@ from machines import PAPER
 
 from carom import bifurcations, plots
 from carom.parameters import Machine, Scales
-from carom.plots import diagrams
 from carom.plots.style import LOOKS
 
 
@@ -34,13 +33,6 @@ def test_looks_change_at_the_special_points():
     assert "virtual" not in words
     assert lower.get_xlabel() == r"scaled damping $\gamma$"
     assert lower.get_xlim() == pytest.approx((0.03, 0.4))
-
-
-def test_markers_of_special_points_differ():
-    looks = [(look.marker, look.colour) for look in diagrams.POINTS.values()]
-    assert len({marker for marker, _ in looks}) == len(looks)
-    lines = [(look.colour, look.line) for look in diagrams.CURVES.values()]
-    assert len(set(lines)) == len(lines)
 
 
 def test_run_up_is_drawn_over_revolutions_per_minute():
@@ -81,14 +73,6 @@ def test_bars_say_what_exists_where():
 def test_legends_fit(parameters):
     found = bifurcations.find_bifurcations(parameters, "gamma", (0.02, 0.4))
     assert fits(plots.bifurcation_diagram(found))
-
-
-def test_a_panel_without_orbits_says_so():
-    empty = plots.bifurcation_diagram(bifurcations.find_bifurcations(PAPER, "gamma", (0.25, 0.4)))
-    full = plots.bifurcation_diagram(bifurcations.find_bifurcations(PAPER, "gamma", (0.1, 0.15)))
-    said = [[text.get_text() for text in figure.axes[0].texts] for figure in (empty, full)]
-    assert said[0] == ["no possible orbit found along this range"]
-    assert said[0][0] not in said[1]
 
 
 def test_virtual_orbits_are_hidden_unless_asked_for():

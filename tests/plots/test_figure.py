@@ -58,20 +58,6 @@ def test_the_user_writes_what_carom_writes(damped, tmp_path):
     assert np.array_equal(mpl.image.imread(io.BytesIO(written(figure, "png"))), mpl.image.imread(path))
 
 
-def test_wishes_of_the_user_are_kept(damped):
-    figure = plots.radius(damped.orbits["B1,d"])
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=50)
-    wide = int.from_bytes(buffer.getvalue()[16:20], "big")
-    assert wide == pytest.approx(50 * plots.TWO_COLUMNS, abs=1.0)  # whole pixels
-
-
-def test_notebooks_show_a_figure(damped):
-    picture = plots.radius(damped.orbits["B1,d"])._repr_png_()
-    assert picture.startswith(b"\x89PNG")
-    assert int.from_bytes(picture[16:20], "big") == pytest.approx(150 * plots.TWO_COLUMNS, abs=1.0)  # whole pixels
-
-
 def test_a_canvas_of_the_user_draws_the_same(damped):
     def pixels():
         canvas = FigureCanvasAgg(plots.multipliers(damped.orbits))

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 import carom
 from carom import plots
@@ -49,29 +48,6 @@ def test_each_impact_of_an_orbit_with_two_is_marked(damped, read):
     np.testing.assert_allclose(marks.get_xdata()[:2], damped.ms * np.cumsum(orbit.durations), rtol=1e-12)
 
 
-def test_fixed_frame_shows_as_many_periods_as_bring_it_nearest_to_closing(damped, read):
-    orbit = damped.orbits["B1,d"]
-    _, fixed = plots.orbit(orbit).axes
-    assert fixed.get_title() == "fixed frame, 11 periods = 5.01 turns of the shaft"
-    assert read.marked(fixed, "backward") == 11
-
-
-def test_words_of_an_orbit(damped, read):
-    figure = plots.orbit(damped.orbits["B1,d"])
-    assert figure.get_suptitle() == r"$B_{\mathrm{1,d}}$ — admissible, stable"
-    rotating, fixed = figure.axes
-    assert rotating.get_title() == r"co-rotating frame, period $T$ = 15.5 ms"
-    assert rotating.get_xlabel() == "position Re $U$ (mm)"
-    assert fixed.get_ylabel() == "position Im $Z$ (mm)"
-    assert read.legend(figure) == [
-        "clearance circle (touchdown bearing)",
-        "orbit (admissible, stable)",
-        "impact, backward whirl",
-        "start, just after an impact",
-        "levitation",
-    ]
-
-
 def test_part_of_a_virtual_orbit_beyond_the_wall_is_faint_and_dotted(weak, read):
     orbit = weak.orbits["B1,d"]
     figure = plots.orbit(orbit)
@@ -87,12 +63,6 @@ def test_part_of_a_virtual_orbit_beyond_the_wall_is_faint_and_dotted(weak, read)
     # The contact-free point lies beyond the wall as well: hollow.
     (point,) = read.lines(figure.axes[0], "contact-free")
     assert point.get_markerfacecolor() == "white"
-
-
-def test_admissible_orbit_has_no_faint_part(damped, read):
-    for orbit in damped.orbits:
-        for axes in plots.orbit(orbit).axes:
-            assert read.lines(axes, "outside") == []
 
 
 def test_orbit_too_small_to_be_seen_is_enlarged(damped, read):
@@ -141,14 +111,6 @@ def test_transient_longer_than_the_motion(bouncing, since):
         carom.outcome.InputError, match=r"since = .*: a time from 0 to the end of the motion at 60/Omega"
     ):
         plots.motion(bouncing, since=since)
-
-
-def test_words_say_how_a_motion_ended(bouncing, chattering, read):
-    assert "end: time reached" in read.legend(plots.motion(bouncing))
-    figure = plots.motion(chattering)
-    assert "end: chatter, ends in lasting contact" in read.legend(figure)
-    assert figure.get_suptitle().startswith(f"{len(chattering.contacts)} impacts in ")
-    assert plots.motion(chattering, title="A shock").get_suptitle() == "A shock"
 
 
 def test_lasting_contact_is_a_band_on_the_wall(rubbing, chattering, read):
@@ -212,13 +174,3 @@ def test_of_a_long_motion_the_last_turns_are_drawn(damped, read):
     assert {"path of the rotor centre, last 8 turns", "before: once a turn of the shaft"} <= set(words)
     whole = plots.motion(long, turns=100)
     assert not any("turn" in text for text in read.legend(whole))
-
-
-def test_own_axes(damped, bouncing, read):
-    figure = Figure()
-    both = figure.subplots(1, 2)
-    assert plots.orbit(damped.orbits["B1,d"], axes=both) is figure
-    assert plots.motion(bouncing, axes=both) is figure
-    assert len(read.lines(both[0], "wall")) == 2
-    assert figure.legends == []
-    assert figure.get_suptitle() == ""

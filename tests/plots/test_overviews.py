@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 import carom
 from carom import plots
@@ -67,15 +66,6 @@ def test_virtual_orbits_are_faint(weak, read):
     assert len(strong) == 1
     assert strong[0].get_color() == plots.LOOKS["unstable"].colour
     assert "levitation: virtual, not physical" in read.legend(figure)
-
-
-def test_own_axes_hold_everything(damped):
-    figure = Figure()
-    axes = figure.subplots()
-    assert plots.equilibria_and_orbits(damped.orbits, damped.equilibria, title="All", axes=axes) is figure
-    assert figure.axes == [axes]
-    assert _texts(axes) == {rf"$B_{{\mathrm{{1,{letter}}}}}$" for letter in "abcd"}
-    assert axes.get_title() == "All"
 
 
 @pytest.mark.parametrize("case", ["damped", "weak"])

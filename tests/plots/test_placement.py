@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from carom.plots.closeups import closeups
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -52,15 +51,3 @@ def test_labels_keep_their_distance_around_a_circle(wanted):
     turned = np.sort(np.mod(spread_angles(wanted, gap), 2.0 * np.pi))
     spaces = np.diff(np.append(turned, turned[0] + 2.0 * np.pi))
     assert np.all(spaces >= gap * (1.0 - 1e-9))
-
-
-def test_small_paths_that_are_near_share_a_closeup():
-    ring = 0.01 * np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 50))
-    paths = [ring - 1.0, ring - 0.97, ring + 1.0, 50.0 * ring]
-    left, right = closeups(paths, [-0.95 + 0j, 0.0j])
-    assert left.members == [0, 1]
-    assert right.members == [2]
-    # The point near the first two is shown with them; the lonely one is in no close-up.
-    assert left.middle.real + left.half > -0.95
-    assert abs(left.middle - (-0.98)) < 0.02
-    assert closeups([50.0 * ring], [0.5 + 0j]) == []

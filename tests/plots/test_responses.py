@@ -62,16 +62,6 @@ def test_zones_and_marks(real):
     assert "1,337 µm" in title
 
 
-def test_a_machine_far_from_its_clearance_is_shown_on_its_own_scale():
-    machine = cm.load("examples/keogh-cole.toml").machine.replace(eccentricity="5 um")
-    figure = plots.unbalance_response(unbalance_response(machine))
-    upper, _ = figure.axes
-    assert upper.get_ylim()[1] < 100.0
-    words = legend_words(figure)
-    assert not any("virtual" in entry or "rub" in entry for entry in words)
-    assert any("0.707" in entry for entry in words)
-
-
 @pytest.mark.parametrize(
     "changes", [{"damping": 0.0}, {"damping": "12000 N s/m"}, {"eccentricity": 0.0}, {"speed": "1350 rpm"}]
 )

@@ -1,8 +1,6 @@
 """Multipliers next to the unit circle."""
 
 import numpy as np
-import pytest
-from matplotlib.figure import Figure
 
 import carom
 from carom import plots
@@ -29,22 +27,6 @@ def test_multipliers_are_drawn_as_they_are(damped):
     assert (axes.get_xscale(), axes.get_xlabel()) == ("symlog", r"Re $\lambda$ (no unit; logarithmic beyond 1)")
 
 
-def test_each_orbit_has_its_marker_and_words(damped, read):
-    figure = plots.multipliers(damped.orbits)
-    (axes,) = figure.axes
-    shapes = {_values(axes, orbit.name)[1].get_marker() for orbit in damped.orbits}
-    assert len(shapes) == len(damped.orbits)
-    assert r"$B_{\mathrm{1,d}}$ — admissible, stable" in read.legend(figure)
-    assert r"$B_{\mathrm{1,a}}$ — admissible, unstable" in read.legend(figure)
-
-
-def test_stable_is_filled_unstable_hollow(damped):
-    (axes,) = plots.multipliers(damped.orbits).axes
-    for orbit in damped.orbits:
-        _, line = _values(axes, orbit.name)
-        assert (line.get_markerfacecolor() == "none") == (not orbit.stable)
-
-
 def test_many_virtual_orbits_share_a_marker(damped, read):
     orbits = carom.find_orbits(carom.models.jeffcott(damped.rotor.parameters.replace(gamma=0.02)))
     virtual = sum(not orbit.admissible for orbit in orbits)
@@ -56,14 +38,6 @@ def test_many_virtual_orbits_share_a_marker(damped, read):
 
 def test_no_orbits(read):
     assert read.legend(plots.multipliers([])) == ["no possible periodic orbit"]
-
-
-def test_own_axes(damped):
-    figure = Figure()
-    axes = figure.subplots()
-    assert plots.multipliers(damped.orbits, axes=axes) is figure
-    assert axes.get_legend() is not None
-    assert figure.get_size_inches() == pytest.approx(Figure().get_size_inches())
 
 
 def test_virtual_orbits_are_hidden_unless_asked_for(weak):

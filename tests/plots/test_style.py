@@ -8,7 +8,6 @@ import matplotlib as mpl
 import pytest
 
 from carom import plots
-from carom.outcome import InputError
 
 
 def _draw_everything(damped, bouncing) -> None:
@@ -26,13 +25,6 @@ def test_settings_of_the_user_stay(damped, bouncing, settings):
         before = dict(mpl.rcParams)
         _draw_everything(damped, bouncing)
         assert dict(mpl.rcParams) == before
-
-
-def test_settings_of_the_user_stay_after_an_error(damped):
-    before = dict(mpl.rcParams)
-    with pytest.raises(InputError, match="one for each period"):
-        plots.period_condition(damped.orbits, [1.0], [1.0, 2.0])
-    assert dict(mpl.rcParams) == before
 
 
 def test_settings_of_the_user_do_not_show(damped, tmp_path):

@@ -77,16 +77,6 @@ def test_shades_are_the_stored_numbers_in_their_places(failing):
     assert words(figure) == ["failed"]
 
 
-def test_logarithmic_axes_have_plain_numbers(failing):
-    axes = plots.sweep_map(failing, "value").axes[0]
-    axes.get_figure().draw_without_rendering()
-    low, high = axes.get_ylim()
-    shown = [text.get_text() for text in axes.get_yticklabels() if low <= text.get_position()[1] <= high]
-    assert shown
-    assert all(float(text) for text in shown)
-    assert not any(text.get_text() for text in axes.get_yticklabels(minor=True))
-
-
 def test_flags_have_colours_with_words(failing, studies):
     figure = plots.sweep_map(failing, "status")
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["waiting", "done", "failed"]
@@ -113,16 +103,6 @@ def test_cells_without_a_value_say_why(failing, studies):
     np.testing.assert_array_equal(cells(figure, "none"), (computed & (known.possible > 0)).values)
     looks = {(entry.get_facecolor(), entry.get_hatch()) for entry in figure.axes[0].patches}
     assert len(looks) == 4
-
-
-def test_a_number_that_no_machine_has_needs_no_bar(studies):
-    studies = studies.assign(rub_force=studies.rub_force * np.nan)
-    figure = plots.sweep_map(studies, "rub_force")
-
-    assert len(figure.axes) == 1
-    assert words(figure) == ["no stable synchronous rub"]
-    assert figure.legends[0].get_title().get_text() == "normal force of the stable synchronous rub"
-    assert "no levitation" in words(plots.sweep_map(studies, "zone"))
 
 
 def test_shares_are_in_percent_and_counts_whole(failing, studies):
@@ -159,18 +139,6 @@ def test_bar_has_words_and_unit(studies, name, label):
     assert figure.axes[1].get_ylabel() == label
     assert figure.axes[0].get_xlabel().endswith("(rpm)")
     assert figure.axes[0].get_ylabel().endswith("(N s/m)")
-
-
-def test_words_of_a_bar_are_no_longer_than_the_figure(studies):
-    longest = StudyTask(100, least_damping=True).variables
-    words = max((variable.words for variable in longest if variable.kind == "number"), key=len)
-    data = studies.assign(largest=studies["levitation_radius_si"].assign_attrs(long_name=words))
-    figure = plots.sweep_map(data, "largest")
-    figure.draw_without_rendering()
-    box = figure.axes[1].yaxis.label.get_window_extent()
-    assert figure.bbox.y0 <= box.y0
-    assert box.y1 <= figure.bbox.y1
-    assert box.x1 <= figure.bbox.x1
 
 
 def test_lengths_and_speeds_are_drawn_in_the_units_of_people(studies):

@@ -126,16 +126,6 @@ def test_page_shows_the_study(written):
     assert "{%" not in text
 
 
-def test_letters_of_orbits_are_for_a_closer_look(written):
-    """Above it motions have the names that people use, and unstable orbits are left out."""
-    _, _, text = written
-    words = re.sub(r"<svg.*?</svg>|<style.*?</style>|<[^>]*>", " ", text, flags=re.DOTALL)
-    above, below = words.split("For a closer look", 1)
-    assert not re.search(r"\bB +\d|\bB\d|\bF ?1\b", above)
-    assert "regular bouncing" in above
-    assert re.search(r"orbit B +1,d", below)
-
-
 def test_figures_are_files_too(written):
     result, path, _ = written
     names = {picture.name for picture in pictures(result)}
