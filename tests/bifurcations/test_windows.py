@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER
 
-from carom.bifurcations import orbit_windows, windows
-from carom.bifurcations.conditions import conditions_at, corrected, orbit_solutions
+from carom.bifurcations import orbit_windows
+from carom.bifurcations.conditions import corrected, orbit_solutions
 from carom.models import jeffcott
 from carom.orbits.single_impact import orbits_within_reach
-from carom.outcome import CaromError
 from carom.parameters import Numbers, Parameters
 
 WITHOUT_REBOUND = Parameters(
@@ -52,8 +50,7 @@ FRICTIONLESS = Parameters(
 """Next to a boundary equilibrium at ω = 0.47654936, where any period solves the equations of an orbit at rest on the wall."""
 
 
-def test_a_branch_does_not_run_along_the_equilibrium_on_the_wall():
-    """It used to, to a vanishing period, and Newton's method from there to ω = −1.96e15."""
+def test_orbits_shrink_into_the_equilibrium_on_the_wall():
     values = [0.5 * FRICTIONLESS.omega, 0.49325746]
 
     found = orbit_windows(FRICTIONLESS, "omega", values)
@@ -92,11 +89,7 @@ def test_a_period_that_vanishes_is_found_by_the_closed_form():
     found = orbit_windows(parameters, "gamma", np.geomspace(0.11, 0.14, 4).tolist())
 
     (end,) = {end for window in found.possible for end in (window.low, window.high) if end.kind == "vanishing-period"}
-    at = conditions_at(Numbers.of(parameters.replace(gamma=end.value)), end.period, end.radial_speed)
-    assert end.value == pytest.approx(2.0 * parameters.mu, rel=1e-5)
-    # Both equations, to the rounding of sums of 1/T.
-    assert abs(at.closing) < 1e-11
-    assert abs(at.balance) < 1e-11
+    assert end.value == pytest.approx(2.0 * parameters.mu, rel=1e-7)
 
 
 def test_newtons_method_says_where_it_finds_no_orbit():
@@ -105,37 +98,3 @@ def test_newtons_method_says_where_it_finds_no_orbit():
     solution = orbit_solutions(CLOSE_SPEEDS, 40.0)[0]
     near = corrected(solution.numbers, 1.001 * solution.period, 1.001 * solution.radial_speed)
     assert near == pytest.approx((solution.period, solution.radial_speed), rel=1e-10)
-
-
-MANY_ORBITS = Parameters(
-    gamma=0.00874, omega=0.82953, rho=0.2195, phi=0.3, mu=0.44998, d=0.9995, radius_ratio=156.02761
-)  # fmt: skip
-"""Weakly damped and nearly elastic: dozens of orbits, of long periods, none of them stable."""
-
-
-def test_orbits_far_from_motions_are_not_followed(monkeypatch):
-    """At each of these values the machine has more than forty orbits."""
-    values = np.geomspace(0.5, 2.0, 30)[:5] * MANY_ORBITS.omega
-    followed = []
-    monkeypatch.setattr(windows, "continue_orbit", lambda orbit, *rest, **options: followed.append(orbit) or fail())
-    windows.orbit_windows(MANY_ORBITS, "omega", values.tolist())
-    assert 0 < len(followed) < 50
-
-
-def fail():
-    raise CaromError("not followed")
-
-
-def test_where_too_many_orbits_would_be_followed_stable_ones_are_not_searched(monkeypatch):
-    monkeypatch.setattr(windows, "MOST_FOLLOWED", 1)
-    monkeypatch.setattr(windows, "spectral_radii", lambda orbits: [1.1] * len(orbits))  # all are nearly stable
-    found = orbit_windows(PAPER, "gamma", np.geomspace(0.02, 0.06, 6).tolist())
-    assert found.stable is None
-    assert [(window.low.value, window.high.value) for window in found.possible] == [(0.02, pytest.approx(0.06))]
-
-
-def test_too_many_orbits_to_follow_are_refused_before_any_is(monkeypatch):
-    monkeypatch.setattr(windows, "MOST_FOLLOWED", -1)
-    monkeypatch.setattr(windows, "continue_orbit", lambda *given, **options: pytest.fail("followed"))
-    with pytest.raises(CaromError, match="too many to follow; choose a shorter range"):
-        orbit_windows(CLOSE_SPEEDS, "omega", (0.1766, 0.1853))

@@ -20,7 +20,7 @@ SAME_ORBIT = 1e-3
 SHRUNK = 1e-3
 """Radial speed, in ``c_r Ω``, below which an orbit in a bracket may vanish in the boundary equilibrium."""
 _OF_ORBITS = {"fold", "speed-fold", "grazing", "slip-stop", "contact-onset", "non-smooth-hopf"}
-_CHANGED_BY = {
+CHANGED_BY = {
     "contact_free": {"boundary-equilibrium"},
     "rub": {"rub-fold", "boundary-equilibrium"},
     "rolling": {"rolling-limit"},
@@ -79,16 +79,15 @@ def change_between(
 
 def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
     """Whether bifurcations of these kinds can change one set of motions into the other."""
-    return all(
-        getattr(before, name) == getattr(after, name) or bool(kinds & able) for name, able in _CHANGED_BY.items()
-    )
+    return all(getattr(before, name) == getattr(after, name) or bool(kinds & able) for name, able in CHANGED_BY.items())
 
 
 def causes_between(parameters: Parameters, plane: Plane, low: PlanePoint, high: PlanePoint) -> list[Bifurcation]:
     """Bifurcations of motions of the machine in a narrow bracket, from the test functions that change sign in it."""
     sides = [plane.numbers_at(Numbers.of(parameters), *point.place.tolist()) for point in (low, high)]
     steady = [Bifurcation(kind, sides[0]) for kind in STEADY if _changes_sign(kind, *sides)]
-    return [*steady, *_of_orbits(*sides)]
+    here, there = ([orbit[1:] for orbit in forward_orbits(numbers.parameters)] for numbers in sides)
+    return [*steady, *causes_of_orbits(here, there, _changes_sign("boundary-equilibrium", *sides))]
 
 
 def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:
@@ -99,9 +98,11 @@ def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:
 Known = tuple[Numbers, float, float]
 
 
-def _of_orbits(low: Numbers, high: Numbers) -> list[Bifurcation]:
-    """Match the orbits of both sides: compare the test functions of each pair, and explain unmatched orbits."""
-    here, there = ([orbit[1:] for orbit in forward_orbits(numbers.parameters)] for numbers in (low, high))
+def causes_of_orbits(here: list[Known], there: list[Known], shrinks: bool) -> list[Bifurcation]:
+    """Match the orbits of both sides: compare the test functions of each pair, and explain unmatched orbits.
+
+    ``shrinks`` says whether levitation meets the wall in between, into which orbits shrink.
+    """
     causes, missing = [], []
     for orbit in here:
         match = min(there, key=lambda other: _apart(orbit, other), default=None)
@@ -110,7 +111,6 @@ def _of_orbits(low: Numbers, high: Numbers) -> list[Bifurcation]:
             causes += _of_one_orbit(orbit, match)
         else:
             missing.append(orbit)
-    shrinks = _changes_sign("boundary-equilibrium", low, high)
     return causes + _of_vanishing_orbits(missing, shrinks) + _of_vanishing_orbits(there, shrinks)
 
 

@@ -1,57 +1,43 @@
 """Windows of a parameter in which single-impact orbits are motions of the machine, and what ends each window.
 
-At given values of the parameter all orbits are known.  Where none of the branches followed so far holds one that is admissible, every
-orbit that is, or is not far from it, is continued over all values; the same for stable ones.  The special points on the way show where
-an orbit appears, vanishes, becomes virtual or changes its stability, even if it does so only between the values.
+At given values of the parameter all orbits are known in closed form.  Between two neighbours of which only one has an admissible, or a
+stable, orbit the end of a window is found by bisection, and what happens there by comparing the orbits of both sides.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from carom.arguments import checked
-from carom.bifurcations.branches import OrbitBranch, passing
+from carom.bifurcations.changes import CHANGED_BY, causes_of_orbits
 from carom.bifurcations.conditions import (
     Solution,
-    conditions_at,
-    corrected,
     grazing_equations,
     is_admissible,
-    margins_of,
-    orbit_of,
+    meeting_at,
     orbit_solutions,
     spectral_radii,
 )
-from carom.bifurcations.words import STEPS, continue_orbit
-from carom.continuation.roots import bracketed_root, sign_change
+from carom.bifurcations.points import Bifurcation
 from carom.models import Edge, Rotor, Span, Subject, axis, exact_rotor_of
+from carom.models.spans import paired
 from carom.orbits.admissibility import slip_stays_forward
-from carom.orbits.single_impact import longest_within_reach, radial_speeds
-from carom.outcome import CaromError
-from carom.parameters import Numbers
+from carom.orbits.single_impact import longest_within_reach
 from carom.progress import Reporter, ShowProgress
 
-SAME = 1e-6
-"""Relative difference of period and radial speed below which two solutions are the same."""
-MERGED = 1e-9
-"""Relative width of a gap below which two windows are merged."""
-SHORT, VANISHED = 3e-3, 1e-4
-"""Period, in ``1/Ω``, below which the end of a branch is attributed to a vanishing period, and the period that counts as vanished."""
-FAR = -1.0
-"""Margin of an orbit that is surely virtual, whose other margins are not computed."""
-NEARLY = -0.2
-"""Margin from which an orbit is followed: with less it is taken to stay virtual, or unstable, up to the next value."""
+FAR = 1.0
+"""Square of the radius beyond the wall from which an orbit is surely virtual."""
+NARROW, EXACT = 1e-9, 1e-14
+"""Relative widths of the bracket in which the orbits of both sides are compared, and of that in which a window ends."""
+SHORT = 1e-3
+"""Period, in ``1/Ω``, below which a window of an elastic rotor ends because the period vanishes."""
 
-MOST_FOLLOWED = 100
-"""Orbits, mostly unstable ones, that are followed: each takes some hundredths of a second."""
-
-Level = Literal["possible", "stable"]
+Level = Literal["orbits", "stable_orbits"]
 
 
 @dataclass(frozen=True)
@@ -65,32 +51,24 @@ class OrbitWindows:
         Values at which all orbits were searched.
     possible : tuple of Span
         Windows where some orbit is admissible, stable or not.
-    stable : tuple of Span or None
-        Windows where some admissible orbit is stable; ``None`` where that was not searched, as more than :data:`MOST_FOLLOWED`
-        orbits would have to be followed.
+    stable : tuple of Span
+        Windows where some admissible orbit is stable.
     """
 
     parameter: str
     values: tuple[float, ...]
     possible: tuple[Span, ...]
-    stable: tuple[Span, ...] | None
+    stable: tuple[Span, ...]
 
 
-class _Member(NamedTuple):
-    """A solution at one value, with its margins of admissibility and of stability."""
+class _Place(NamedTuple):
+    """All orbits at a value, the admissible ones, and the stable ones of these."""
 
-    solution: Solution
-    possible: float
-    stable: float
-
-
-class _Arc(NamedTuple):
-    """A part of a branch between two special points."""
-
-    low: Edge
-    high: Edge
-    possible: bool
-    stable: bool
+    value: float
+    solutions: list[Solution]
+    orbits: list[Solution]
+    stable_orbits: list[Solution]
+    levitates: bool
 
 
 @checked
@@ -106,190 +84,73 @@ def orbit_windows(
     parameter : str
         Dimensionless, or physical (in SI units; needs scales).
     values : sequence of float
-        Values, in ascending order, at which all orbits are searched
-        (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two of them is found if its orbit
-        is admissible, or nearly so, at one of them.
-
-    Raises
-    ------
-    CaromError
-        More than :data:`MOST_FOLLOWED` orbits would have to be followed.
+        Values, in ascending order, at which all orbits are searched.  A window that lies between two of them is missed.
     """
-    rotor, tell = exact_rotor_of(machine), Reporter.of(progress, "following orbits")
-    along, interval = axis(rotor, parameter), (values[0], values[-1])
-    branches: list[OrbitBranch] = []
-    pieces: dict[Level, list[Span]] = {"possible": [], "stable": []}
-    tried = dict.fromkeys(pieces, 0)
+    rotor, tell = exact_rotor_of(machine), Reporter.of(progress, "searching orbits")
+    along, places = axis(rotor, parameter), list[_Place]()
+
+    def at(value: float) -> _Place:
+        return _place(along.move(rotor, value), value)
+
     for k, value in enumerate(values):
-        reach = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
-        levels = _open(pieces, *reach)
-        members = _members(along.move(rotor, value)) if levels else []
-        for member in sorted(members, key=lambda member: -member.possible):
-            solution, wanted = member.solution, [level for level in levels if getattr(member, level) > NEARLY]
-            if not wanted or any(_lies_on(solution, value, branch) for branch in branches):
-                continue
-            for level in wanted:
-                tried[level] += 1
-            if tried["possible"] > MOST_FOLLOWED:
-                raise CaromError(
-                    "the orbits that change between these values are too many to follow; choose a shorter range"
-                )
-            if tried["stable"] > MOST_FOLLOWED:
-                pieces.pop("stable", None)
-            orbit = orbit_of(solution.numbers, solution.name.pair, *solution[2:])
-            try:
-                branches.append(continue_orbit(orbit, parameter, interval, STEPS, virtual=False))
-            except CaromError:
-                continue
-            arcs = _arcs(branches[-1], interval)
-            for level, known in pieces.items():
-                known += [Span(arc.low, arc.high) for arc in arcs if getattr(arc, level)]
-            levels = _open(pieces, *reach)
+        places.append(at(value))
         tell((k + 1) / len(values))
-    stable = _joined(pieces["stable"]) if "stable" in pieces else None
-    return OrbitWindows(parameter, tuple(values), _joined(pieces["possible"]), stable)
+    return OrbitWindows(parameter, tuple(values), _windows(places, "orbits", at), _windows(places, "stable_orbits", at))
 
 
-def _open(pieces: dict[Level, list[Span]], low: float, high: float) -> list[Level]:
-    """Levels at which the windows known do not hold all of an interval."""
-    return [
-        level
-        for level, known in pieces.items()
-        if not any(window.low.value <= low and high <= window.high.value for window in _joined(known))
-    ]
-
-
-def _lies_on(solution: Solution, value: float, branch: OrbitBranch) -> bool:
-    """Whether a branch passes through a solution; where it passes, its orbits have the letter of the solution's name."""
-    numbers = branch.numbers_at(value)
-    if (numbers.mu < 0.0) != (solution.numbers.mu < 0.0):
-        return False
-    for i, share in passing(branch.values, value):
-        if solution.name.letter in (branch.closed[i].name.letter, branch.closed[i + 1].name.letter):
-            guess = (1.0 - share) * np.array(branch.closed[i][2:]) + share * np.array(branch.closed[i + 1][2:])
-            found = corrected(numbers, *guess.tolist())
-            if found is not None and _same(*found, *solution[2:]):
-                return True
-    return False
-
-
-def _members(rotor: Rotor) -> list[_Member]:
+def _place(rotor: Rotor, value: float) -> _Place:
     longest = longest_within_reach(rotor)
     solutions = orbit_solutions(rotor, longest)
     if not slip_stays_forward(rotor):
         solutions += orbit_solutions(rotor, longest, backward=True)
-    return [_member(solution) for solution in solutions]
+    found = [each for each in solutions if not _is_far_outside(each) and is_admissible(*each[1:])]
+    radii = spectral_radii([each[1:] for each in found])
+    stable = [each for each, radius in zip(found, radii, strict=True) if radius < 1.0]
+    return _Place(value, solutions, found, stable, abs(rotor.equilibrium) < 1.0)
 
 
-def _member(solution: Solution) -> _Member:
-    at = solution.numbers, solution.period, solution.radial_speed
-    if _is_far_outside(*at):
-        return _Member(solution, FAR, FAR)
-    possible = min(margins_of(*at).values())
-    if possible <= NEARLY:
-        return _Member(solution, possible, possible)
-    if solution.name.letter in "bc":  # a multiplier is above 1 (carom.proofs.block_orbits)
-        return _Member(solution, possible, FAR)
-    return _Member(solution, possible, min(possible, 1.0 - spectral_radii([at])[0]))
-
-
-def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
+def _is_far_outside(solution: Solution) -> bool:
     """Whether some samples of the radius lie far beyond the wall.
 
     This is so for most orbits of long period, soon after the impact.  To find all extrema of their radius would take
     long.
     """
+    _, numbers, period, speed = solution
     step = 0.5 / (1.0 + numbers.omega + numbers.gamma)
-    return any(
-        grazing_equations(numbers, period, speed, time)[1] > -FAR
-        for time in np.arange(step, min(period, 60.0 * step), step)
-    )
+    times = np.arange(step, min(period, 60.0 * step), step)
+    return any(grazing_equations(numbers, period, speed, time)[1] > FAR for time in times)
 
 
-def _same(period: float, speed: float, other_period: float, other_speed: float) -> bool:
-    return max(abs(period - other_period), abs(speed - other_speed)) < SAME * (1.0 + period)
+def _windows(places: Sequence[_Place], level: Level, at: Callable[[float], _Place]) -> tuple[Span, ...]:
+    changes = [pair for pair in pairwise(places) if bool(getattr(pair[0], level)) != bool(getattr(pair[1], level))]
+    ends = [_end(*pair, level, at) for pair in changes]
+    first, last = ([Edge(place.value)] if getattr(place, level) else [] for place in (places[0], places[-1]))
+    return paired([*first, *ends, *last])
 
 
-def _arcs(branch: OrbitBranch, interval: tuple[float, float]) -> list[_Arc]:
-    """Parts of a branch in an interval between its special points; along each the parameter is monotone."""
-    special, inner = branch.special, len(branch) - 2
-    course = np.column_stack([branch.values, branch.period, branch.radial_speed])
-    ends = [
-        _end_at(branch, interval, point.value, point.kind, point.name, point.period, point.radial_speed)
-        for point in special
-    ]
-    marks = [_branch_end(branch, 0, interval), *ends, *([None] * inner), _branch_end(branch, -1, interval)]
-    rows = [course[0], *([point.value, point.period, point.radial_speed] for point in special), *course[1:]]
-    # A special point at the end of the branch comes before that end.
-    order = np.argsort([0.0, *(point.place for point in special), *range(1, len(branch))], kind="stable").tolist()
-    course, at = np.array([rows[k] for k in order]), [(i, marks[k]) for i, k in enumerate(order)]
-    arcs = []
-    for (start, one), (end, other) in pairwise((i, mark) for i, mark in at if mark is not None):
-        low, high = sorted((one, other), key=lambda mark: mark.value)
-        if high.value - low.value <= 1e-14 * abs(high.value):
-            continue
-        halfway = _halfway(branch, course[start : end + 1])
-        if halfway is not None:
-            possible = is_admissible(*halfway)
-            stable = possible and spectral_radii([halfway])[0] < 1.0
-            arcs.append(_Arc(low, high, possible, stable))
-    return arcs
+def _end(low: _Place, high: _Place, level: Level, at: Callable[[float], _Place]) -> Edge:
+    """End of a window between two values, and what happens there."""
 
+    def narrowed(low: _Place, high: _Place, width: float) -> tuple[_Place, _Place]:
+        while high.value - low.value > width * abs(high.value):
+            middle = at(0.5 * (low.value + high.value))
+            low, high = (middle, high) if bool(getattr(middle, level)) == bool(getattr(low, level)) else (low, middle)
+        return low, high
 
-def _branch_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> Edge:
-    value, period, speed = (float(each[end]) for each in (branch.values, branch.period, branch.radial_speed))
-    stop = branch.stops[end]
-    if stop in ("parameter limit", "closed loop"):
-        return Edge(value)
-    return _end_at(branch, interval, value, stop, branch.names[end], period, speed)
+    low, high = narrowed(low, high, NARROW)
+    value = float(np.mean([place.value for place in narrowed(low, high, EXACT)]))
+    sides = ([each[1:] for each in side.solutions] for side in (low, high))
+    causes = causes_of_orbits(*sides, low.levitates != high.levitates)
+    causes = [each for each in causes if each.kind in CHANGED_BY[level] and each.period > SHORT]
+    inside = getattr(low, level) or getattr(high, level)
+    if not causes:  # of an elastic rotor
+        shortest = min(inside, key=lambda each: each.period)
+        return Edge(value, "vanishing-period", *shortest[2:], shortest.name)
 
+    def apart(pair: tuple[Bifurcation, Solution]) -> float:
+        cause, orbit = pair
+        return abs(orbit.period - cause.period) + abs(orbit.radial_speed - cause.radial_speed)
 
-def _end_at(
-    branch: OrbitBranch, interval: tuple[float, float], value: float, kind: str, name: str, period: float, speed: float
-) -> Edge:
-    """End of a window; where the period is too short for shooting, which loses digits there, by the closed form.
-
-    That is where the period vanishes, or the end of the interval to which it is short.
-    """
-    if not period < SHORT:
-        return Edge(value, kind, period, speed, name)
-
-    def closing(there: float) -> float:
-        return conditions_at(branch.numbers_at(there), VANISHED, speed).closing
-
-    brackets = (sign_change(closing, value, limit) for limit in interval)
-    places = [bracketed_root(closing, *bracket) for bracket in brackets if bracket is not None]
-    if places:
-        value = min(places, key=lambda place: abs(place - value))
-        at = conditions_at(branch.numbers_at(value), VANISHED, speed)
-        speeds = radial_speeds(math.sqrt(1.0 + at.boundary), at.lever)
-        speed = min(speeds, key=lambda each: abs(each - speed), default=speed)
-        return Edge(value, "vanishing-period", VANISHED, speed, name)
-    for limit in interval:
-        found = corrected(branch.numbers_at(limit), period, speed)
-        if found is not None and found[0] < SHORT:
-            return Edge(limit)
-    return Edge(value, kind, period, speed, name)
-
-
-def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, float] | None:
-    """Orbit in the middle of an arc; ``None`` if Newton's method does not converge to one.
-
-    ``course`` holds the parameter, period and radial speed along the arc, shape (m, 3).
-    """
-    middle = 0.5 * float(course[0, 0] + course[-1, 0])
-    values, *others = course[np.argsort(course[:, 0])].T
-    numbers = branch.numbers_at(middle)
-    found = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))
-    return None if found is None else (numbers, *found)
-
-
-def _joined(pieces: Iterable[Span]) -> tuple[Span, ...]:
-    """Merge windows that touch or overlap."""
-    joined: list[Span] = []
-    for piece in sorted(pieces, key=lambda window: window.low.value):
-        if joined and piece.low.value <= joined[-1].high.value + MERGED * abs(piece.low.value):
-            last = joined.pop()
-            piece = Span(last.low, max(last.high, piece.high, key=lambda end: end.value))
-        joined.append(piece)
-    return tuple(joined)
+    cause, orbit = min(product(causes, inside), key=apart)
+    name = meeting_at(cause.kind, orbit.name)[-1]
+    return Edge(value, cause.kind, cause.period, cause.radial_speed, name)
