@@ -111,8 +111,7 @@ def motion_ranges(rotor: Rotor, along: Axis, progress: ShowProgress = None) -> t
     Where a synchronous rub exists with positive damping, a stable one does too, unless the restitution is one.  Orbits with one
     impact a period are searched (:func:`~carom.bifurcations.orbit_windows`): along damping from a fraction of the machine's own to
     where the rotor is far overdamped, else from half to twice the machine's own value.  There are ranges of all admissible orbits,
-    and of the stable ones if there are not too many to follow; none where no search is possible: without damping, or with so
-    little that there are too many orbits to follow or to list.
+    and of the stable ones; none where no search is possible: without damping, or with so little that there are too many orbits to list.
     """
     if not rotor.has_closed_forms:
         return ()
@@ -161,7 +160,7 @@ def _orbit_ranges(rotor: Rotor, along: Axis, values: Sequence[float], progress: 
     """All orbits and the stable ones."""
     if not values:
         return []
-    found: dict[Motion, tuple[Span, ...] | None] = {"single-impact": (), "stable-single-impact": ()}
+    found: dict[Motion, tuple[Span, ...]] = {"single-impact": (), "stable-single-impact": ()}
     if rotor.parameters.rho > 0.0:  # a balanced rotor has no such orbit
         try:
             windows = orbit_windows(rotor, along.name, values, progress)
@@ -169,9 +168,7 @@ def _orbit_ranges(rotor: Rotor, along: Axis, values: Sequence[float], progress: 
             return []
         found = {"single-impact": windows.possible, "stable-single-impact": windows.stable}
     searched, step = Span(Edge(values[0]), Edge(values[-1])), values[1] / values[0] - 1.0
-    return [
-        MotionRange(motion, along.name, spans, searched, step) for motion, spans in found.items() if spans is not None
-    ]
+    return [MotionRange(motion, along.name, spans, searched, step) for motion, spans in found.items()]
 
 
 def _values(rotor: Rotor, along: Axis) -> list[float]:
