@@ -23,8 +23,6 @@ from carom.results import Result
 
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
-_NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
-_OTHERS = ("unlevitated", "conjugate", "carried", "regained", "magnets")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -92,25 +90,22 @@ class LinearEquations(Definition, Result):
             raise InputError("scales", self.scales, "carom.parameters.Scales, or None")
         if not isinstance(self.shaft, Shaft | None):
             raise InputError("shaft", shown(self.shaft), "carom.models.Shaft, or None")
+        n = _numbers("forcing", self.forcing).size
         if self.translation is None:
             object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing).shape))
-        for name in _NUMBERS:
-            values = _numbers(name, getattr(self, name))
-            values.flags.writeable = False
-            object.__setattr__(self, name, values)
-        n = self.forcing.size
         shapes: dict[str, tuple[int, ...]] = dict.fromkeys(("mass", "damping", "stiffness"), (n, n))
-        for name, shape in (shapes | dict.fromkeys(("forcing", "translation"), (n,))).items():
-            values = getattr(self, name)
-            if values.shape != shape or not values.size or not np.isfinite(values).all():
-                raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
+        shapes |= dict.fromkeys(("forcing", "translation", "carried", "regained"), (n,))
+        shapes |= dict.fromkeys(("unlevitated", "conjugate"), (2, n, n))
+        shapes["magnets"] = (len(np.atleast_1d(self.magnets)) if self.magnets is not None else 0, n)
+        for name, shape in shapes.items():
+            if getattr(self, name) is not None:
+                values = _numbers(name, getattr(self, name))
+                if values.shape != shape or not values.size or not np.isfinite(values).all():
+                    raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
+                values.flags.writeable = False
+                object.__setattr__(self, name, values)
         if self.heavy.any() and self.forcing[~self.heavy].any():
             raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
-        self._check_others("unlevitated", (2, n, n))
-        self._check_others("conjugate", (2, n, n))
-        self._check_others("carried", (n,))
-        self._check_others("regained", (n,))
-        self._check_others("magnets", (len(np.atleast_1d(self.magnets)) if self.magnets is not None else 0, n))
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
@@ -119,16 +114,6 @@ class LinearEquations(Definition, Result):
         object.__setattr__(self, "touchdowns", listed)
         if self.shaft is not None:
             self._check_shaft()
-
-    def _check_others(self, name: str, shape: tuple[int, ...]) -> None:
-        """Read numbers that need not be stated, if they are."""
-        if getattr(self, name) is None:
-            return
-        values = _numbers(name, getattr(self, name))
-        if values.shape != shape or not np.isfinite(values).all():
-            raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
-        values.flags.writeable = False
-        object.__setattr__(self, name, values)
 
     @property
     def equations(self) -> LinearEquations:

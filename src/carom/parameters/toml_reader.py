@@ -22,13 +22,8 @@ _TABLES = dict.fromkeys((*_KINDS, *_OPTIONAL, *_LISTS))
 _LARGEST_BYTES = 1_000_000
 _REMEDY = "must hold a [machine], a [dimensionless] or a [rotor] table"
 _MOST_LEVELS = 16
-_PARTS = re.compile(
-    r'''"""(?:\\.|.)*?(?:"""|\Z)'''
-    r"""|'''.*?(?:'''|\Z)"""
-    r"""|"(?:[^"\\\n]++|\\(?:.|\Z))*+"?|'[^'\n]*+'?|#[^\n]*+|[][{}.,=\n]""",
-    re.DOTALL,
-)
-"""Matches whole strings and comments, and the characters that separate keys and values."""
+_DEEP = re.compile(r"""(?<![\w"'-])(?:(?:[\w"'-]++[ \t]*+\.[ \t]*+){16}|(?:[\w"'-]*+[ \t]*+=?[ \t]*+[\[{]){16})""")
+"""Keys or brackets of more levels than machine files have: of dotted keys the parser takes quadratic memory."""
 _PLACE = re.compile(r"\(at line ([0-9]+), ")
 
 
@@ -142,7 +137,8 @@ def _read(name: str, what: str, remedy: str) -> str:
 def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
     if not text.strip():
         raise InputError(what, shown(name), f"{remedy}; it is empty")
-    if line := _first_deep_line(text):
+    if deep := _DEEP.search(text):
+        line = text.count("\n", 0, deep.start()) + 1
         words = f"must be valid TOML of at most {_MOST_LEVELS} levels; line {line} is nested too deeply"
         raise InputError(what, shown(name), words)
     try:
@@ -156,26 +152,9 @@ def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
         if advice.startswith("Cannot overwrite a value"):
             advice += ": the same key is given twice"
         raise InputError(what, shown(name), f"must be valid TOML; {advice}") from None
-    except ValueError:
-        raise InputError(what, shown(name), "must be valid TOML; a number in it has thousands of digits") from None
-
-
-def _first_deep_line(text: str) -> int | None:
-    """Number of the first line that is nested too deeply; takes linear time, unlike the parser."""
-    brackets = dots = 0
-    for part in _PARTS.finditer(text):
-        sign = part[0]
-        if sign == ".":
-            dots += 1
-        elif sign in "[{":
-            brackets, dots = brackets + 1, 0
-        elif sign in "]}":
-            brackets, dots = max(brackets - 1, 0), 0
-        elif sign in ",=\n":
-            dots = 0
-        if brackets >= _MOST_LEVELS or dots >= _MOST_LEVELS:
-            return text.count("\n", 0, part.start()) + 1
-    return None
+    except (RecursionError, ValueError):
+        words = "must be valid TOML; it is nested too deeply, or a number in it has thousands of digits"
+        raise InputError(what, shown(name), words) from None
 
 
 def _bare_texts(text: str, name: str) -> Iterator[tuple[int, InputError]]:

@@ -50,7 +50,7 @@ def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (ADDRESSES, ADDRESSES))
 
 
-def read(source: str, keys: list[str]) -> dict[str, np.ndarray]:
+def read(source: str, keys: list[str]) -> dict[str, Any]:
     """Arrays of an archive of NumPy, or of a file of MATLAB."""
     if source.lower().endswith(".npz"):
         with np.load(source) as archive:
