@@ -35,7 +35,7 @@ def failing(tmp_path_factory):
 def studies(tmp_path_factory):
     axes = (GridAxis("speed", "linear", (100.0, 300.0), 5), GridAxis("damping", "list", (500.0, 5000.0), 2))
     case = Case("machine", MACHINE.parameters, MACHINE, Zones())
-    plan = SweepPlan(case, axes, StudyTask(0, False, (0.3, 0.4, 0.5), has_scales=True), (5, 2))
+    plan = SweepPlan(case, axes, StudyTask(0, (0.3, 0.4, 0.5), has_scales=True), (5, 2))
     path = tmp_path_factory.mktemp("sweep") / "s.zarr"
     run_sweep(plan, path, workers=1, threads=True)
     return open_sweep(path).load()

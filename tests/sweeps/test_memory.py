@@ -146,7 +146,6 @@ def test_what_is_dimensionless_has_no_physical_axes(source_paper):
         (lambda: GridAxis.between("gamma", 1, 2, 3, "cubic"), "spacing = cubic: one of: linear, log"),
         (lambda: GridAxis.of("gamma", []), r"axes\.gamma\.values"),
         (lambda: GridAxis.of("gamma", [0.1, 0.1]), "must be different values"),
-        (lambda: StudyTask(0, True), "must be above 0 where least_damping"),
     ],
 )
 def test_what_is_no_axis_or_work(make, words):

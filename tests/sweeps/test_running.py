@@ -72,7 +72,7 @@ def test_threads_and_processes_give_the_same_bytes(tmp_path):
 
 @pytest.mark.jit_only
 def test_studies_are_the_same_on_processes(tmp_path):
-    plan = plan_of(StudyTask(12, False, (0.3, 0.4, 0.5), has_scales=False), count=6, chunk=1)
+    plan = plan_of(StudyTask(12, (0.3, 0.4, 0.5), has_scales=False), count=6, chunk=1)
     run_sweep(plan, tmp_path / "thread", workers=1, threads=True)
     run_sweep(plan, tmp_path / "processes", workers=2)
 

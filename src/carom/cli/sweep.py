@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
 
 _SHOWN = 5
-_DRAWN = ("recovered", "smallest_unrecovered_kick", "zone", "stable_orbits", "least_damping")
+_DRAWN = ("recovered", "smallest_unrecovered_kick", "zone", "stable_orbits")
 """Variables that are drawn if there are any."""
 _MOST_AXES = 2
 

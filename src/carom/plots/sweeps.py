@@ -34,7 +34,6 @@ _NONE = MappingProxyType(
         "smallest_unrecovered_kick_angle": "every kick tried came back",
         "rub_force": f"no stable {STEADY_WORDS['rub']}",
         "orbit_impulse": "no stable orbit with one impact",
-        "least_damping": "some are lost at all damping tried",
     }
 )
 """What it means if a number does not exist, or is infinite, for a machine that was computed."""

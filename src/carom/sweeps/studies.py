@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from carom.arguments import Whole, checked
-from carom.outcome import STEADY_WORDS, InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, Case, Zones
+from carom.outcome import STEADY_WORDS
+from carom.parameters import Case, Zones
 from carom.results import fields_of, in_si
 from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.models import Rotor
     from carom.orbits.single_impact import OrbitSet
-    from carom.parameters import Required
 
 RUB = STEADY_WORDS["rub"]
 _SIMPLE = (
@@ -42,21 +41,8 @@ _SIMULATED = (
     Variable("recovered_high", "upper end of its 95 % confidence interval (Clopper and Pearson)"),
     Variable("smallest_unrecovered_kick", "smallest simulated kick that did not come back", scale="velocity"),
 )
-_DAMPING = (
-    Variable(
-        "least_damping",
-        "damping above which all simulated disturbances of what must be survived came back, of rotors with one damping of their levitation",
-        scale="damping",
-    ),
-    Variable(
-        "rolling_damping", "damping above which no backward whirl in lasting contact sustains itself", scale="damping"
-    ),
-)
-LOWEST, HIGHEST = 0.02, 8.0
-"""Range of ``γ`` searched, in units of the largest of 1, ``ω`` and (for the upper end only) the machine's own ``γ``."""
 _COST = 0.01
 _COST_OF_DISTURBANCE = 0.0001
-_COST_OF_SEARCH, _COST_OF_CHECK = 0.6, 0.0002
 
 
 @checked
@@ -68,9 +54,6 @@ class StudyTask:
     ----------
     disturbances : int
         Number simulated at each point with :func:`~carom.find_attractors`; zero for closed forms only.
-    least_damping : bool
-        Whether to search for the damping above which all disturbances come back too, with the same number of them at each
-        damping tried.
     zone_limits : tuple of float
         Limits of the amplitude zones; :func:`plan_sweep` sets those of the machine.
     has_scales : bool
@@ -79,14 +62,8 @@ class StudyTask:
     """
 
     disturbances: Whole = 0
-    least_damping: bool = False
     zone_limits: tuple[float, float, float] = Zones().limits
     has_scales: bool = False
-
-    def __post_init__(self) -> None:
-        if self.least_damping and not self.disturbances:
-            allowed = "must be above 0 where least_damping is wanted, such as 100"
-            raise InputError("study.disturbances", self.disturbances, allowed)
 
     kind: ClassVar[str] = "study"
     dimensions: ClassVar[tuple[Dimension, ...]] = ()
@@ -94,12 +71,7 @@ class StudyTask:
     @property
     def variables(self) -> tuple[Variable, ...]:
         """What is stored for each point."""
-        found: tuple[Variable, ...] = _SIMPLE
-        if self.disturbances:
-            found += _SIMULATED
-        if self.least_damping:
-            found += _DAMPING
-        return with_si(found, self.has_scales)
+        return with_si(_SIMPLE + _SIMULATED if self.disturbances else _SIMPLE, self.has_scales)
 
     @property
     def words(self) -> str:
@@ -114,17 +86,16 @@ class StudyTask:
     @property
     def seconds(self) -> float:
         """Estimated computing time of a point, in seconds."""
-        search = _COST_OF_SEARCH + self.disturbances * _COST_OF_CHECK if self.least_damping else 0.0
-        return _COST + self.disturbances * _COST_OF_DISTURBANCE + search
+        return _COST + self.disturbances * _COST_OF_DISTURBANCE
 
     @property
     def starts(self) -> int:
-        """Number of motions simulated at each point, without those of searches."""
+        """Number of motions simulated at each point."""
         return self.disturbances
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
-        return fields_of(self, "kind", "disturbances", "least_damping", "zone_limits")
+        return fields_of(self, "kind", "disturbances", "zone_limits")
 
     def evaluate(self, machine: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
@@ -141,11 +112,9 @@ class StudyTask:
         rotor = rotor_of(machine)
         found = self._closed_forms(rotor, case.zones if case else Zones())
         number = int(seed.generate_state(1)[0])
-        required = (case.requirement if case else Requirement()).own(rotor.scales)
         if self.disturbances:
+            required = (case.requirement if case else Requirement()).own(rotor.scales)
             found |= self._simulated(rotor, required.kick, number)
-        if self.least_damping and "gamma" in rotor.varied:
-            found |= self._damping(rotor, required, number)
         scaled = {each.name: each.scale for each in self.variables if each.scale and each.name in found}
         return found | in_si(found, rotor.scales, **scaled)
 
@@ -191,22 +160,6 @@ class StudyTask:
             **dict(zip(("recovered", "recovered_low", "recovered_high"), back, strict=True)),
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
-
-    def _damping(self, rotor: Rotor, required: Required, seed: int) -> dict[str, Any]:
-        from carom.closed_forms.exact_results import exact_results
-        from carom.studies.kinds import required_disturbances
-        from carom.studies.recovery import find_recovery
-
-        unit, field = max(1.0, rotor.value("omega")), DIMENSIONLESS_FIELDS["gamma"]
-        within = LOWEST * unit, min(HIGHEST * max(unit, rotor.value("gamma")), field.highest)
-        tried = required_disturbances(required, self.disturbances)
-        found = find_recovery(rotor, "gamma", tried, within=within, seed=seed, threads=1)
-        least = math.inf  # something is lost at the highest damping
-        if found.spans and found.spans[-1].high.value == within[1]:
-            least = found.spans[-1].low.value
-            least = 0.0 if least == within[0] else least
-        rolls = exact_results(rotor).rolls
-        return {"least_damping": least} | ({"rolling_damping": max(rolls.damping_bound, 0.0)} if rolls else {})
 
 
 def _orbits(found: OrbitSet) -> dict[str, Any]:

@@ -63,7 +63,6 @@ class _Axis(_Table):
 
 class _Study(_Table):
     disturbances: int = pydantic.Field(0, ge=0, le=1_000_000)
-    least_damping: bool = False
 
 
 class _Basins(_Table):
@@ -93,7 +92,6 @@ _ALLOWED = {
     "spacing": 'must be "linear" or "log"',
     "values": f"must be a list of 1 to {LONGEST_AXIS} values, numbers or texts with a unit",
     "disturbances": "must be a whole number from 0 to 1000000: motions simulated at each point",
-    "least_damping": "must be true or false",
     "starts": f"must be a whole number from 1 to {_MOST_STARTS:.0e}: disturbances at each point",
     "disturbance": 'must be a table such as {kind = "kick", fastest = "0.3 m/s"}',
 }
@@ -247,14 +245,11 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
     if "basins" in tables:
         return _basins(tables["basins"], scales)
     study = _read(_Study, tables["study"], "study")
-    problems = Problems()
     limits = case.zones.limits if case else Zones().limits
-    task = problems.attempt(StudyTask, study.disturbances, study.least_damping, limits, scales is not None)
     if top and top.seed is not None and not study.disturbances:
         allowed = "allowed only with simulated disturbances; leave it out, or set study.disturbances above 0"
-        problems.errors.append(InputError("seed", top.seed, allowed))
-    problems.raise_all()
-    return cast("StudyTask", task)
+        raise InputError("seed", top.seed, allowed)
+    return StudyTask(study.disturbances, limits, scales is not None)
 
 
 def _basins(given: object, scales: Scales | None) -> BasinsTask:
