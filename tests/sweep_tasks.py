@@ -116,5 +116,5 @@ def basins_plan(starts=12, chunk=2, shape=(4, 5), damping=(0.5, 0.9)):
 def stored_bytes(store):
     """Every file of a store that follows from its plan and the processors: numbers, records, kinds of processors."""
     store = Path(store)
-    files = [*store.glob("*/c/**/*"), *store.glob("records/*"), store / "processors.json"]
+    files = [*store.glob("*/c/**/*"), *store.glob("records/*")]
     return {str(file.relative_to(store)): file.read_bytes() for file in sorted(files) if file.is_file()}

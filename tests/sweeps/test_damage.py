@@ -103,7 +103,6 @@ def test_what_agrees_with_its_end_but_is_too_short_is_no_chunk(whole, store, dat
         ("value/c/1", "draw/c/1", {1}),
         ("status/c/0", "status/c/3", {0, 3}),
         ("records/0000001.json", "records/0000002.json", {1, 2}),
-        ("records/0000001.json", "processors.json", {1}),
     ],
 )
 def test_exchanged_files_are_noticed(whole, store, first, second, wrong):
@@ -142,7 +141,7 @@ def test_chunk_of_another_plan_is_noticed(whole, store, tmp_path):
 
 @pytest.mark.parametrize("name", ["zarr.json", "value/zarr.json", "checksums.json"])
 def test_description_under_another_name_is_one_line(store, name):
-    for other in ("processors.json", "records/0000001.json", "status/zarr.json"):
+    for other in ("records/0000001.json", "status/zarr.json"):
         (store / name).write_bytes((store / other).read_bytes())
         for use in (run, open_sweep):
             with pytest.raises(InputError, match=f"its file {name} is damaged or missing"):
@@ -217,7 +216,6 @@ def test_folders_that_are_not_in_the_way_do_no_harm(store, name):
         ("value/c/1", "Is a directory"),
         ("status/c/1", "Is a directory"),
         ("records/0000003.json", "Is a directory"),
-        ("processors.json", "Is a directory"),
         ("zarr.json", "Is a directory"),
     ],
 )
@@ -342,43 +340,16 @@ def on(monkeypatch, kind):
     monkeypatch.setattr("carom.sweeps.chunk.processor", lambda: kind)
 
 
-def test_store_names_the_processors_that_computed_it(tmp_path, monkeypatch):
+def test_another_kind_of_processor_is_warned_of_once(tmp_path, monkeypatch):
     path = tmp_path / "s.zarr"
     plan = plan_of(Drawn(), count=9, chunk=3)
-    assert open_sweep(SweepStore(path, plan).path).attrs["versions"]["processors"] == []
     on(monkeypatch, "x86_64 avx2 fma")
     run(path, plan)
-    assert open_sweep(path).attrs["versions"]["processors"] == ["x86_64 avx2 fma"]
     (path / "status/c/0").unlink()
     (path / "status/c/1").unlink()
     on(monkeypatch, "x86_64 avx2 avx512f fma")
     with pytest.warns(CaromWarning, match=r"a processor of another kind \(only here: avx512f\).*last bits") as told:
         run(path, plan)
     assert len(told) == 1
-    assert open_sweep(path).attrs["versions"]["processors"] == ["x86_64 avx2 avx512f fma", "x86_64 avx2 fma"]
     (path / "status/c/1").unlink()
     run(path, plan)  # both kinds are known
-
-
-@pytest.mark.parametrize("change", ["deleted", "empty", "flip", "other words"])
-def test_kinds_of_processors_are_restored_from_the_chunks(whole, store, change):
-    file = store / "processors.json"
-    if change == "other words":
-        file.write_text(json.dumps(["x86_64"]))
-    else:
-        damage(file, random.Random(1), change)
-    with pytest.raises(
-        InputError, match=r"its file processors\.json is damaged or missing; the carom sweep that wrote it"
-    ):
-        open_sweep(store)
-    assert run(store).computed == 0
-    assert stored_bytes(store) == stored_bytes(whole)
-
-
-def test_kinds_of_processors_from_before_a_chunk_are_noticed(whole, store):
-    SweepStore(store.with_name("new.zarr"), PLAN)
-    shutil.copy(store.with_name("new.zarr") / "processors.json", store)
-    with pytest.raises(InputError, match=r"its file processors\.json is incomplete; the carom sweep that wrote it"):
-        open_sweep(store).value.load()
-    assert run(store).computed == 0
-    assert stored_bytes(store) == stored_bytes(whole)

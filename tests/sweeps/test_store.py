@@ -50,7 +50,7 @@ def test_xarray_opens_what_is_there(tmp_path):
     assert data.attrs["seed"] == 5
     assert data.attrs["plan_digest"] == PLAN.digest
     assert data.attrs["source"] == f"carom {carom.__version__}"
-    assert data.attrs["versions"].keys() == {"carom", "numpy", "numba", "llvmlite", "python", "processors"}
+    assert data.attrs["versions"].keys() == {"carom", "numpy", "numba", "llvmlite", "python"}
     assert json.loads(data.attrs["plan"]) == PLAN.describe()
 
 

@@ -14,7 +14,6 @@
 ``checked_store``   the same as Zarr reads it, with damage detected
 ``integrity``       checksums of the files of a store
 ``versions``        versions of software and kinds of processors, on which the last bits of results depend
-``memory``          results in memory instead of a store
 ``local``           chunks computed by processes and threads of this machine
 ``cluster``         chunks computed by Dask workers
 ``running``         :func:`run_sweep`

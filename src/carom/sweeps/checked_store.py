@@ -15,7 +15,6 @@ from carom.sweeps.chunk_record import ChunkRecord, record_file
 from carom.sweeps.integrity import DamagedError
 from carom.sweeps.layout import ROOT
 from carom.sweeps.variables import STATUS
-from carom.sweeps.versions import PROCESSORS, processors_of
 
 if TYPE_CHECKING:
     from zarr.abc.buffer import Buffer
@@ -80,8 +79,6 @@ class CheckedStore(WrapperStore[LocalStore]):
             return f"its file {record_file(root, number).relative_to(root)} is damaged, missing or another's"
         if not record.agrees(name, found.to_bytes(), self._sizes[name]):
             return f"its file {key} is damaged or another's"
-        if record.processor and record.processor not in processors_of(root):
-            return f"its file {PROCESSORS} is incomplete"
         return ""
 
 

@@ -17,7 +17,7 @@ from carom.outcome import InputError
 from carom.results import flags
 from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
-from carom.sweeps.versions import PROCESSORS, other_version, processors_record, versions
+from carom.sweeps.versions import other_version, versions
 
 OPTION, ROOT = "--out", "zarr.json"
 """Name of the directory in errors, and of the file that describes what a store holds."""
@@ -94,7 +94,6 @@ def create(path: Path, plan: SweepPlan) -> None:
         with unfinished(home, folder=True) as made:
             _lay_out(made, plan)
             (made / SUMS).write_bytes(sums(made))
-            (made / PROCESSORS).write_bytes(processors_record(()))
             made.rename(path)
             sync_directory(home)
     except OSError:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from carom.arguments import Count, checked
@@ -15,7 +16,6 @@ from carom.core.processors import available_cores
 from carom.outcome import InputError
 from carom.progress import Reporter, ShowProgress, duration_words, shows_progress
 from carom.sweeps.chunk import Chunk
-from carom.sweeps.memory import SweepMemory
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.store import SweepStore
 
@@ -40,6 +40,8 @@ class Tally:
         Time since this run began.
     damaged : tuple of int
         Finished chunks of which a file was damaged, missing or another's; they are computed again.
+    failures : list of dict
+        The first failed points, when the run has ended: index in the grid, parameters and error of each.
     """
 
     store: Path | None
@@ -49,19 +51,15 @@ class Tally:
     computed: int
     seconds: float
     damaged: tuple[int, ...] = ()
-    results: SweepStore | SweepMemory | None = field(default=None, repr=False, compare=False)
+    failures: list[dict[str, Any]] = field(default_factory=list, repr=False)
+    read: Callable[[], xarray.Dataset] | None = field(default=None, repr=False, compare=False)
 
     @property
     def dataset(self) -> xarray.Dataset:
         """Results so far, as :func:`~carom.sweeps.open_sweep` returns them."""
-        if self.results is None:
+        if self.read is None:
             raise RuntimeError("this tally was not made by run_sweep")
-        return self.results.dataset()
-
-    @property
-    def failures(self) -> list[dict[str, Any]]:
-        """The first failed points: index in the grid, parameters and error of each."""
-        return self.results.failures() if self.results else []
+        return self.read()
 
     @property
     def waiting(self) -> int:
@@ -157,28 +155,37 @@ def run_sweep(
         raise InputError("--threads", "given", "not allowed with --scheduler, whose workers compute")
     if scheduler is not None and workers is not None:
         raise InputError("--workers", workers, "not allowed with --scheduler, whose workers compute")
-    book = SweepMemory(plan) if store is None else SweepStore(store, plan)
-    if threads is None:
-        threads = store is None and scheduler is None
+    if store is None:
+        with TemporaryDirectory(prefix="carom-sweep-") as folder:
+            own = (scheduler is None) if threads is None else threads
+            found = run_sweep(
+                plan, Path(folder, "sweep"), workers=workers, threads=own, scheduler=scheduler, progress=progress
+            )
+            data = found.dataset.load()
+        return replace(found, store=None, read=lambda: data)
+    book = SweepStore(store, plan)
     began, computed, tell = time.monotonic(), 0, Reporter.of(progress, "computing points")
 
     def tally() -> Tally:
         seconds = time.monotonic() - began
-        return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged), book)
+        return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged))
 
-    if book.is_whole and next(book.waiting(retry_failed), None) is None:
-        return tally()
+    def end() -> Tally:
+        return replace(tally(), failures=book.failures(), read=book.dataset)
+
+    if next(book.waiting(retry_failed), None) is None:
+        return end()
     with ExitStack() as stack:
         stack.enter_context(book)
         if next(book.waiting(retry_failed), None) is None:
-            return tally()
-        chunks = _chunks(plan, book.waiting(retry_failed), workers, threads, scheduler, stack)
+            return end()
+        chunks = _chunks(plan, book.waiting(retry_failed), workers, bool(threads), scheduler, stack)
         for chunk in stack.enter_context(closing(chunks)):
             book.write(chunk)
             computed += plan.size(chunk.number)
             now = tally()
             tell((now.done + now.failed) / now.points, now.words)
-    return tally()
+    return end()
 
 
 def _chunks(

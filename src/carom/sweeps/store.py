@@ -4,8 +4,7 @@ Every variable is an uncompressed array over the grid in the Zarr 3 format.  A c
 bytes of the numbers and their checksum.  ``records/<chunk>.json`` binds the files of a chunk to their place, and has its
 failures and the kind of its processor.  The file of ``status`` is written last: a chunk counts as finished as soon as
 this file exists.  Before a sweep is resumed, finished chunks are compared with their records; a chunk of which a file is
-damaged, missing or another's is computed again.  ``processors.json`` names the kinds of processors; it follows from the
-records, and is restored from them.
+damaged, missing or another's is computed again.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from carom.sweeps.integrity import DamagedError, seal, seal_of
 from carom.sweeps.layout import OPTION, PARTS, attributes_of, check_same, create, is_new
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS
-from carom.sweeps.versions import PROCESSORS, differences, processors_of, processors_record
+from carom.sweeps.versions import differences
 
 if TYPE_CHECKING:
     import xarray
@@ -70,8 +69,6 @@ class SweepStore:
         self._failed: dict[int, int] = {}
         self._digest = plan.digest
         self._processors: set[str] = set()
-        self.is_whole = False
-        """Whether what follows from the chunks was stored, too."""
         points = math.prod(plan.chunk_shape)
         self._sizes = [points * math.prod(one.shape) * one.dtype.itemsize for one in plan.variables]
         try:
@@ -99,8 +96,6 @@ class SweepStore:
             self._finished[number] = True
             self._note(found)
         self._points = _points(self._finished, self.plan)
-        with suppress(FileNotFoundError):
-            self.is_whole = (self.path / PROCESSORS).read_bytes() == processors_record(self._processors)
 
     def _record(self, number: int) -> ChunkRecord | None:
         """Return the record of a finished chunk, or None if it or a file of the chunk is damaged, missing or another's."""
@@ -173,8 +168,6 @@ class SweepStore:
                 for part in (self.path / PARTS).iterdir():  # left by a process that was killed
                     part.unlink()
                 self._scan()  # again, as no other process can write now
-                if not self.is_whole:
-                    self._write_processors()
                 stack.pop_all()
         except Timeout:
             raise InputError(OPTION, self.path, "another sweep is writing to it; let it end, or stop it") from None
@@ -210,7 +203,6 @@ class SweepStore:
         status_data = files.pop(status)
         files[record_file(self.path, number)] = kept.data
         try:
-            self._record_processor(chunk.processor)
             self._let_wait(number)
             list(self._writers.map(self._write_file, files, files.values()))
             list(self._writers.map(sync_directory, {file.parent for file in files}))
@@ -220,6 +212,7 @@ class SweepStore:
             raise self._refusal(problem, told=True) from None
         self._finished[number] = True
         self._points += plan.size(number)
+        self._warn_of_processor(chunk.processor)
         self._note(kept)
 
     def _let_wait(self, number: int) -> None:
@@ -230,11 +223,9 @@ class SweepStore:
             self._points -= self.plan.size(number)
             self._failed.pop(number, None)
 
-    def _record_processor(self, processor: str) -> None:
-        """Record a new kind of processor that computed a chunk; warn if it is not the first kind."""
-        if not processor or processor in self._processors:
-            return
-        if self._processors:
+    def _warn_of_processor(self, processor: str) -> None:
+        """Warn of a new kind of processor that computed a chunk, if it is not the first kind."""
+        if processor and self._processors and processor not in self._processors:
             others = differences(processor, min(self._processors))
             warnings.warn(
                 f"{self.path} was begun on a processor of another kind ({others}): from here on the last bits of "
@@ -243,12 +234,6 @@ class SweepStore:
                 CaromWarning,
                 stacklevel=2,
             )
-        self._processors.add(processor)
-        self._write_processors()
-
-    def _write_processors(self) -> None:
-        self._write_file(self.path / PROCESSORS, processors_record(self._processors))
-        self.is_whole = True
 
     def _write_file(self, target: Path, data: bytes) -> None:
         write_whole(target, data, self.path / PARTS)
@@ -307,11 +292,9 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     path = Path(path)
     try:
         attributes_of(path, "store")
-        processors = processors_of(path)
         data = xarray.open_zarr(CheckedStore.at(path), chunks=None, consolidated=True)
     except OSError as problem:
         raise InputError("store", path, f"cannot be read ({problem.strerror or problem}: {problem.filename})") from None
-    data.attrs["versions"] = data.attrs["versions"] | {"processors": processors}
     return data
 
 
