@@ -5,8 +5,8 @@
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
 ``brackets``            the bracket that a search for the smallest loss finds
-``losses``              the smallest kicks, shocks, losses of a blade and releases that are lost
-``families``            kinds of disturbances by size and direction, as searches for losses take them
+``losses``              the smallest kicks, shocks and losses of a blade that are lost
+``families``            which kinds have sizes, and up to which they cannot touch
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``maps``                maps over two numbers of any measure: the next two
 ``gains``               these measures against two parameters: gain maps

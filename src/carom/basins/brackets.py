@@ -31,22 +31,19 @@ class SmallestLoss(Result):
     Attributes
     ----------
     kind : str
-        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"blade-loss"``, ``"release"``, or that of
+        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"blade-loss"``, or that of
         another model; of a kick plane ``"kick"``.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
-        unbalance as an eccentricity in ``c_r``, speed along the wall in ``c_r Ω`` (fixed
-        frame), or first coordinate of another model.  ``None`` where none was found.
+        unbalance as an eccentricity in ``c_r``, or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for the loss of a blade the phase of the
-        change relative to the unbalance before it; for a release the place on the wall.
+        change relative to the unbalance before it.
     instant : float or None
         Angle in rad by which the shaft has turned when it comes, since the co-rotating frame coincided with the fixed one; ``None`` where
         the instant does not matter.
     outcome : Outcome or None
         Outcome of the motion after it.
-    backward : bool
-        Whether it is a release in backward whirl.
     recovered : float
         A smaller size in this direction, within the tolerance, that comes back.
     all_back : float or None
@@ -56,7 +53,7 @@ class SmallestLoss(Result):
         Number of starts up to ``all_back`` that are independent of the search: ``drawn`` ones, and directions over a full turn at
         that size; where the instant matters each at one of its own.
     drawn : int
-        How many of them were drawn uniformly over the area of the disc beyond the harmless size (of releases: over places and speeds).
+        How many of them were drawn uniformly over the area of the disc beyond the harmless size.
     neighbours_lost, neighbours : int
         Of so many disturbances beside the smallest lost one, up to ``beside`` of its size away in any direction, how many are lost too.
         Fewer than all: beside a basin boundary of fine structure, where rounding decides.
@@ -84,7 +81,6 @@ class SmallestLoss(Result):
     angle: float | None
     instant: float | None
     outcome: Outcome | None
-    backward: bool
     recovered: float
     all_back: float | None
     fresh: int
@@ -167,9 +163,6 @@ class Bracket:
         What the search is of: attributes of :class:`SmallestLoss`.
     """
 
-    turns = 1
-    """Turns of the directions; from the second on they mean backward whirl."""
-
     def __init__(self, **given: Any) -> None:
         self.given = given
         self.tried = 0
@@ -206,7 +199,6 @@ class Bracket:
             angle=None if angle is None else math.remainder(angle, TURN),
             instant=None if instant is None else instant % TURN,
             outcome=outcome,
-            backward=angle is not None and self.turns > 1 and angle % (2.0 * TURN) >= TURN,
             recovered=recovered,
             all_back=all_back,
             fresh=fresh,

@@ -15,7 +15,6 @@ import numpy as np
 from carom.basins.brackets import SmallestLoss
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
-from carom.basins.families import size_coordinate
 from carom.basins.gains import WANTED, GainMap
 from carom.basins.shares import Share
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
@@ -80,7 +79,7 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
     """Entries of the smallest loss of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
     key = kind.replace("-", "_")
-    name = f"smallest_unrecovered_{'release_speed' if kind == 'release' else key}"
+    name = f"smallest_unrecovered_{key}"
     several = f"{key}es" if key.endswith("s") else f"{key}s"
     document: dict[str, Any] = {
         name: found.size if found else None,
@@ -93,10 +92,8 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
         f"{several}_tried_afresh": found.fresh if found else None,
         f"{several}_lost_below": found.share_below if found else None,
     }
-    if kind == "release":
-        document[f"{name}_backward"] = found.backward if found else None
-    kind = size_coordinate(basin.plan.model).scale
-    return document | in_si(document, basin.scales, **{name: kind, f"{name}_bracket": kind})
+    quantity = found.quantity if found else "velocity"
+    return document | in_si(document, basin.scales, **{name: quantity, f"{name}_bracket": quantity})
 
 
 def _share(share: Share) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The smallest disturbances that are lost: kicks, shocks, losses of a blade, releases from contact.
+"""The smallest disturbances that are lost: kicks, shocks, losses of a blade.
 
 This is a search, not a proof.  Its result is a bracket: the largest size up to which every start tried came back, and
 the smallest size found that does not.
@@ -13,8 +13,8 @@ import numpy as np
 from carom.arguments import Count, checked
 from carom.basins.blade_losses import smallest_blade_loss
 from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, Found, SmallestLoss, lost
-from carom.basins.families import Family, family_of
-from carom.disturbances import BladeLoss, Disturbance, Starts
+from carom.basins.families import harmless_size, has_sizes
+from carom.disturbances import BladeLoss, Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Rotor, Subject, rotor_of
@@ -69,10 +69,8 @@ def smallest_loss(
     ----------
     machine : Machine, Case, Parameters or model
     model : Disturbance
-        A kick, a shock, the loss of a blade, a release from contact, or another model whose
-        coordinates are a size from 0 and a direction over a full turn.  Sizes are searched up to the largest of the
-        model (for a release in whirl forward and
-        backward, from rest up to 2 ``c_r Ω``).
+        A kick, a shock, the loss of a blade, or another model whose coordinates are a size from 0 and a direction over a full
+        turn.  Sizes are searched up to the largest of the model.
     directions, sizes : int, optional
         Numbers of directions and sizes in the scan; by default 96 of each for the planar rotor, fewer for rotors whose motions
         are followed one after another.
@@ -104,10 +102,13 @@ def smallest_loss(
         raise InputError("machine", grows, "stable levitation to come back to; this takes damping (gamma)")
     if isinstance(model, BladeLoss):
         return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
-    family = family_of(rotor, model)
+    if type(model) is KickPlane:
+        model = VelocityKick(model.fastest)
+    if not has_sizes(model):
+        raise InputError("disturbance", model.kind, "one with a size from 0 and a direction")
     usual = (DIRECTIONS, SIZES) if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
     directions, sizes = directions or usual[0], sizes or usual[1]
-    search = _Search(rotor, family, tolerance, threads)
+    search = _Search(rotor, model, tolerance, threads)
     try:
         return _searched(search, directions, sizes, Reporter.of(progress, "looking for the smallest that is lost"))
     except BudgetSpentError:
@@ -116,23 +117,23 @@ def smallest_loss(
 
 def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> SmallestLoss:
     """The search to its end."""
-    family = search.family
-    if family.harmless >= family.largest:
-        return search.result(family.largest)
-    all_round = _all_round(family, directions)
-    if family.timed:
+    harmless, largest = search.harmless, search.largest
+    if harmless >= largest:
+        return search.result(largest)
+    all_round = _all_round(directions, search.timed)
+    if search.timed:
         sizes = max(1, sizes // COARSER)
-    if family.harmless == 0.0:
+    if harmless == 0.0:
         search.scan(all_round, np.zeros(1))
         if search.best is not None:
             return search.result(None)
-    levels = family.harmless + (family.largest - family.harmless) * np.arange(sizes + 1) / sizes
+    levels = harmless + (largest - harmless) * np.arange(sizes + 1) / sizes
     search.scan(all_round, levels)
     search.refine(TURN / directions)
     for number in range(MOST_CHECKS):
         tell(0.5 + 0.5 * number / MOST_CHECKS)
-        below = family.largest if search.best is None else search.best.recovered
-        if below <= family.harmless:
+        below = largest if search.best is None else search.best.recovered
+        if below <= harmless:
             break
         before = search.best
         fresh = search.draw(below, number)
@@ -140,24 +141,25 @@ def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> S
             tell(1.0)
             return search.result(below, *fresh)
         search.refine(TURN / directions)
-    return search.result(family.harmless or None)
+    return search.result(harmless or None)
 
 
-def _all_round(family: Family, directions: int) -> np.ndarray:
-    """Evenly spaced directions over all turns of a family, shape (1, n), or with instants, shape (2, n)."""
-    count = directions * (PAIRS if family.timed else 1)
-    angles = TURN * np.arange(family.turns * count) / count
-    return np.stack([angles, TURN * (GOLDEN * np.arange(angles.size) % 1.0)]) if family.timed else angles[None]
+def _all_round(directions: int, timed: bool) -> np.ndarray:
+    """Evenly spaced directions over a turn, shape (1, n), or with instants, shape (2, n)."""
+    count = directions * (PAIRS if timed else 1)
+    angles = TURN * np.arange(count) / count
+    return np.stack([angles, TURN * (GOLDEN * np.arange(count) % 1.0)]) if timed else angles[None]
 
 
 class _Search(Bracket):
-    """Search among the disturbances of a family."""
+    """Search among the disturbances of a model by size and direction."""
 
-    def __init__(self, rotor: Rotor, family: Family, tolerance: float, threads: int | None) -> None:
-        sizes = {name: getattr(family, name) for name in ("kind", "quantity", "harmless", "largest")}
-        super().__init__(**sizes, tolerance=tolerance, scales=rotor.scales)
-        self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
-        self.turns = family.turns
+    def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None) -> None:
+        self.size, self.harmless = model.coordinates[0], harmless_size(rotor, model)
+        self.largest, self.timed = self.size.high, rotor.depends_on_instant
+        sizes = {"quantity": self.size.scale, "harmless": self.harmless, "largest": self.largest}
+        super().__init__(kind=model.kind, **sizes, tolerance=tolerance, scales=rotor.scales)
+        self.rotor, self.model, self.tolerance, self.threads = rotor, model, tolerance, threads
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
         """Scan angles (k, n) at increasing sizes, the first of which is known to recover, up to that at which some are lost.
@@ -198,13 +200,13 @@ class _Search(Bracket):
 
     def refine(self, apart: float) -> None:
         """Scan directions to both sides of the best one, or pairs all around it, ever closer."""
-        if self.family.timed:
+        if self.timed:
             self._refine_pairs(apart)
             return
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
             beside = self.best.angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
-            self.scan(beside[None], np.linspace(self.family.harmless, self.best.size, BELOW + 1))
+            self.scan(beside[None], np.linspace(self.harmless, self.best.size, BELOW + 1))
 
     def _refine_pairs(self, apart: float) -> None:
         """Scan pairs spread over discs about the best one, from two distances between pairs of the first scan down to the tolerance."""
@@ -212,7 +214,7 @@ class _Search(Bracket):
         spread = np.sqrt(number / NEAR) * np.array([np.cos(TURN * GOLDEN * number), np.sin(TURN * GOLDEN * number)])
         while self.best is not None and reach > self.tolerance:
             at = np.array([[self.best.angle], [self.best.instant]])
-            self.scan(at + reach * spread, np.linspace(self.family.harmless, self.best.size, BELOW // 2 + 1))
+            self.scan(at + reach * spread, np.linspace(self.harmless, self.best.size, BELOW // 2 + 1))
             reach /= CLOSER
 
     def draw(self, below: float, seed: int) -> tuple[int, int]:
@@ -220,12 +222,12 @@ class _Search(Bracket):
 
         Where the budget of a study does not suffice for all of them, those that were followed count.
         """
-        family = self.family
         random = np.random.default_rng(seed)
-        sizes = np.append(family.drawn(random.random(DRAWN), below), np.full(ROUND, below))
-        span = TURN * family.turns
-        angles = np.append(span * random.random(DRAWN), span * (np.arange(ROUND) + random.random()) / ROUND)[None]
-        if family.timed:
+        low, shares = self.harmless, random.random(DRAWN)
+        area = np.sqrt(low**2 + (below**2 - low**2) * shares)
+        sizes = np.append(area if self.size.over_disc else low + (below - low) * shares, np.full(ROUND, below))
+        angles = np.append(TURN * random.random(DRAWN), TURN * (np.arange(ROUND) + random.random()) / ROUND)[None]
+        if self.timed:
             angles = np.append(angles, TURN * random.random(angles.shape), axis=0)
         outcomes = self._outcomes(sizes, angles)
         followed = outcomes != NOT_FOLLOWED
@@ -234,7 +236,7 @@ class _Search(Bracket):
         gone = lost(np.where(followed, outcomes, Outcome.GRAZING))
         for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
             if self.best is None or sizes[place] < self.best.size:
-                self.scan(angles[:, place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
+                self.scan(angles[:, place : place + 1], np.linspace(self.harmless, sizes[place], BELOW + 1))
         return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:DRAWN]))
 
     def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
@@ -254,7 +256,7 @@ class _Search(Bracket):
     def _outcomes(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
         """Outcomes; of impossible starts as of undecided ones."""
         sizes, *at = np.broadcast_arrays(sizes, *angles)
-        starts = self.family.starts(sizes, *at)
+        starts = self.model.starts_on(self.rotor, sizes, *at)
         outcomes = follow(self.rotor, starts, threads=self.threads).outcomes
         outcomes[~starts.exists] = Outcome.GRAZING
         counted = starts.exists & (starts.ended == Outcome.CLEAR) & (outcomes != NOT_FOLLOWED)

@@ -88,7 +88,6 @@ _LOSSES = {
     "kick": "kick",
     "shock": "shock of this duration",
     "blade-loss": "change of the unbalance by a loss of a blade",
-    "release": "release",
 }
 
 
@@ -143,9 +142,6 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
 def _where(basin: Basin, smallest: SmallestLoss) -> str:
     """Describe the direction of the smallest lost disturbance."""
     angle = smallest.angle or 0.0
-    if smallest.kind == "release":
-        whirl = "backward" if smallest.backward else "forward"
-        return f"{'in ' + whirl + ' whirl ' if smallest.size else ''}at {angle:.4f} rad on the wall"
     if smallest.kind == "blade-loss":
         return f"at {math.degrees(angle):+.0f} deg from the unbalance before it"
     heavy = math.degrees(math.remainder(angle - basin.rotor.unbalance_phase, 2.0 * math.pi))

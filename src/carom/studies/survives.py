@@ -16,7 +16,7 @@ import numpy as np
 
 from carom.attractors import AttractorSet
 from carom.basins import Share, SmallestLoss, smallest_loss
-from carom.basins.families import family_of
+from carom.basins.families import harmless_size
 from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
@@ -138,8 +138,7 @@ def _duration(rotor: Rotor, required: Required) -> float:
 
 def _reaching(rotor: Rotor, model: VelocityKick | BaseShock) -> SmallestLoss:
     """Search up to a multiple of a disturbance, or of what is proven to be harmless if that is more."""
-    family = family_of(rotor, model)
-    largest = _times(model, REACH * max(1.0, family.harmless / family.largest))
+    largest = _times(model, REACH * max(1.0, harmless_size(rotor, model) / model.coordinates[0].high))
     return smallest_loss(rotor, largest)
 
 
