@@ -111,13 +111,14 @@ def _print_drop(screen: Console, found: DropStudy) -> None:
     """Print what was done, how it ended, the loads of each plane, and the limits."""
     from rich.text import Text
 
-    from carom.cli.motion_tables import print_checks, print_tables
-    from carom.cli.tables import TEXT_WIDTH
+    from carom.cli.motion_tables import print_checks
+    from carom.cli.tables import TEXT_WIDTH, print_rows
 
     width = min(screen.width, TEXT_WIDTH)
     screen.print(f"{found.echo.words}.", width=width)
     screen.print(Text(found.headline, style="bold"), width=width)
-    print_tables(screen, found.tables)
+    for title, rows in found.tables:
+        print_rows(screen, title, rows)
     print_checks(screen, found.checks)
     for each in (found.loads.magnets, found.reduction):
         if each is not None and each.words:

@@ -15,7 +15,7 @@ from rich.text import Text
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
-from carom.cli.tables import TEXT_WIDTH, complex_words
+from carom.cli.tables import TEXT_WIDTH, complex_words, print_rows
 from carom.motions import TouchLog, Trajectory, drop_loads
 from carom.motions.contacts import yields
 from carom.outcome import Outcome, Phase
@@ -49,22 +49,9 @@ def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> 
         print_motion(console, case, part)
     found = drop_loads(motion)
     if any(plane.contacts or plane.contact_time for plane in found.planes):
-        print_tables(console, load_tables(found, _SINCE.get(kind, "the start")))
+        for title, rows in load_tables(found, _SINCE.get(kind, "the start")):
+            print_rows(console, title, rows)
         print_checks(console, checks_of_planes(found, case.limits))
-
-
-def print_tables(console: Console, tables: Iterable[tuple[str, list[tuple[str, str]]]]) -> None:
-    """Print the rows of each plane under its title."""
-    for title, rows in tables:
-        console.print()
-        if title:
-            console.print(Text(title, style="bold"))
-        table = Table.grid(padding=(0, 2, 0, 0))
-        table.add_column(no_wrap=True)
-        table.add_column()
-        for label, words in rows:
-            table.add_row(Text(f"  {label}"), Text(words))
-        console.print(table, width=min(console.width, TEXT_WIDTH))
 
 
 def print_checks(console: Console, checks: Iterable[LoadCheck]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -89,15 +89,22 @@ def _print_topics(console: Console, study: Study) -> None:
 
 
 def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:
-    """Print the facts of a topic with their labels: a table without lines, details indented."""
+    """Print the facts of a topic with their labels, details indented."""
+    facts = about(study.facts, topic)
+    rows = [(f"  {fact.label}" if fact.detail else fact.label, fact.told) for fact in facts]
+    print_rows(console, heading, rows, bold=CHANGES)
+
+
+def print_rows(console: Console, title: str, rows: Iterable[tuple[str, str]], bold: Collection[str] = ()) -> None:
+    """Print labels and what they say below a title: a table without lines; the words of the labels in ``bold`` stand out."""
     console.print()
-    console.print(Text(heading, style="bold"))
+    if title:
+        console.print(Text(title, style="bold"))
     table = Table.grid(padding=(0, 2, 0, 0))
     table.add_column(no_wrap=True)
     table.add_column()
-    for fact in about(study.facts, topic):
-        label = Text(f"    {fact.label}" if fact.detail else f"  {fact.label}")
-        table.add_row(label, Text(fact.told, style="bold" if fact.label in CHANGES else ""))
+    for label, words in rows:
+        table.add_row(Text(f"  {label}"), Text(words, style="bold" if label.strip() in bold else ""))
     console.print(table, width=min(console.width, TEXT_WIDTH))
 
 
