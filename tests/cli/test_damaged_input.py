@@ -320,8 +320,6 @@ LINES = (
         "stiffness,damping",
         "--x",
         "5e5 N/m,2e6 N/m",
-        "--wanted",
-        "0.9",
     ),
     ("bifurcations", "MACHINE", "--along", "speed", "--from", "3000 rpm", "--to", "1000 rpm"),
     ("regions", "MACHINE", "--plane", "speed,damping", "--x", "100 rad/s,300 rad/s", "--y", "500 N s/m,4000 N s/m"),

@@ -70,11 +70,6 @@ class GainMap(OverPlane, Mapped):
         """Of what the shares are shares."""
         return Population.of_model(self.plan.model, self.rotor.scales, instants_words(self.rotor, self.plan))
 
-    @property
-    def limits(self) -> dict[str, int]:
-        """``patience`` and ``max_events`` of :func:`~carom.basins.map_basins` used for the map."""
-        return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
-
 
 @checked
 @shows_progress
