@@ -26,7 +26,10 @@ from carom.orbits.simulated import SimulatedOrbit
 from carom.outcome import CaromError, InputError, Phase
 from carom.results import Result
 
-STEPS = Steps(first=0.01, largest=0.2, smallest=1e-6, sharpest_turn=0.3, most_points=250, tolerance=1e-10)
+STEPS = Steps(
+    first=0.01, largest=0.2, smallest=1e-6, sharpest_turn=0.3, most_points=250, tolerance=1e-10, resolution=1e-8
+)
+"""Derivatives by differences do not tell places of special points any better."""
 MOST_NUMBERS = 40
 """Numbers of a state up to which its branches are followed: each step takes the whole derivative."""
 SAMPLES, HALVINGS = 2000, 60

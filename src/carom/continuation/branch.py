@@ -27,6 +27,8 @@ class Steps:
         Largest angle between tangents of neighbouring points, in rad.
     most_points : int
         Number of points after which a direction is abandoned.
+    resolution : float
+        Arclength within which special points are located.
     """
 
     first: float = 0.01
@@ -36,6 +38,7 @@ class Steps:
     iterations: int = 8
     sharpest_turn: float = 0.2
     most_points: int = 5000
+    resolution: float = 1e-14
 
 
 @dataclass(frozen=True)

@@ -331,7 +331,7 @@ class Tracer:
         if bracket is None:
             return None
         try:
-            distance = bracketed_root(rounded, *bracket, 1e-14)
+            distance = bracketed_root(rounded, *bracket, self.steps.resolution)
         except CaromError:
             return None
         if math.isnan(smaller + size):
