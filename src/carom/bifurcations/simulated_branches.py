@@ -21,7 +21,7 @@ from carom.progress import Reporter
 
 VALUES = (0.5, 0.15, 0.85)
 """Places of the range at which orbits are searched."""
-SHARE, EVENTS = 0.2, 5e6
+SHARE, EVENTS = 0.2, 3e6
 """Share of the usual search there, and events after which no further orbit is followed."""
 FEW = replace(STEPS, largest=0.3, most_points=60)
 """Steps of the branches of a diagram, of which there may be many."""
