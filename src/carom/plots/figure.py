@@ -8,6 +8,7 @@ from contextvars import ContextVar
 from io import BytesIO
 from typing import Any
 
+import numpy as np
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -142,5 +143,5 @@ def write_plain_ticks(figure: Figure) -> None:
     for axes in [each for parent in figure.axes for each in (parent, *parent.child_axes)]:
         for axis in (axes.xaxis, axes.yaxis):
             formatter = axis.get_major_formatter()
-            if isinstance(formatter, ScalarFormatter) and 1e-3 <= abs(axis.get_view_interval()).max() < 1e6:
+            if isinstance(formatter, ScalarFormatter) and 1e-3 <= np.abs(axis.get_view_interval()).max() < 1e6:
                 formatter.set_useMathText(False)

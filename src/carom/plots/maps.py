@@ -67,7 +67,7 @@ def draw_map(
         mark_cells(axes, edges, cells, replace(BLANKS[key], words=replaced.get(key, BLANKS[key].words)), key)
     if not words:
         return None
-    bar = axes.get_figure().colorbar(mesh, ax=axes, pad=0.02, label=words)
+    bar = axes.figure.colorbar(mesh, ax=axes, pad=0.02, label=words)
     bar.outline.set_linewidth(0.5)
     return bar
 
