@@ -19,7 +19,7 @@ from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
 from carom.proofs.families import KICKS
 from carom.proofs.kick_cells import IMPACTS, leaves, read
-from carom.proofs.kick_claims import claims_of, decimal
+from carom.proofs.kick_claims import claims_of
 from carom.proofs.kick_discs import Disc
 
 SPINDLE = "examples/spindle.toml"
@@ -217,13 +217,6 @@ def test_speeds_are_not_told_in_a_unit_that_machines_do_not_share():
         claims = claims_of(disc(("clearance", "0.2 mm", "0.3 mm")), read("v0g", 1))
     assert "speed" not in claims[0].enclosures
     assert claims[0].enclosures["speed_si"].low == "0.0555"
-
-
-def test_numbers_are_rounded_to_the_side_asked_for():
-    third = Fraction(1, 3)
-    assert Fraction(decimal(third, upward=False)) < third < Fraction(decimal(third, upward=True))
-    assert decimal(Fraction(280), upward=True) == "280"
-    assert decimal(Fraction(9947, 10**13), upward=False) == "9.947E-10"
 
 
 def test_time_that_is_up_leaves_gaps():

@@ -61,7 +61,7 @@ def test_points_of_the_paper_have_twenty_digits(paper, name):
     value = paper[name].enclosures["value"]
 
     assert paper[name].status == "proven"
-    assert value.digits >= 20
+    assert value.width < Fraction(1, 10**21)
     assert Fraction(value.low) <= Fraction(KNOWN[name]) + Fraction(1, 10**25)
     assert Fraction(value.high) >= Fraction(KNOWN[name]) - Fraction(1, 10**25)
 

@@ -21,7 +21,7 @@ from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
 from carom.proofs.seeds import doubles_of
 
-REFUTABLE, RETURNING = Cell(63, 6, 13, 6), Cell(8, 6, 13, 6)
+REFUTABLE, RETURNING = Cell((63, 6), (13, 6)), Cell((8, 6), (13, 6))
 """A cell of kicks of the source paper's machine at γ = 0.3 that end in the rub, and one of kicks that never touch."""
 
 
@@ -31,7 +31,7 @@ def tree_of(*told):
     for target, letter in told:
         cell = DISC
         while cell != target:
-            by = BY_SPEED if cell.rings < target.rings else BY_ANGLE
+            by = BY_SPEED if cell.ring[1] < target.ring[1] else BY_ANGLE
             if tree.get(cell, LOST) not in (BY_SPEED, BY_ANGLE):
                 tree[cell] = by
                 tree |= dict.fromkeys(cell.halves(by), LOST)
@@ -41,10 +41,8 @@ def tree_of(*told):
 
 
 def _within(cell, other):
-    return (
-        cell.ring >> (cell.rings - other.rings) == other.ring
-        and cell.sector >> (cell.sectors - other.sectors) == other.sector
-    )
+    pairs = zip((cell.ring, cell.sector), (other.ring, other.sector), strict=True)
+    return all(place >> (deep - halvings) == k for (place, deep), (k, halvings) in pairs)
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +98,7 @@ def test_what_is_forged_is_refused(document):
     for cells in (
         tree_of((REFUTABLE, REFUTED), (RETURNING, REFUTED)),
         tree_of((REFUTABLE, "3"), (RETURNING, "0")),
-        tree_of((Cell(15, 4, 3, 4), REFUTED), (RETURNING, "0")),
+        tree_of((Cell((15, 4), (3, 4)), REFUTED), (RETURNING, "0")),
         tree_of((RETURNING, "0")),
     ):
         with pytest.raises(InputError, match="is refused"):

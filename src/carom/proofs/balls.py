@@ -84,18 +84,6 @@ class Enclosure:
         return float((Fraction(self.low) + Fraction(self.high)) / 2)
 
     @property
-    def digits(self) -> int:
-        """Number of significant digits that are certain, about."""
-        low, high = Fraction(self.low), Fraction(self.high)
-        size = max(abs(low), abs(high))
-        if not size or low == high:
-            return _MOST_DIGITS
-        with localcontext(Context(prec=20)):
-            ratio = Decimal((high - low).numerator) / Decimal((high - low).denominator)
-            ratio /= Decimal(size.numerator) / Decimal(size.denominator)
-            return max(0, -ratio.adjusted() - 1)
-
-    @property
     def width(self) -> Fraction:
         """Difference of both numbers."""
         return Fraction(self.high) - Fraction(self.low)

@@ -14,14 +14,13 @@ from carom.outcome import InputError
 from carom.parameters.terms import conflicts
 from carom.proofs.balls import interval, rational
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.lines import Line, Machines, Numbers, line_of
+from carom.proofs.kick_cells import Part
+from carom.proofs.lines import Line, Machines, line_of
 from carom.proofs.series import terms
 from carom.proofs.sides import Side
 
 MOST_PARAMETERS = 3
 """Parameters of a box."""
-Part = tuple[int, int]
-"""The ``k``-th of ``2^n`` parts of an interval, as ``(k, n)``."""
 
 
 @dataclass(frozen=True)
@@ -52,14 +51,6 @@ class Box:
     def middles(self, parts: Sequence[Part]) -> dict[str, Any]:
         """Ball of the middle of each parameter on a part of the box."""
         return {line.name: rational(sum(self.ends(j, parts[j]), Fraction(0)) / 2) for j, line in enumerate(self.lines)}
-
-    def numbers(self, parts: Sequence[Part]) -> Numbers:
-        """Numbers of all machines of a part of the box."""
-        return self.machines.at(self.values(parts))
-
-    def middle(self, parts: Sequence[Part]) -> Numbers:
-        """Numbers of the machine in its middle."""
-        return self.machines.at(self.middles(parts))
 
     def series(self, parts: Sequence[Part]) -> list[dict[str, Any]]:
         """The parameters as power series in each of them, by half its width, on all of a part of the box."""

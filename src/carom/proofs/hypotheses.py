@@ -61,17 +61,12 @@ class Hypotheses:
     def __post_init__(self) -> None:
         fields = MACHINE_FIELDS if self.table == "machine" else DIMENSIONLESS_FIELDS
         errors = name_errors(self.values, fields, f"[{self.table}]")
-        errors += [
-            unknown_name(name, text, DIMENSIONLESS_FIELDS, "the settings")
-            for name, text in self.settings.items()
-            if name not in DIMENSIONLESS_FIELDS
-        ]
         helpers = HELPER_FIELDS if self.table == "machine" else {}
-        errors += [
-            unknown_name(name, text, helpers, "the entries of the machine's file")
-            for name, text in self.helpers.items()
-            if name not in helpers
-        ]
+        for given, known, where in (
+            (self.settings, DIMENSIONLESS_FIELDS, "the settings"),
+            (self.helpers, helpers, "the entries of the machine's file"),
+        ):
+            errors += [unknown_name(name, text, known, where) for name, text in given.items() if name not in known]
         if errors:
             raise together(errors)
         self.numbers  # noqa: B018  (raises if a value is not allowed)

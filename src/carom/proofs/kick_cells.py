@@ -14,6 +14,8 @@ from typing import NamedTuple
 from carom.proofs.evidence import NotShownError
 from carom.proofs.passages import REASONS
 
+Part = tuple[int, int]
+"""The ``k``-th of ``2^n`` parts of an interval, as ``(k, n)``."""
 BY_SPEED, BY_ANGLE = "v", "a"
 BY_PARAMETER = "pqu"
 CUTS = BY_SPEED + BY_ANGLE + BY_PARAMETER
@@ -34,64 +36,62 @@ DEEPEST = 64
 
 
 class Cell(NamedTuple):
-    """The ``ring``-th of ``2^rings`` parts of the speeds and the ``sector``-th of ``2^sectors`` parts of a turn.
+    """A part of the speeds, of a turn, and with a box of the interval of each parameter: the ``k``-th of ``2^n``, each as ``(k, n)``."""
 
-    ``parts`` has for each parameter the same two numbers.
-    """
-
-    ring: int
-    rings: int
-    sector: int
-    sectors: int
-    parts: tuple[tuple[int, int], ...] = ()
+    ring: Part = (0, 0)
+    sector: Part = (0, 0)
+    parts: tuple[Part, ...] = ()
 
     @property
     def speeds(self) -> tuple[Fraction, Fraction]:
         """Both ends of its speeds, as shares of the largest one."""
-        return Fraction(self.ring, 2**self.rings), Fraction(self.ring + 1, 2**self.rings)
+        return _ends(self.ring)
 
     @property
     def angles(self) -> tuple[Fraction, Fraction]:
         """Both ends of its angles, as shares of a turn."""
-        return Fraction(self.sector, 2**self.sectors), Fraction(self.sector + 1, 2**self.sectors)
+        return _ends(self.sector)
 
     @property
     def ends(self) -> list[tuple[Fraction, Fraction]]:
         """Both ends of each parameter, as shares of its interval."""
-        return [(Fraction(k, 2**n), Fraction(k + 1, 2**n)) for k, n in self.parts]
+        return [_ends(part) for part in self.parts]
 
     @property
     def share(self) -> Fraction:
         """Its share of the area of the disc, times that of the box."""
-        return Fraction(2 * self.ring + 1, 4**self.rings * 2**self.sectors * 2 ** sum(part[1] for part in self.parts))
+        k, n = self.ring
+        return Fraction(2 * k + 1, 2 ** (2 * n + self.sector[1] + sum(part[1] for part in self.parts)))
 
     @property
     def halvings(self) -> int:
         """How often it is halved, in the coordinate in which it is most often."""
-        return max(self.rings, self.sectors, *(part[1] for part in self.parts))
+        return max(n for _, n in (self.ring, self.sector, *self.parts))
 
     def halves(self, by: str) -> tuple[Cell, Cell]:
         """Both halves by one of :data:`CUTS`, the smaller values first."""
-        ring, rings, sector, sectors, parts = self
-        if by == BY_SPEED:
-            one, other = (self._replace(ring=2 * ring + k, rings=rings + 1) for k in (0, 1))
-        elif by == BY_ANGLE:
-            one, other = (self._replace(sector=2 * sector + k, sectors=sectors + 1) for k in (0, 1))
-        else:
-            j = BY_PARAMETER.index(by)
-            place, halvings = parts[j]
-            one, other = (
-                self._replace(parts=(*parts[:j], (2 * place + k, halvings + 1), *parts[j + 1 :])) for k in (0, 1)
-            )
-        return one, other
+        places, j = [self.ring, self.sector, *self.parts], CUTS.index(by)
+        k, n = places[j]
+
+        def half(side: int) -> Cell:
+            ring, sector, *parts = [*places[:j], (2 * k + side, n + 1), *places[j + 1 :]]
+            return Cell(ring, sector, tuple(parts))
+
+        return half(0), half(1)
 
 
-DISC = Cell(0, 0, 0, 0)
+def _ends(part: Part) -> tuple[Fraction, Fraction]:
+    """Both ends of a part, as shares of the whole."""
+    place, halvings = part
+    return Fraction(place, 2**halvings), Fraction(place + 1, 2**halvings)
+
+
+DISC = Cell()
 
 
 def whole(parameters: int) -> Cell:
     """The whole disc with the whole box of so many parameters."""
-    return DISC._replace(parts=((0, 0),) * parameters)
+    return Cell(parts=((0, 0),) * parameters)
 
 
 Tree = dict[Cell, str]

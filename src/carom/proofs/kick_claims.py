@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal, localcontext
 from fractions import Fraction
 from functools import partial
 from itertools import groupby
@@ -19,6 +18,7 @@ from carom.proofs.kick_cells import IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, 
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
+from carom.proofs.runs import in_brackets, written
 
 BOX_THEOREM = "kicks of a box of machines"
 NOT_CLAIMED = (
@@ -32,9 +32,6 @@ BOX_NOT_CLAIMED = (
 )
 _STRETCHES = 16
 """Stretches of the interval of a parameter on each of which a speed is told."""
-_DIGITS = 12
-_PLAIN = -7, 15
-"""Powers of ten of numbers that are written without an exponent."""
 
 
 def options_of(family: Family) -> tuple[str, str]:
@@ -168,15 +165,8 @@ def _interval_words(box: Box, low: Fraction, high: Fraction) -> str:
     """An interval of the parameter, given as shares of its own, in decimal numbers rounded inward, with its unit."""
     line = box.lines[0]
     start, stop = line.ends
-    words = [decimal(start + (stop - start) * share, upward=upward) for share, upward in ((low, True), (high, False))]
-    return f"{line.name} in [{', '.join(words)}] {line.field.unit}".rstrip()
-
-
-def decimal(value: Fraction, *, upward: bool) -> str:
-    """Decimal number of twelve digits on one side of a number."""
-    with localcontext(Context(prec=_DIGITS, rounding=ROUND_CEILING if upward else ROUND_FLOOR)):
-        found = (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
-    return f"{found:f}" if _PLAIN[0] < found.adjusted() < _PLAIN[1] else str(found)
+    ends = written(*(start + (stop - start) * share for share in (low, high)), inward=True)
+    return f"{line.name} in {in_brackets(ends)} {line.field.unit}".rstrip()
 
 
 def _sizes(disc: Disc, share: Fraction) -> dict[str, Enclosure]:

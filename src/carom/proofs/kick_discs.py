@@ -18,11 +18,11 @@ from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
-from carom.proofs.boxes import Box, Part, box_of
+from carom.proofs.boxes import Box, box_of
 from carom.proofs.evidence import NotShownError
 from carom.proofs.families import FAMILIES, KICKS, Family, Scale
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, whole
+from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, Part, whole
 from carom.proofs.lines import Numbers
 from carom.proofs.passages import GRAZE, OUTSIDE, LeftOpenError
 from carom.proofs.patches import Held, Patch
@@ -273,14 +273,15 @@ class BoxPart:
     @classmethod
     def of(cls, disc: Disc, parts: tuple[Part, ...]) -> BoxPart:
         """From a part of the box of a disc."""
-        box, numbers = disc.box, disc.box.numbers(parts)
+        box = disc.box
+        values = box.middles(parts), box.values(parts)
+        middle, numbers = map(box.machines.at, values)
         with terms(2):
             series = [disc.reach(numbers, moved) for moved in box.series(parts)]
         moves = [x[1] if isinstance(x, arb_series) else arb(0) for x in series]
         if parts:
-            held = Held(numbers, disc.scale.start(), box.middle(parts), box.sides(parts))
+            held = Held(numbers, disc.scale.start(), middle, box.sides(parts))
         else:
             held = Held(numbers, disc.scale.start())
-        values = box.middles(parts), box.values(parts)
         reaches = tuple(disc.reach(n, moved) for n, moved in zip((held.middle.numbers, numbers), values, strict=True))
         return cls(held, (reaches[0], reaches[1]), moves, float(ball_of(disc.hypotheses.numbers["phi"]).mid()))

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,6 +36,7 @@ NOT_CLAIMED = (
     "shocks of the base, which go on acting",
     "that the equations describe the machine: their numbers are taken as doubles, computed from those of its file",
 )
+_ANY = "in any direction and at any instant of the turn"
 SMALLEST = 1e-9
 """Share of the largest part of a mode below which its weight in a form no longer counts."""
 
@@ -108,23 +110,28 @@ def _sizes(kicks: list[Any], steps: list[Any], options: Mapping[str, Any], held:
     after = f"the rotor never touches{below}, and goes back to levitation"
     claims = [
         claim_of(
-            "kicks",
+            about,
             "never touch",
-            f"After every kick out of levitation of less than speed, in c_r Omega of the fixed frame, in any direction and at any instant of the turn, {after}.",
-            decided(speed),
-            enclosures=enclosures_of(speed=speed),
+            f"After every {words}, {after}.",
+            decided(size),
+            enclosures=enclosures_of(**{name: size}),
+        )
+        for about, words, name, size in (
+            (
+                "kicks",
+                f"kick out of levitation of less than speed, in c_r Omega of the fixed frame, {_ANY}",
+                "speed",
+                speed,
+            ),
+            (
+                "steps of the unbalance",
+                f"step of the unbalance by less than change, as an eccentricity in c_r, {_ANY}",
+                "change",
+                change,
+            ),
         )
     ]
-    if held.steps:
-        claims.append(
-            claim_of(
-                "steps of the unbalance",
-                "never touch",
-                f"After every step of the unbalance by less than change, as an eccentricity in c_r, in any direction and at any instant of the turn, {after}.",
-                decided(change),
-                enclosures=enclosures_of(change=change),
-            )
-        )
+    claims = claims if held.steps else claims[:1]
     if asked is not None:
         size = rational(Fraction(float.fromhex(asked)))
         claims.append(
@@ -142,10 +149,7 @@ def _sizes(kicks: list[Any], steps: list[Any], options: Mapping[str, Any], held:
 
 
 def _least(sizes: list[Any]) -> Any:
-    least = sizes[0]
-    for each in sizes[1:]:
-        least = least.min(each)
-    return arb(least.lower())
+    return arb(reduce(lambda one, other: one.min(other), sizes).lower())
 
 
 def _linear(stated: StatedEquations) -> _Linear:

@@ -12,7 +12,7 @@ from carom.proofs.periods import all_periods
 from carom.proofs.rotor import Rotor
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.steady import steady_claims
-from carom.proofs.whirl import pull_of, sustaining_speed, whirl_claims
+from carom.proofs.whirl import attracting_speed, whirl_claims
 
 MOST_CELLS = 2000
 """Cells of the periods after which the search for orbits ends."""
@@ -42,10 +42,8 @@ def steadily_lost(rotor: Rotor) -> Iterator[Lost]:
             yield Lost(f"the synchronous {name} is a motion", arb(1))
     if "whirl attracts sliding" in proven:
         # What is claimed there holds above the upper end, so that the speed itself is not reached.
-        fastest = sustaining_speed(n, pull_of(n))
-        kept = (n.omega_squared + n.rho).sqrt()
-        speed = fastest if n.gamma >= 0 else fastest.max(kept)
-        yield Lost("backward whirl on the wall that is faster than this runs away to rolling", speed.upper())
+        speed = attracting_speed(n).upper()
+        yield Lost("backward whirl on the wall that is faster than this runs away to rolling", speed)
     elif "whirl rolls" in proven:
         yield Lost("the rotor can roll on the wall for ever", n.radius_ratio)
 

@@ -299,20 +299,14 @@ def _latest_inside(departure: Departure, time: float, peak: float, half: float) 
 
 def _first_falling(departure: Departure, peak: float, half: float) -> float | None:
     """An early time at which all flights have passed their maximum."""
-    for factor in (1.2, 2.0, 4.0):
-        last = peak + factor * half + _ROUNDING
-        if departure.at(arb(last)).rise < 0:
-            return last
-    return None
+    times = (peak + factor * half + _ROUNDING for factor in (1.2, 2.0, 4.0))
+    return next((last for last in times if departure.at(arb(last)).rise < 0), None)
 
 
 def _first_inside(departure: Departure, last: float, peak: float, half: float) -> float | None:
     """An early time after the last maximum at which all flights are inside."""
-    for factor in (1.05, 1.3, 2.0, 3.0):
-        end = max(last, peak + factor * half)
-        if departure.at(arb(end)).height < 1:
-            return end
-    return None
+    times = (max(last, peak + factor * half) for factor in (1.05, 1.3, 2.0, 3.0))
+    return next((end for end in times if departure.at(arb(end)).height < 1), None)
 
 
 def _curves(departure: Departure, begin: float, end: float) -> Iterator[Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi
+from math import isclose
 from typing import ClassVar
 
 import numpy as np
@@ -16,7 +16,7 @@ from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
 from carom.proofs.families import KICKS
-from carom.proofs.hypotheses import NUMBERS, Hypotheses
+from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.seeds import doubles_of
@@ -247,15 +247,10 @@ def _parts(tree: Tree) -> tuple[KickPart, ...]:
     return (*proven, *sorted(left, key=lambda part: -part.share))
 
 
-def _check_machine(hypotheses: Hypotheses, model: Rotor) -> None:
+def _check_machine(hypotheses: Hypotheses, rotor: Rotor) -> None:
     """Compare the numbers of the equations with those of a proof; :class:`~carom.outcome.InputError` if they are others."""
-    parameters = exact_rotor_of(model).parameters
-    for name in NUMBERS:
-        number = hypotheses.numbers[name]
-        scale = pi**number.turns
-        low, high = float(number.low) * scale, float(number.high) * scale
-        value = parameters.omega**2 if name == "omega_squared" else float(getattr(parameters, name))
-        slack = _ROUNDING * abs(value)
-        if not low - slack <= value <= high + slack:
-            words = f"of another machine: its {name} is {low:.12g}"
-            raise InputError("proof", words, f"a proof of this machine, with {name} = {value:.12g}")
+    values = rotor.parameters.as_dict()
+    for name, proven in doubles_of(hypotheses).as_dict().items():
+        if name != "phi" and not isclose(proven, values[name], rel_tol=_ROUNDING):
+            words = f"of another machine: its {name} is {proven:.12g}"
+            raise InputError("proof", words, f"a proof of this machine, with {name} = {values[name]:.12g}")

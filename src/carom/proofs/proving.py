@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping
-from fractions import Fraction
 from typing import Annotated, Any
 
 from carom.arguments import checked, whole
@@ -13,6 +12,7 @@ from carom.loading import load
 from carom.models import Rotor, Subject, rotor_of
 from carom.outcome import InputError, shown
 from carom.parameters import Field, own_size, read_quantity
+from carom.parameters.exact import read_exact
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
@@ -25,14 +25,13 @@ from carom.proofs.stated_equations import StatedEquations
 from carom.proofs.theorems import THEOREMS, Options
 
 TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
+LONGEST = Field("longest_period", "T", "longest period", "a time above 0, in 1/Omega", "", 1e-9, 1e9, "20")
 FIRST_BITS, MOST_BITS = 128, 1024
 """Precision to begin with, and beyond which a claim is left undecided."""
 MOST_BLOCKS, NARROWEST = 2000, "1/10000"
 """Blocks of a parameter after which the search ends, and the share of the interval at which a block is left open."""
 MOST_CELLS = 2000
 """Cells of the periods after which the search ends."""
-_EXPONENT = 4
-"""Characters that the exponent of a time may have."""
 
 
 @checked
@@ -108,7 +107,7 @@ def prove(
         return proof_of(
             "along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits}, tell, seconds
         )
-    limit = None if longest_period is None else str(_time(longest_period))
+    limit = None if longest_period is None else str(read_exact(LONGEST, written_exactly(longest_period)).high)
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:
         return proof_of("single-impact orbits", hypotheses, options, tell, seconds)
@@ -184,15 +183,3 @@ def proof_at(
         claims = THEOREMS[theorem].claims(stated, evidence, options)
     not_claimed = THEOREMS[theorem].not_claimed
     return Proof(theorem, hypotheses, options, tuple(claims), bits, not_claimed, evidence.document())
-
-
-def _time(given: Given) -> Fraction:
-    try:
-        # A decimal number with a long exponent would be a fraction too long to compute with.
-        short = len(str(given).lower().partition("e")[2]) <= _EXPONENT
-        time = Fraction(given) if short else Fraction(0)  # type: ignore[arg-type]
-    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
-        time = Fraction(0)
-    if time <= 0:
-        raise InputError("longest_period", shown(given), "a time above 0, in 1/Omega")
-    return time

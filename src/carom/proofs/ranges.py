@@ -86,7 +86,7 @@ def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction
     tell = evidence.tell if evidence.reading else evidence.tell.part(0.5, 1.0)
     stretches = _stretches(_pieces(line, cuts, most, tell))
     words = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
-    slip = slip_claim(line.at(line.ball), evidence, words)
+    slip = slip_claim(line.at(line.ball), words)
     claims = [slip, _all_claim(line, stretches, slip)]
     for name in sorted({fact.name for stretch in stretches for fact in stretch.facts or ()}):
         claims += _orbit_claims(line, name, stretches)

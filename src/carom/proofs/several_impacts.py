@@ -106,15 +106,18 @@ def _admissible_claim(name: str, orbit: ShootingOrbit) -> Claim:
         signs["friction would stop its slip, or its slip is backward"] = min(map(decided, orbit.slip_after()))
     if min(signs.values()) > 0:
         signs["it would cross the wall between its impacts"] = {True: 1, False: -1, None: 0}[orbit.stays_inside()]
-    sign = min(signs.values())
-    words = "; ".join(reason for reason, value in signs.items() if value == sign)
     statement = "It is a motion of the machine: it stays inside the wall strictly between its impacts, and its slip stays forward."
-    return claim_of(name, "admissible", statement, sign, reason=words if sign < 0 else f"open: {words}")
+    return _claim_by_signs(name, "admissible", statement, signs)
 
 
 def _stable_claim(name: str, orbit: ShootingOrbit) -> Claim:
     signs = {reason: decided(margin) for reason, margin in orbit.margins().items()}
+    statement = "All three multipliers of the map over a period lie inside the unit circle."
+    return _claim_by_signs(name, "stable", statement, signs)
+
+
+def _claim_by_signs(name: str, kind: str, statement: str, signs: Mapping[str, int]) -> Claim:
+    """Claim that needs all signs to be positive, each with the reason why it may not be."""
     sign = min(signs.values())
     words = "; ".join(reason for reason, value in signs.items() if value == sign)
-    statement = "All three multipliers of the map over a period lie inside the unit circle."
-    return claim_of(name, "stable", statement, sign, reason=words if sign < 0 else f"open: {words}")
+    return claim_of(name, kind, statement, sign, reason=words if sign < 0 else f"open: {words}")

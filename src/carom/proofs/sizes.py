@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from flint import arb
@@ -36,11 +35,10 @@ def unit_of(hypotheses: Hypotheses, *names: str) -> Any:
     return product
 
 
-@dataclass(frozen=True)
 class LargestSpeed:
     """A largest speed in the fixed frame.
 
-    Attributes
+    Parameters
     ----------
     hypotheses : Hypotheses
     text : str
@@ -48,35 +46,29 @@ class LargestSpeed:
     field : Field
         What it is called, in ``m/s``.
 
+    Attributes
+    ----------
+    exact : tuple of Fraction and int
+        It in m/s, or in ``c_r Ω``: a rational number, times π to a power.
+    physical : bool
+        Whether it has a unit.
+
     Raises
     ------
     InputError
         It is no speed.
     """
 
-    hypotheses: Hypotheses
-    text: str
-    field: Field
-
-    def __post_init__(self) -> None:
-        self.exact  # noqa: B018  (raises if it is no speed)
-
-    @property
-    def physical(self) -> bool:
-        """Whether it has a unit."""
-        return self.hypotheses.table == "machine"
-
-    @cached_property
-    def exact(self) -> tuple[Fraction, int]:
-        """It in m/s, or in ``c_r Ω``: a rational number, times π to a power."""
-        number = read_size(self.field, self.text, self.hypotheses)
-        return number.low, number.turns
+    def __init__(self, hypotheses: Hypotheses, text: str, field: Field) -> None:
+        number = read_size(field, text, hypotheses)
+        self.text, self.exact, self.physical = text, (number.low, number.turns), hypotheses.table == "machine"
+        self._hypotheses = hypotheses
 
     def share(self, share: Fraction) -> Any:
         """Ball of a share of it, in ``c_r Ω``."""
         return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] / self.unit
 
-    @cached_property
+    @property
     def unit(self) -> Any:
         """``c_r Ω`` in m/s as a ball, or 1 for a dimensionless machine."""
-        return unit_of(self.hypotheses, "clearance", "speed")
+        return unit_of(self._hypotheses, "clearance", "speed")

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
@@ -35,41 +35,28 @@ Response = tuple[Any, Any, Any]
 Plain = tuple[complex, complex, complex]
 
 
-class Start(Protocol):
-    """A disturbance of the unit size."""
+class Start:
+    """A disturbance of the unit size; by default one that changes the state at once."""
 
     @property
     def lasts(self) -> Any:
         """Ball of the time from which motion is free."""
-
-    def response(self, held: Held, time: Any) -> Response:
-        """``H`` at a time or on an interval of times."""
-
-    def last(self, held: Held) -> Response:
-        """``H`` when motion becomes free."""
-
-    def plain_response(self, held: Held, time: float) -> Plain:
-        """``H`` in doubles."""
-
-
-class _Sudden:
-    """What changes the state at once."""
-
-    @property
-    def lasts(self) -> Any:
-        """No time at all."""
         return arb(0)
 
     def last(self, held: Held) -> Response:
-        """That at once."""
-        return self.response(held, arb(0))
+        """``H`` when motion becomes free."""
+        return self.response(held, self.lasts)
 
     def response(self, held: Held, time: Any) -> Response:
         """``H`` at a time or on an interval of times."""
         raise NotImplementedError
 
+    def plain_response(self, held: Held, time: float) -> Plain:
+        """``H`` in doubles."""
+        raise NotImplementedError
 
-class Blow(_Sudden):
+
+class Blow(Start):
     """A blow, which changes the velocity at once."""
 
     def response(self, held: Held, time: Any) -> Response:
@@ -81,7 +68,7 @@ class Blow(_Sudden):
         return held.plain_responses(time)[1]
 
 
-class Step(_Sudden):
+class Step(Start):
     """A step of the unbalance, which changes the levitation about which the rotor moves."""
 
     def response(self, held: Held, time: Any) -> Response:
@@ -95,7 +82,7 @@ class Step(_Sudden):
         return c[0] + 1j * h[0], c[1] + 1j * h[1], c[2] + 1j * h[2]
 
 
-class Pulse:
+class Pulse(Start):
     """A half-sine pulse of the acceleration of the base.
 
     Parameters

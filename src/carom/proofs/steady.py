@@ -28,7 +28,8 @@ from carom.proofs.series import hyperbolic, squared
 
 def steady_claims(rotor: Rotor) -> list[Claim]:
     """Claims about levitation, rubs and kicks."""
-    return [*_levitation_claims(rotor), *_rub_claims(rotor), _kick_claim(rotor)]
+    rubs = [claim for name, side in (("rub 1", 1), ("rub 2", -1)) for claim in _claims_of_rub(rotor, name, side)]
+    return [*_levitation_claims(rotor), *rubs, _kick_claim(rotor)]
 
 
 def _levitation_claims(rotor: Rotor) -> list[Claim]:
@@ -58,12 +59,8 @@ def _levitation_claims(rotor: Rotor) -> list[Claim]:
     ]
 
 
-def _rub_claims(rotor: Rotor) -> list[Claim]:
-    """Claims about both synchronous rubs, that of the larger normal force first."""
-    return [claim for name, side in (("rub 1", 1), ("rub 2", -1)) for claim in _claims_of_rub(rotor, name, side)]
-
-
 def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
+    """Claims about one synchronous rub: that of the larger normal force (1) or of the smaller (−1)."""
     n = rotor.numbers
     square, half = rub_discriminant(n), rub_balance(n)
     sign = _sign_of_square(rotor, square)

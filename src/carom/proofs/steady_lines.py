@@ -41,17 +41,18 @@ def steady_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
     return [*claims, *_kick_claims(line)]
 
 
-def _levitates(n: Numbers) -> bool | None:
-    sign = decided(wall_condition(n))
+def _holds(sign: int | None) -> bool | None:
+    """Whether something holds by a sign; ``None`` where it is 0 or not known."""
     return sign > 0 if sign else None
+
+
+def _levitates(n: Numbers) -> bool | None:
+    return _holds(decided(wall_condition(n)))
 
 
 def _is_pressed(n: Numbers, side: int) -> bool | None:
-    exists = decided(rub_discriminant(n))
-    if exists < 1:
-        return False if exists else None
-    sign = decided(rub_force(n, side))
-    return sign > 0 if sign else None
+    exists = _holds(decided(rub_discriminant(n)))
+    return _holds(decided(rub_force(n, side))) if exists else exists
 
 
 def _attracts(n: Numbers) -> bool | None:
@@ -62,14 +63,11 @@ def _attracts(n: Numbers) -> bool | None:
 
 
 def _rolls(n: Numbers) -> bool | None:
-    sign = rolling_sign(n)
-    return sign > 0 if sign else None
+    return _holds(rolling_sign(n))
 
 
 def _whirl_is_absent(n: Numbers) -> bool | None:
-    if drag_sign(n) == 1:
-        return True
-    return False if rolling_sign(n) == 1 else None
+    return True if drag_sign(n) == 1 else False if rolling_sign(n) == 1 else None
 
 
 _RUB = "there is a synchronous rub, with two normal forces in balance, and the wall pushes the rotor at the {} of them"

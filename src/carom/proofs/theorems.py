@@ -53,7 +53,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     """Equilibria, and all orbits with one impact a period."""
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
-    slip = slip_claim(rotor.numbers, evidence)
+    slip = slip_claim(rotor.numbers)
     claims = [*steady_claims(rotor), *whirl_claims(rotor), _periods_claim(rotor, periods), slip]
     admissible, doubts = [], []
     if not periods.complete:

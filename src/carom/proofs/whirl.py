@@ -129,11 +129,7 @@ def _rolling_claim(rotor: Rotor, exact: Numbers) -> Claim:
 def _attraction_claim(rotor: Rotor, exact: Numbers) -> Claim:
     """Faster than ``w_c`` slides gain speed; faster than rolling they lose it, at a rate that rolling bounds."""
     n, (_, held), rolls = rotor.numbers, rolling_signs(exact), rolling_sign(exact)
-    pull = pull_of(n)
-    kept = (n.omega_squared + n.rho).sqrt()
-    speed = sustaining_speed(n, pull)
-    # With damping that is not negative contact asks for no more.
-    speed = speed if n.gamma >= 0 else speed.max(kept)
+    speed = attracting_speed(n)
     sign = rolls if rolls != 1 else 1 if held == 1 and speed < n.radius_ratio else 0 if held == 0 else None
     reasons = {-1: "it cannot roll for ever", 0: "friction just suffices for rolling"}
     return _claim(
@@ -144,6 +140,13 @@ def _attraction_claim(rotor: Rotor, exact: Numbers) -> Claim:
         reasons.get(sign, "") if sign is not None else "",
         speed=speed,
     )
+
+
+def attracting_speed(n: Numbers) -> Any:
+    """Speed of backward whirl from which on slides gain speed and contact is kept, as a ball."""
+    speed = sustaining_speed(n, pull_of(n))
+    # With damping that is not negative contact asks for no more.
+    return speed if n.gamma >= 0 else speed.max((n.omega_squared + n.rho).sqrt())
 
 
 def sustaining_speed(n: Numbers, pull: Any) -> Any:
