@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, get_args
+from importlib import import_module
+from typing import Any, ClassVar, NamedTuple, get_args
 
 from carom.arguments import checked
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
@@ -51,9 +52,6 @@ from carom.studies.survives import Survives, comes_to_rest, decides, lost_kinds,
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
-
-if TYPE_CHECKING:
-    from carom.proofs import Proof, ProvenKicks
 
 TRIED, TRIED_SINGLY = 1000, 200
 """Disturbances tried at each value of a gain, and those of rotors whose motions are followed one after another."""
@@ -235,19 +233,21 @@ def _is_known(asked: Asked) -> bool:
     return exact_results(asked.rotor).orbits
 
 
-def _prove(asked: Asked, tell: Reporter) -> Proof:
-    from carom.proofs import prove  # only here: it needs an extra
+def _prover() -> Any:
+    """The proofs, which need an extra; they stand above studies, so they are named here as data."""
+    return import_module("carom.proofs")
 
-    return prove(asked.rotor, progress=tell)
+
+def _prove(asked: Asked, tell: Reporter) -> Any:
+    return _prover().prove(asked.rotor, progress=tell)
 
 
-def _prove_kicks(asked: Asked, tell: Reporter) -> ProvenKicks:
+def _prove_kicks(asked: Asked, tell: Reporter) -> Any:
     """Of the kicks that must be survived, or of larger ones where these never touch."""
-    from carom.proofs import ProvenKicks, prove_kicks
-
     harmless = harmless_kick(asked.rotor)
     reach = asked.required.kick if asked.required.kick > harmless else BEYOND * harmless
-    return ProvenKicks.of(prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell), asked.rotor)
+    proof = _prover().prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell)
+    return _prover().ProvenKicks.of(proof, asked.rotor)
 
 
 def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:

@@ -14,7 +14,6 @@ from carom.studies.wording import counted, listed
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
     from carom.parameters import Scales
-    from carom.proofs import Proof, ProvenKicks
 
 KICKS = (
     "all_up_to:velocity sure_up_to:velocity impacts kicks_up_to=largest:velocity share_proven=share share_refuted=refuted_share "
@@ -31,7 +30,7 @@ _SAID = {
 _KINDS = {"speed": "velocity", "change": "length"}
 
 
-def proven_words(proof: Proof, scales: Scales | None = None) -> str:
+def proven_words(proof: Any, scales: Scales | None = None) -> str:
     """What a proof has decided, and what it has not."""
     facts = []
     for claim in proof.with_status("proven"):
@@ -49,7 +48,7 @@ def proven_words(proof: Proof, scales: Scales | None = None) -> str:
     return text
 
 
-def proven_kicks_document(kicks: ProvenKicks) -> dict[str, Any]:
+def proven_kicks_document(kicks: Any) -> dict[str, Any]:
     """What is proven of kicks, as plain data for JSON."""
     return record(kicks, KICKS, kicks.rotor.scales) | {
         "open": [record(part, "reason share") for part in kicks.parts if part.open]
@@ -62,7 +61,7 @@ def proofs_of(study: StudyData) -> Iterator[Fact]:
         yield Fact("Proven", proven_words(study.proof, study.rotor.scales), evidence="proven")
 
 
-def is_proven(proof: Proof | None, orbit: Orbit) -> bool:
+def is_proven(proof: Any, orbit: Orbit) -> bool:
     """Whether what a study says of an orbit is proven: that it is a motion or not, and stable or not."""
     if proof is None:
         return False

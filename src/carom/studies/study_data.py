@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from carom.attractors import AttractorSet
 from carom.basins import Share
@@ -28,9 +28,6 @@ from carom.studies.recovery import Recovery
 from carom.studies.survives import Survives, lost_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
-
-if TYPE_CHECKING:
-    from carom.proofs import Proof, ProvenKicks
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -61,9 +58,9 @@ class StudyData(Result):
         The least change that leaves only recovery, with its margin and how sure it is.
     unfinished : tuple of Question
         The questions for which the budget of events, or a time limit, did not suffice.
-    proof : Proof or None
+    proof : carom.proofs.Proof or None
         Theorems about equilibria and orbits, if they were asked for.
-    kicks : ProvenKicks or None
+    kicks : carom.proofs.ProvenKicks or None
         What is proven of the kicks that must be survived, or of faster ones where these never touch, if it was asked for and there is stable
         levitation.
     """
@@ -83,8 +80,8 @@ class StudyData(Result):
     full_size: tuple[FullSize, ...] = ()
     drop: DropStudy | None = None
     unfinished: tuple[Question, ...] = ()
-    proof: Proof | None = None
-    kicks: ProvenKicks | None = None
+    proof: Any = None
+    kicks: Any = None
 
     @property
     def known(self) -> ExactResults:
