@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 GALLERY = Path(__file__).parent.parent / "examples" / "gallery"
 SCRIPTS = sorted(GALLERY.glob("*.py"))
-CHEAP = ("01_equilibria", "09_energy_ledger", "13_one_orbit")
+CHEAP = ("01_equilibria", "09_energy_ledger", "12_one_orbit")
 
 
 def listing() -> set[str]:

@@ -1,5 +1,5 @@
 """
-41. Kicks that are proven to come back
+40. Kicks that are proven to come back
 ======================================
 
 Where simulation finds that kicks end, in full colour where it is a theorem.  Needs ``pip install "carom[proof]"``.

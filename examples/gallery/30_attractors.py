@@ -1,5 +1,5 @@
 """
-31. Where disturbances end
+30. Where disturbances end
 ==========================
 
 A seeded sample of kicks and of starts within the clearance, followed until each motion is known.  The intervals are those at 95 %

@@ -1,5 +1,5 @@
 """
-15. Multipliers
+14. Multipliers
 ===============
 
 A small deviation from an orbit is multiplied by these complex numbers from one impact to the next: the orbit is stable if all of them lie

@@ -1,5 +1,5 @@
 """
-28. The loss of a blade
+27. The loss of a blade
 =======================
 
 The unbalance of the levitating rotor changes at once by that of the lost blade.  Only the phase of this change is left to chance: the picture is a ring.

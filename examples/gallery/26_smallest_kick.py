@@ -1,5 +1,5 @@
 """
-27. The smallest kick that is lost
+26. The smallest kick that is lost
 ==================================
 
 A search over sizes and directions brackets the size at which kicks begin to be lost.  Up to a smaller size contact is impossible: that is

@@ -1,5 +1,5 @@
 """
-13. One orbit in two frames
+12. One orbit in two frames
 ===========================
 
 The stable orbit closes after each impact in the co-rotating frame; seen from outside its impacts wander round the bearing.

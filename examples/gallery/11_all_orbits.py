@@ -1,5 +1,5 @@
 """
-12. All orbits with one impact a period
+11. All orbits with one impact a period
 =======================================
 
 :func:`carom.find_orbits` solves the equation of the periods for all its roots, so the list is complete, and it says why.

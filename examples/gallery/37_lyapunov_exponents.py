@@ -1,5 +1,5 @@
 """
-38. Irregular bouncing
+37. Irregular bouncing
 ======================
 
 At this damping the orbit of twice the period is unstable and the rotor bounces without repeating itself.  A positive Lyapunov exponent

@@ -1,5 +1,5 @@
 """
-18. An orbit along the damping
+17. An orbit along the damping
 ==============================
 
 :func:`carom.continue_orbit` follows an orbit through folds and through stretches where it is no motion of the machine, and finds the special

@@ -1,5 +1,5 @@
 """
-36. A proof
+35. A proof
 ===========
 
 The equilibria and all orbits with one impact a period as theorems, in ball arithmetic.  Needs ``pip install "carom[proof]"``.

@@ -1,5 +1,5 @@
 """
-20. Grazing
+19. Grazing
 ===========
 
 An orbit that touches the wall without speed between its impacts grazes.  There the sequence of contacts changes.

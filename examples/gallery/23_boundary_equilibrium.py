@@ -1,5 +1,5 @@
 """
-24. Orbits that shrink into the wall
+23. Orbits that shrink into the wall
 ====================================
 
 Where levitation meets the wall, bouncing orbits may shrink to nothing: the non-smooth Hopf bifurcation.  It decides what becomes of the

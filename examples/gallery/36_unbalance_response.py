@@ -1,5 +1,5 @@
 """
-37. Vibration over speed
+36. Vibration over speed
 ========================
 
 How far the unbalance throws the rotor at each speed, with the critical speed, the limits of API 617 and ISO 14839-2, and the speeds at which it

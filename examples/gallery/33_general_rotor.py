@@ -1,5 +1,5 @@
 """
-34. A rotor with two bearings
+33. A rotor with two bearings
 =============================
 
 A rotor given by its matrices: displacement and tilt, with a touchdown bearing at each end.  All functions take it; what they claim of it is

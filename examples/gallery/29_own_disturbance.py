@@ -1,5 +1,5 @@
 """
-30. A disturbance of your own
+29. A disturbance of your own
 =============================
 
 A frozen dataclass with the coordinates by which it varies, and the starts to which it leads, goes wherever a built-in one does.

@@ -1,5 +1,5 @@
 """
-11. Save a motion and read it again
+10. Save a motion and read it again
 ===================================
 
 A motion is stored exactly, to the last bit, with the rotor it belongs to.

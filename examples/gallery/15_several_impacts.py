@@ -1,5 +1,5 @@
 """
-16. Orbits with several impacts
+15. Orbits with several impacts
 ===============================
 
 Such orbits are searched: stretches of simulated motions are guesses for Newton's method.  Each orbit found is checked; nothing proves that

@@ -1,5 +1,5 @@
 """
-21. A bifurcation diagram
+20. A bifurcation diagram
 =========================
 
 All equilibria and orbits along one parameter, with the points where they appear, vanish and change their stability.

@@ -1,5 +1,5 @@
 """
-40. A flexible rotor falls
+39. A flexible rotor falls
 ==========================
 
 The magnetic bearing rig of TU Munich, with its shaft of 8 mm, loses levitation: which force meets the touchdown bearings, and how many vectors does

@@ -1,5 +1,5 @@
 """
-25. A basin of kicks
+24. A basin of kicks
 ====================
 
 Each point is a kick: outward to the right, in the sense of rotation upward.  Its colour says where the rotor ends.

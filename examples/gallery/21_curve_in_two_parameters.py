@@ -1,5 +1,5 @@
 """
-22. A bifurcation in two parameters
+21. A bifurcation in two parameters
 ===================================
 
 The fold in which the bouncing orbits vanish, followed as damping and speed change together.

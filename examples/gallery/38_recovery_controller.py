@@ -1,5 +1,5 @@
 """
-39. A controller that brings the rotor back
+38. A controller that brings the rotor back
 ===========================================
 
 When contact has persisted for three turns of the shaft, the magnetic bearings add a force that turns with it, against the unbalance.  Such

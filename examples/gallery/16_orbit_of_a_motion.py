@@ -1,5 +1,5 @@
 """
-17. The orbit on which a motion has settled
+16. The orbit on which a motion has settled
 ===========================================
 
 A motion approaches its orbit without reaching it.  :func:`carom.orbits.orbit_of_motion` reads which contacts follow one another and closes

@@ -1,5 +1,5 @@
 """
-14. Why there are no more orbits
+13. Why there are no more orbits
 ================================
 
 The periods are the roots of a function ``F₁`` of one variable.  Beyond a certain period a bound keeps it away from zero.

@@ -1,5 +1,5 @@
 """
-23. Regions of damping and stiffness
+22. Regions of damping and stiffness
 ====================================
 
 All curves of a plane, and which motions coexist in the regions between them.

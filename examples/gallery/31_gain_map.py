@@ -1,5 +1,5 @@
 """
-32. Which gains bring back more
+31. Which gains bring back more
 ===============================
 
 The share of kicks that comes back, over stiffness (P gain) and damping (D gain).

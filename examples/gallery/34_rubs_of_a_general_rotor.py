@@ -1,5 +1,5 @@
 """
-35. Rubs at two bearings at once
+34. Rubs at two bearings at once
 ================================
 
 The same rotor may rub at one bearing or at both.  At up to two planes all equilibria are found.

@@ -1,5 +1,5 @@
 """
-26. A basin of base shocks
+25. A basin of base shocks
 ==========================
 
 The housing is shaken by a half-sine pulse of 5 ms.  Kept by size and direction, the picture is a disc.

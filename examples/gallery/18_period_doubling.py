@@ -1,5 +1,5 @@
 """
-19. Period doubling
+18. Period doubling
 ===================
 
 Where a multiplier passes −1, an orbit of twice the period is born.  One call switches to its branch.

@@ -1,5 +1,5 @@
 """
-33. A sweep in memory
+32. A sweep in memory
 =====================
 
 The same computation for every machine of a grid.  Larger sweeps are stored, resumed and run on clusters with the same call.

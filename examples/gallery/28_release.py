@@ -1,5 +1,5 @@
 """
-29. Levitation switched on at the bearing
+28. Levitation switched on at the bearing
 =========================================
 
 The rotor rests on the touchdown bearing, at any angle, and the magnetic bearings are switched on.
