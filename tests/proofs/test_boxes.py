@@ -257,7 +257,7 @@ def test_terms_mean_what_they_do_in_a_file(tmp_path, settings):
     path = file_of(GAINS, tmp_path)
     box = box_of(hypotheses_of(path, (), list(settings)), [(name, text, text) for name, text in settings.items()])
     with at_precision(96):
-        numbers = box.numbers([(0, 0)] * len(settings))
+        numbers = box.machines.at(box.values([(0, 0)] * len(settings)))
     wanted = carom.load(path, [f"{name}={text}" for name, text in settings.items()]).parameters.as_dict()
     wanted["omega_squared"] = wanted["omega"] ** 2
     for name, ball in numbers._asdict().items():

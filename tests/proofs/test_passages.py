@@ -136,7 +136,7 @@ def boxed(random, numbers, size):
     hypotheses = hypotheses_of({**numbers, "phi": 0.0})
     box = box_of(hypotheses, [(name, *(f"double {end!r}" for end in pair)) for name, pair in ends.items()])
     whole = [(0, 0)] * len(names)
-    held = Held(box.numbers(whole), middle=box.middle(whole), sides=box.sides(whole))
+    held = Held(box.machines.at(box.values(whole)), middle=box.machines.at(box.middles(whole)), sides=box.sides(whole))
 
     def at(shares):
         places = zip(ends.items(), shares, strict=True)

@@ -45,11 +45,6 @@ class Evidence:
         self._used: dict[str, Any] = {}
 
     @property
-    def reading(self) -> bool:
-        """Whether it is read, not searched for."""
-        return self._recorded is not None
-
-    @property
     def is_late(self) -> bool:
         """Whether searches that can end early should."""
         return time.monotonic() > self._end

@@ -74,8 +74,8 @@ class Cell(NamedTuple):
         k, n = places[j]
 
         def half(side: int) -> Cell:
-            ring, sector, *parts = [*places[:j], (2 * k + side, n + 1), *places[j + 1 :]]
-            return Cell(ring, sector, tuple(parts))
+            now = [*places[:j], (2 * k + side, n + 1), *places[j + 1 :]]
+            return Cell(now[0], now[1], tuple(now[2:]))
 
         return half(0), half(1)
 

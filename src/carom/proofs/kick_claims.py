@@ -10,7 +10,7 @@ from typing import Any
 
 from carom.core.processors import available_cores
 from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
-from carom.proofs.boxes import MOST_PARAMETERS, Box
+from carom.proofs.boxes import MOST_PARAMETERS
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.families import Family
@@ -127,6 +127,8 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
 
 def _stretch_claims(disc: Disc, proven: list[tuple[Cell, int]], rest: list[Cell]) -> list[Claim]:
     """On stretches of a parameter the speed below which all kicks return."""
+    line = disc.box.lines[0]
+    start, stop = line.ends
     ends = [Fraction(j, _STRETCHES) for j in range(_STRETCHES + 1)]
     # What shares no more than an end with a stretch does not count: the stretch's own cells prove its end.
     speeds = [
@@ -140,7 +142,8 @@ def _stretch_claims(disc: Disc, proven: list[tuple[Cell, int]], rest: list[Cell]
         if not speed:
             continue
         most = max(impacts for cell, impacts in proven if _meets(cell, low, high) and cell.speeds[0] < speed)
-        where = _interval_words(disc.box, low, high)
+        inner = written(*(start + (stop - start) * share for share in (low, high)), inward=True)
+        where = f"{line.name} in {in_brackets(inner)} {line.field.unit}".rstrip()
         claims.append(
             claim_of(
                 f"kicks, {where}",
@@ -159,14 +162,6 @@ def _meets(cell: Cell, low: Fraction, high: Fraction) -> bool:
     """Whether the interval of a cell has more than an end in common with another."""
     ((start, stop),) = cell.ends
     return start < high and low < stop
-
-
-def _interval_words(box: Box, low: Fraction, high: Fraction) -> str:
-    """An interval of the parameter, given as shares of its own, in decimal numbers rounded inward, with its unit."""
-    line = box.lines[0]
-    start, stop = line.ends
-    ends = written(*(start + (stop - start) * share for share in (low, high)), inward=True)
-    return f"{line.name} in {in_brackets(ends)} {line.field.unit}".rstrip()
 
 
 def _sizes(disc: Disc, share: Fraction) -> dict[str, Enclosure]:

@@ -19,7 +19,6 @@ from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
 from carom.proofs.boxes import Box, box_of
-from carom.proofs.evidence import NotShownError
 from carom.proofs.families import FAMILIES, KICKS, Family, Scale
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, Part, whole
@@ -119,12 +118,9 @@ class Disc:
         return not self.physical or not {"speed", "clearance"} & {set_by(name) for name, *_ in self.along}
 
     @property
-    def middle(self) -> Held:
-        """The rotor in the middle of its box; :class:`NotShownError` if it may not levitate inside the wall, with damping."""
-        held = self.part(self.whole.parts).held.middle
-        if not _levitates(held):
-            raise NotShownError("the rotor must levitate inside the wall, with damping above 0, for it to come back")
-        return held
+    def levitates(self) -> bool:
+        """Whether the rotor in the middle of its box levitates inside the wall, with damping."""
+        return _levitates(self.part(self.whole.parts).held.middle)
 
     def part(self, parts: tuple[Part, ...]) -> BoxPart:
         """The machines of a part of the box, kept for the cells that share it, at the precision of their first use."""

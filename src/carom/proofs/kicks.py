@@ -15,7 +15,6 @@ from carom.parameters import read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
-from carom.proofs.evidence import NotShownError
 from carom.proofs.families import KICKS, Family
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.kick_cells import IMPACTS, written
@@ -116,12 +115,10 @@ def prove_disc(
     box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
     disc = Disc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts, box)
     seconds = math.inf if limits.time_limit is None else read_quantity(TIME, limits.time_limit)
-    try:
-        with at_precision(BITS):
-            disc.middle  # noqa: B018  (raises if there is no levitation)
-    except NotShownError as problem:
-        raise InputError("machine", shown(hypotheses.values), str(problem)) from None
     with at_precision(BITS):
+        if not disc.levitates:
+            advice = "the rotor must levitate inside the wall, with damping above 0, for it to come back"
+            raise InputError("machine", shown(hypotheses.values), advice)
         tree = search(disc, seconds, limits.workers or available_cores(), tell)
         claims = claims_of(disc, tree)
     tell(1.0)

@@ -112,7 +112,9 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     bound = None if known is None else rational_of(known)
     if bound is not None and not none_beyond(numbers, interval(bound, bound)):
         raise NotShownError(f"the certificate does not show that there is no period beyond {bound}")
-    width = power_of_two_below(2 / Fraction(rotor.fastest))
+    gamma, split = float(numbers.gamma.mid()), float(numbers.split.mid())
+    # Of the modulus of the faster exponent.
+    width = power_of_two_below(2 / Fraction(abs(gamma) / 2 + abs(complex(split) ** 0.5) + 1.0))
     end = min((limit for limit in (longest, bound) if limit is not None), default=most * width / 4)
     lead = _first_coefficient(rotor)
     first = evidence.take("first cell", lambda: _text(_first_cell(condition, lead, min(width, end))))

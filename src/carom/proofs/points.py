@@ -113,7 +113,10 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
             label = f"{entry['label']} ({count})"
         told.add((entry["kind"], label))
         if "centre" not in entry:
-            claims.append(_open_claim(line, label, entry))
+            near = f"{float(entry['near'][-1]):.9g}"
+            reason = f"the search in double precision found one near {near}, which could not be shown"
+            unknown = Point(line, entry["kind"], label, {})
+            claims.append(unknown.claim("", _statement(line, entry["kind"]), 0, reason))
             continue
         point = _shown(line, label, entry)
         others = shown.setdefault((entry["kind"], str(entry["label"])), [])
@@ -154,13 +157,6 @@ def _system(line: Line, kind: str) -> System:
 
 def _statement(line: Line, kind: str) -> str:
     return f"Along {line.name}, {KINDS[kind].words}, at exactly one point of the box that is given, and there at these values."
-
-
-def _open_claim(line: Line, label: str, entry: Mapping[str, Any]) -> Claim:
-    """Claim of a point that was not shown."""
-    near = f"{float(entry['near'][-1]):.9g}"
-    reason = f"the search in double precision found one near {near}, which could not be shown"
-    return Point(line, entry["kind"], label, {}).claim("", _statement(line, entry["kind"]), 0, reason)
 
 
 def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> Point:

@@ -25,7 +25,7 @@ from carom.proofs.stated_equations import StatedEquations
 from carom.proofs.theorems import THEOREMS, Options
 
 TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
-LONGEST = Field("longest_period", "T", "longest period", "a time above 0, in 1/Omega", "", 1e-9, 1e9, "20")
+LONGEST = Field("longest_period", "T", "longest period", "a time in 1/Omega", "", 1e-9, 1e9, "20")
 FIRST_BITS, MOST_BITS = 128, 1024
 """Precision to begin with, and beyond which a claim is left undecided."""
 MOST_BLOCKS, NARROWEST = 2000, "1/10000"

@@ -83,8 +83,7 @@ def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
 
 def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction) -> list[Claim]:
     cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence))
-    tell = evidence.tell if evidence.reading else evidence.tell.part(0.5, 1.0)
-    stretches = _stretches(_pieces(line, cuts, most, tell))
+    stretches = _stretches(_pieces(line, cuts, most, evidence.tell.part(0.5, 1.0)))
     words = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
     slip = slip_claim(line.at(line.ball), words)
     claims = [slip, _all_claim(line, stretches, slip)]

@@ -99,12 +99,6 @@ class Rotor:
         given = self.hypotheses.rational("gamma", "omega_squared", "rho")
         return given is not None and given[2] ** 2 == (given[1] - 1) ** 2 + given[0] ** 2
 
-    @cached_property
-    def fastest(self) -> float:
-        """Modulus of the faster exponent of the co-rotating frame, about."""
-        gamma, split = float(self.numbers.gamma.mid()), float(self.numbers.split.mid())
-        return abs(gamma) / 2 + abs(complex(split) ** 0.5) + 1.0
-
     def pole_in(self, period: Any) -> bool:
         """Whether ``D`` is known to vanish once, inside a ball: at a resonance, without damping."""
         if self.hypotheses.rational("gamma") != (Fraction(0),):

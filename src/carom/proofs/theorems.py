@@ -63,7 +63,10 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     for done, (names, found) in enumerate(candidates(rotor, periods)):
         evidence.tell(0.3 + 0.7 * done / len(periods.roots))
         if not found:
-            claims.append(_no_solution(rotor, names, found is not None))
+            statement = "The closing conditions of an orbit with one impact a period have solutions at this root of F1."
+            known = found is not None
+            reason = "its radial speeds are not real" if known else "its two radial speeds may meet in a fold"
+            claims.append(rotor.claim(names, "solution", statement, -1 if known else 0, reason))
             doubts += [] if found is not None else [f"it is open whether {names} exist"]
         for name, course in (found or {}).items():
             told, status = orbit_claims(rotor, name, course)
@@ -101,12 +104,6 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
         reason="; ".join(reasons),
         limited=bool(periods.open) and rotor.hypotheses.exact and bool(rotor.numbers.gamma > 0),
     )
-
-
-def _no_solution(rotor: Rotor, names: str, known: bool) -> Claim:
-    statement = "The closing conditions of an orbit with one impact a period have solutions at this root of F1."
-    reason = "its radial speeds are not real" if known else "its two radial speeds may meet in a fold"
-    return rotor.claim(names, "solution", statement, -1 if known else 0, reason)
 
 
 THEOREMS: Mapping[str, Theorem] = {
