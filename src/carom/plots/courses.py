@@ -167,7 +167,9 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
-    unit, short = _large(largest, "energy", scales)
+    unit, short = told_in("energy", scales)
+    if scales and unit * largest >= _LARGE:
+        unit, short = 1e-3 * unit, f"k{short}"
     times = told_in("time", scales)[0] * ledger.times
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
@@ -178,12 +180,6 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     if axes is None:
         key(figure, [drawn], columns=3)
     return figure
-
-
-def _large(largest: float, kind: str, scales: Scales | None) -> tuple[float, str]:
-    """Return the factor to a unit in which large numbers need no power of ten, and its name."""
-    unit, name = told_in(kind, scales)
-    return (1e-3 * unit, f"k{name}") if scales and unit * largest >= _LARGE else (unit, name)
 
 
 def sampled(motion: Trajectory, until: float) -> Course:
@@ -224,7 +220,7 @@ def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
         if those.any():
             look = {**LOOKS[meaning].stroke, "solid_capstyle": "butt", "dash_capstyle": "butt", "zorder": 3}
             words = LOOKS[meaning].words
-            axes.plot(course.times, np.where(those, distance, np.nan), **look, label=words, gid=meaning)
+            axes.plot(np.where(those, course.times, np.nan), distance, **look, label=words, gid=meaning)
     logs = [(part.begins, part.seen_at(motion.plane).contacts) for part in motion.parts]
     times = told_in("time", scales)[0] * np.concatenate([begins + log.time for begins, log in logs])
     shown = times <= course.times[-1]
@@ -298,8 +294,8 @@ def _gap_axis(axes: Axes, scales: Scales | None) -> None:
 
 def _force(axes: Axes, course: Course, *, last: bool) -> None:
     """Draw the forces of contact, and impulses on an axis of their own if the wall is rigid."""
-    factor, unit = _large(float(course.force.max()), "force", course.scales)
-    factor /= told_in("force", course.scales)[0]
+    large = bool(course.scales) and float(course.force.max()) >= _LARGE
+    factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{told_in('force', course.scales)[1]}"
     normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
     for values, look, words in ((normal, LOOKS["wall"], "normal force"), (friction, LOOKS["roll"], "friction, size")):
