@@ -40,8 +40,8 @@ def page(dropped, tmp_path_factory):
 def test_it_needs_no_other_file(page):
     assert not re.search(r"<(?:link|img|iframe)\b|<script[^>]* src", page)
     assert not re.search(r'(?:src|href)="(?!#)', page)
-    # Two figures, and the film with its curves.
-    assert page.count("<svg") == 4
+    # Two figures, and the film.
+    assert page.count("<svg") == 3
     identifiers = re.findall(r' id="([^"]+)"', page)
     assert len(identifiers) == len(set(identifiers))
 
