@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -12,7 +12,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.outcome import InputError
 from carom.results import Result
-from carom.rotors.equations import Equations, block, loops_of
+from carom.rotors.equations import block, loops_of
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import motions_at
 from carom.rotors.whirls import speeds_of
@@ -88,14 +88,18 @@ def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None =
     """
     if not flexible.bearings:
         raise InputError("bearings", None, "one or more carom.rotors.MagneticBearing")
-    of_axes = _sensitivities(flexible)
+    loop = _Loop(flexible)
     listed = _usual(flexible) if frequencies is None else np.sort(speeds_of(frequencies))
-    values = np.array([of_axes(each) for each in listed.tolist()])
-    axes = np.abs(values).max(axis=0).argmax(axis=0)
-    of_worst = np.take_along_axis(values, axes[None, None], axis=1)[:, 0]
-    peaks = [_peak(of_axes, listed, (axis, number)) for number, axis in enumerate(axes.tolist())]
-    highest, at = np.array(peaks).T
-    return Sensitivity(listed, of_worst, highest, at, not flexible.slowest.grows)
+    values = np.array([loop.of_axes(each) for each in listed.tolist()])
+    places = [(axis, number) for number in range(len(flexible.bearings)) for axis in range(values.shape[1])]
+    peaks = {place: loop.peak(listed, np.abs(values[:, *place]), place) for place in places}
+    worst = [
+        max((each for each in places if each[1] == number), key=lambda each: peaks[each][0])
+        for number in range(values.shape[2])
+    ]
+    highest, at = (np.array(each) for each in zip(*(peaks[place] for place in worst), strict=True))
+    sizes = np.stack([values[:, *place] for place in worst], axis=1)
+    return Sensitivity(listed, sizes, highest, at, not flexible.slowest.grows)
 
 
 def _usual(machine: FlexibleMachine) -> np.ndarray:
@@ -105,46 +109,63 @@ def _usual(machine: FlexibleMachine) -> np.ndarray:
     return np.union1d(np.geomspace(LOWEST, highest, COUNT), own[(own > LOWEST) & (own < highest)])
 
 
-def _sensitivities(machine: FlexibleMachine) -> Callable[[float], np.ndarray]:
-    """Function of a frequency, rad/s: sensitivities along the axes of each bearing, one where all are alike, shape (axes, B)."""
-    whole, loops = machine.whole, loops_of(machine.rotor, machine.bearings, machine.touchdowns)
-    equations, count, vectors = whole.equations, len(machine.bearings), slice(0, whole.vectors)
-    # What the sensors see, and what signals added to it do to the coordinates.
-    seen, pushed = np.zeros((2, count, len(equations.mass)))
-    seen[:, vectors] = loops.sensors @ whole.basis.shapes
-    first = len(equations.mass) - sum(each.loop.states for each in machine.bearings)
-    for number, bearing in enumerate(machine.bearings):
-        pushed[number, vectors] = -bearing.ki * bearing.loop.D * (loops.bearings[number] @ whole.basis.shapes)
-        pushed[number, first : first + bearing.loop.states] = bearing.loop.B
-        first += bearing.loop.states
-    turns = np.exp(2j * np.array([each.axis_angle for each in machine.bearings]))
+class _Loop:
+    """The loop of all bearings, opened at the sensors."""
 
-    def closed(of: Equations, seen: np.ndarray, pushed: np.ndarray, frequency: float) -> np.ndarray:
+    def __init__(self, machine: FlexibleMachine) -> None:
+        whole, loops = machine.whole, loops_of(machine.rotor, machine.bearings, machine.touchdowns)
+        held, vectors = whole.equations, slice(0, whole.vectors)
+        self.bearings = machine.bearings
+        self.pulls, self.seen = loops.bearings @ whole.basis.shapes, loops.sensors @ whole.basis.shapes
+        softer = [bearing.ks * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)]
+        self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
+        self.spin = held.damping[vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
+        # Supports that act differently in two directions, where they hold the rotor.
+        across = [each for each in machine.supports if each.stiffness.across or each.damping.across]
+        rows = [machine.rotor.row_at(each.node) @ whole.basis.shapes for each in across]
+        self.held = np.reshape(rows, (len(across), whole.vectors))
+        self.across = np.array([(each.stiffness.across, each.damping.across) for each in across]).reshape(-1, 2)
+
+    def answers(self, frequency: float) -> np.ndarray:
+        """What sensors measure, and displacements at such supports, by forces of whirls at bearings and there; shape (B + S, B + S)."""
         s = 1j * frequency
-        dynamic = of.stiffness + s * (of.damping - 1j * machine.speed * of.gyroscopic) + s * s * of.mass
-        found: np.ndarray = np.eye(len(seen)) + seen @ np.linalg.solve(dynamic, pushed.T)
+        dynamic = self.stiffness + s * self.spin + s * s * np.eye(len(self.stiffness))
+        pushed = np.concatenate([self.pulls, self.held])
+        found: np.ndarray = np.concatenate([self.seen, self.held]) @ np.linalg.solve(dynamic, pushed.T)
         return found
 
-    def of_axes(frequency: float) -> np.ndarray:
-        if not equations.is_anisotropic:
-            forward, backward = (closed(equations, seen, pushed, each) for each in (frequency, -frequency))
-            return 0.5 * (np.diag(forward) + np.diag(backward).conj())[None]
-        found = closed(equations.both, block(seen, seen), block(pushed, pushed), frequency)
-        straight = np.diag(found[:count, :count]) + np.diag(found[count:, count:])
-        mixed = np.diag(found[:count, count:]) / turns + np.diag(found[count:, :count]) * turns
-        return 0.5 * np.stack([straight + mixed, straight - mixed])
+    def opened(self, frequency: float) -> np.ndarray:
+        """What sensors measure by forces at bearings, of displacements and of their conjugates, (2B, 2B)."""
+        count, s = len(self.bearings), 1j * frequency
+        free = block(self.answers(frequency), self.answers(-frequency).conj())
+        size = len(free) // 2
+        links = np.zeros_like(free)
+        for place, (stiffness, damping) in enumerate(self.across, start=count):
+            links[place, size + place] = stiffness + s * damping
+            links[size + place, place] = stiffness.conjugate() + s * damping.conjugate()
+        held = np.linalg.solve(np.eye(2 * size) + free @ links, free)
+        kept = np.append(np.arange(count), size + np.arange(count))
+        return held[np.ix_(kept, kept)]
 
-    return of_axes
+    def of_axes(self, frequency: float) -> np.ndarray:
+        """Sensitivity of one direction, shape (1, B); where both differ of both axes, shape (2, B)."""
+        count, s = len(self.bearings), np.array(1j * frequency)
+        gains = [bearing.ki * complex(bearing.loop.at(s)) for bearing in self.bearings]
+        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) * (2 * gains))
+        # A real signal along an axis is as much a part of the displacement as of its conjugate.
+        turns = np.exp(2j * np.array([each.axis_angle for each in self.bearings]))
+        straight = np.diag(whole[:count, :count]) + np.diag(whole[count:, count:])
+        mixed = np.diag(whole[:count, count:]) / turns + np.diag(whole[count:, :count]) * turns
+        return 0.5 * (np.stack([straight + mixed, straight - mixed]) if len(self.across) else straight[None])
 
-
-def _peak(
-    of_axes: Callable[[float], np.ndarray], frequencies: np.ndarray, axis: tuple[int, int]
-) -> tuple[float, float]:
-    """Largest sensitivity of an axis of a bearing and its frequency, enclosed ever more closely between those given."""
-    best = (0.0, 0.0)
-    for _ in range(ZOOMS + 1):
-        sizes = [abs(of_axes(each)[axis]) for each in frequencies.tolist()]
-        place = int(np.argmax(sizes))
-        best = max(best, (float(sizes[place]), float(frequencies[place])))
-        frequencies = np.linspace(*frequencies[[max(place - 1, 0), min(place + 1, len(frequencies) - 1)]], POINTS)
-    return best
+    def peak(self, frequencies: np.ndarray, sizes: np.ndarray, axis: tuple[int, int]) -> tuple[float, float]:
+        """Largest sensitivity along an axis of a bearing beside the largest of those known, and its frequency."""
+        place = int(sizes.argmax())
+        best = float(sizes[place]), float(frequencies[place])
+        for _ in range(ZOOMS):
+            low, high = frequencies[max(place - 1, 0)], frequencies[min(place + 1, len(frequencies) - 1)]
+            frequencies = np.linspace(low, high, POINTS)
+            sizes = np.array([abs(self.of_axes(each)[axis]) for each in frequencies.tolist()])
+            place = int(sizes.argmax())
+            best = max(best, (float(sizes[place]), float(frequencies[place])))
+        return best
