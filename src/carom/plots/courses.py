@@ -120,10 +120,11 @@ def touchdown(
     rows = 3 if ledger is None else 4
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * rows * TWO_COLUMNS))
     grid = figure.subplots(rows, len(spans), sharex="col", squeeze=False)
-    for place, span in enumerate(spans):
-        panels, course = grid[:, place], sampled(motion, span)
+    courses = [sampled(motion, span) for span in spans]
+    for place, course in enumerate(courses):
+        panels = grid[:, place]
         _distance(panels[0], motion, course)
-        _force(panels[1], course, last=place == len(spans) - 1)
+        _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
         _speeds(panels[2], course)
         if ledger is not None:
             energies(ledger, axes=panels[3])
@@ -153,7 +154,7 @@ def forces(motion: Trajectory, *, axes: Axes | None = None) -> Figure:
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     course = sampled(motion, motion.begins + motion.time)
-    _force(drawn, course, last=True)
+    _force(drawn, course, course, last=True)
     drawn.set(xlim=(0.0, float(course.times[-1])), xlabel=axis_time(course.scales))
     if axes is None:
         key(figure, [drawn], columns=4)
@@ -292,9 +293,9 @@ def _gap_axis(axes: Axes, scales: Scales | None) -> None:
     axes.secondary_yaxis("right", functions=(turned, back)).set_ylabel("gap to the wall (\N{GREEK SMALL LETTER MU}m)")
 
 
-def _force(axes: Axes, course: Course, *, last: bool) -> None:
-    """Draw the forces of contact, and impulses on an axis of their own if the wall is rigid."""
-    large = bool(course.scales) and float(course.force.max()) >= _LARGE
+def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
+    """Draw the forces of contact in the unit that the whole motion needs, and impulses on an axis of their own if the wall is rigid."""
+    large = bool(course.scales) and float(whole.force.max()) >= _LARGE
     factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{told_in('force', course.scales)[1]}"
     normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
@@ -307,7 +308,7 @@ def _force(axes: Axes, course: Course, *, last: bool) -> None:
     else:
         axes.set_ylim(0.0, 1.08 * float(np.max(held, initial=0.0)) or 1.0)
     axes.set_ylabel(f"contact force ({unit})")
-    if not len(held):
+    if not (whole.held & (whole.force > 0.0)).any():
         axes.set_yticks([])
         axes.set_ylabel("no lasting contact" if course.blows is not None else "no contact")
     if course.blows is not None and len(course.blows.times):
