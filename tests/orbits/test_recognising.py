@@ -8,7 +8,6 @@ from linear_rotors import touchdowns
 
 from carom.models import from_matrices
 from carom.motions import State, simulate
-from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
 from carom.orbits.recognising import orbit_of_motion
 from carom.parameters import Parameters
 
@@ -19,18 +18,17 @@ def test_impacts_without_rebound_that_do_not_stay():
     """After the first of two impacts nothing presses the rotor outward: it leaves the wall, although it does not rebound."""
     machine = Parameters(gamma=0.0182, omega=0.102, rho=0.101, phi=0.0, mu=0.194, d=0.0, radius_ratio=3.18)
     orbit = orbit_of_motion(simulate(machine, State(-0.9 + 0.36j, 0.37 + 0.92j), settle=True))
-    assert str(orbit.word) == "impact+ land slide+ lift"
-    assert orbit.admissible
-    # Of a disturbed motion, the states at the first impacts come closer by the multiplier in each period.
-    start = State(orbit.departure.position, (1.0 + 1e-8) * orbit.departure.velocity)
-    motion = simulate(machine, start, 5.0 * orbit.period)
-    states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact])
-    apart = np.abs(states - orbit.nodes[0]).max(axis=1)
-    apart = apart[apart < 1e-5]
-    # The second derivative, some hundreds, times the distance of 1e-7.
-    assert apart[2] / apart[1] == pytest.approx(orbit.multipliers.spectral_radius, rel=1e-4)
-    measured = lyapunov_exponents(machine, orbit.departure, 60, transient=20)
-    assert measured.across[0] == pytest.approx(orbit_exponents(orbit).across[0], rel=1e-6)
+    assert orbit.segments == "land slide+ lift"
+
+    def struck(factor):
+        start = State(orbit.departure.position, factor * orbit.departure.velocity)
+        motion = simulate(machine, start, 5.0 * orbit.period)
+        return motion.rotor.system.states_of(motion.arrivals[motion.is_impact])
+
+    # Of a disturbed motion, the states at the impacts, two a period, come closer by the multiplier in each period.
+    apart = np.abs(struck(1.0 + 1e-7) - struck(1.0)).max(axis=1)
+    assert len(apart) == 10
+    assert apart[8] / apart[6] == pytest.approx(orbit.multipliers.spectral_radius, rel=2e-4)
 
 
 @pytest.mark.parametrize(

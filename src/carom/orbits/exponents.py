@@ -14,7 +14,7 @@ from carom.core.closing import LONGEST
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
-from carom.orbits.flow_exponents import NOTHING, STRETCH, Grown
+from carom.orbits.flow_exponents import NOTHING, Grown
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import impacts_between
 from carom.orbits.shooting import links_of
@@ -28,7 +28,7 @@ REPEATED = 1e-8
 CHUNK = 4096
 """Events that are simulated at a time."""
 LEFT = 1e-6
-"""Mean factor in a stretch below which a direction counts as taken away."""
+"""Factor in any stretch below which a direction counts as taken away."""
 CONFIDENT = 3.0
 """Standard errors by which an exponent has to differ from zero to have a sign."""
 
@@ -184,7 +184,7 @@ def _by_flow(rotor: Rotor, state: State, impacts: int, transient: int, batches: 
         raise CaromError(f"only {len(grown.durations)} stretches were measured: raise impacts or lower batches")
     values, errors = _means(grown.logarithms, grown.durations, batches)
     time = float(grown.durations.sum())
-    lost = values <= math.log(LEFT) / STRETCH
+    lost = grown.logarithms.min(axis=0) <= math.log(LEFT)
     values[lost], errors[lost] = -np.inf, 0.0
     along = grown.along / time
     if rotor.system.is_time_dependent:

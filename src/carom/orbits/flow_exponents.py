@@ -50,10 +50,10 @@ class Grown:
         return float(np.linalg.norm(self.flow.rate(self.vector, 0.0)))
 
     def _measure(self, impacts: int) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:
-        """Follow the motion for a number of impacts, or as long as there is time."""
+        """Follow the motion for a number of impacts and landings, or as long as there is time."""
         found: list[np.ndarray] = []
         struck = landed = 0
-        while struck < impacts and len(found) < MOST and not self.budget.spent:
+        while struck + landed < impacts and len(found) < MOST and not self.budget.spent:
             motion = self.flow.follow(self.vector, STRETCH)
             if motion is None:
                 raise CaromError("the motion goes beyond the model: it has no exponents")
