@@ -175,7 +175,7 @@ def orbit_impacts(orbit: Orbit, periods: int) -> tuple[Floats, Floats]:
     kept = [*range(1, orbit.impacts), 0]
     begins = np.concatenate([[orbit.period], np.cumsum(orbit.durations)[:-1]])[kept]
     times = (orbit.period * np.arange(periods)[:, None] + begins).ravel()
-    return times, np.tile([orbit.sections[place].angular_speed for place in kept], periods)
+    return np.asarray(times, float), np.tile([orbit.sections[place].angular_speed for place in kept], periods)
 
 
 def marker_size(count: int) -> float:
