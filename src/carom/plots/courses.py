@@ -119,7 +119,7 @@ def touchdown(
     spans = [end] if first > _SHORT * end or narrow() else [first, end]
     rows = 3 if ledger is None else 4
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * rows * TWO_COLUMNS))
-    grid = figure.subplots(rows, len(spans), sharex="col", squeeze=False)
+    grid = figure.subplots(rows, len(spans), sharex="col", sharey="row", squeeze=False)
     courses = [sampled(motion, span) for span in spans]
     for place, course in enumerate(courses):
         panels = grid[:, place]
