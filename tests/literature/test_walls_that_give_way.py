@@ -5,7 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.models import KelvinVoigt, Touchdown, from_matrices
+from carom.models import KelvinVoigt, Touchdown, from_matrices, rotor_of
+from carom.orbits.closing import close
 from carom.parameters.restitution import damping_ratio_of, dissipation_of, restitution_of_dissipation
 
 SPEED = 0.3
@@ -102,3 +103,16 @@ def test_the_overhung_rotor_bounces_beside_levitation_near_its_internal_resonanc
     start = np.array([complex(np.squeeze(orbit.start.position)), complex(np.squeeze(orbit.start.velocity))])
     end = solve_ivp(rates, (0.0, orbit.period), start, "DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
     assert np.abs(end - start).max() < 1e-6
+
+
+@pytest.mark.jit_only
+def test_the_second_family_of_the_overhung_rotor_doubles_where_published():
+    """From the machine file, Ω = 5 … 4.2; published with a smoothed ring: 4.2691."""
+    rotor = rotor_of(cm.load("examples/overhung-rotor.toml"))
+    moved = complex(rotor.system.translated[0])
+    start = cm.State((-0.39738 + 0.48784j) * moved, (-0.38677 - 0.31505j) * moved)
+    orbit = close(cm.simulate(rotor, start, 6.0 * 2.6173523), 0.0, 5.0 * 2.6173523)
+    assert orbit.period / 5.0 == pytest.approx(2.6173523, abs=1e-7)
+    branch = cm.continue_orbit(orbit, "speed", ("420 rad/s", "505 rad/s"))
+    doubled = [point.value / 100.0 for point in branch.special if point.kind == "period-doubling"]
+    assert any(value == pytest.approx(4.269006, abs=1e-4) for value in doubled)
