@@ -80,8 +80,8 @@ def work_on_tasks(degree: int, levels: int, counting: bool) -> None:
 
 def count_blocks(levels: int) -> None:
     """Make the search write down which blocks it looks at, and how often it goes on by safe steps."""
-    from carom.compiling.decorators import inlined
     from carom.core import events
+    from carom.core.compiling.decorators import inlined
 
     look, step = events.load_polynomial, events._step_safely
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.base.outcome import Outcome
 from carom.motions import settle
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 from tests.machines import PAPER
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from numba.core import config
 
-from carom.compiling.cache_directory import cache_directory
+from carom.core.compiling.cache_directory import cache_directory
 
 COMPILED = not config.DISABLE_JIT
 DEEP = COMPILED and os.environ.get("CAROM_DEEP", "") not in ("", "0")

@@ -10,6 +10,7 @@ import numpy as np
 from flint import acb
 from reference import Crossing, Flight, first_crossing, jeffcott_exponents, jeffcott_flight, unit
 
+from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.advance import advance
 from carom.core.block import load_products
@@ -20,7 +21,6 @@ from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LEVELS, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Rotor, jeffcott
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 EPSILON = 2.0**-52

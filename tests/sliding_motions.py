@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from carom.base.outcome import Outcome, Phase
 from carom.motions.simulation import simulate
-from carom.outcome import Outcome, Phase
 
 
 def ahead_of(found, angles):

@@ -12,8 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.base.outcome import CaromWarning
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts, VelocityKick
-from carom.outcome import CaromWarning
 from carom.parameters import Case, Parameters, Zones
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask

@@ -12,7 +12,7 @@ import pytest
 from compilation import sized
 
 import carom as cm
-from carom.outcome import CaromError, InputError
+from carom.base.outcome import CaromError, InputError
 
 FILES = [
     path for path in sorted(Path("examples").glob("*.toml")) if "sweep" not in path.stem and "flexible" not in path.stem
@@ -64,7 +64,7 @@ def altered(text: str, chance: random.Random) -> str:
     return "\n".join(lines)
 
 
-@pytest.mark.filterwarnings("ignore::carom.outcome.CaromWarning")
+@pytest.mark.filterwarnings("ignore::carom.base.outcome.CaromWarning")
 def test_altered_machine_files_are_read_or_refused(tmp_path):
     chance, outcomes, told = random.Random(1), [], []
     for number in range(sized(200, 200, 6000)):

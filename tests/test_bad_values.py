@@ -13,11 +13,11 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
 from carom.models import Rigid, from_corotating_matrices
 from carom.models.touchdown import Touchdown
-from carom.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
 from carom.sweeps import plan_sweep
 

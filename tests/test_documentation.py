@@ -13,8 +13,8 @@ import pytest
 from typer.main import get_command
 
 import carom
+from carom.base.outcome import Outcome
 from carom.cli.app import app
-from carom.outcome import Outcome
 from carom.proofs import hypotheses_of
 from carom.proofs.families import FAMILIES, KICKS
 from carom.proofs.kick_cells import DISC, REFUTED, read

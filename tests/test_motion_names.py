@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, REGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.base.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, REGULAR_BOUNCING, STEADY_WORDS, Outcome
 
 PAGE = Path("docs/reference/motions.md")
 PACKAGES = ("plots", "cli", "report", "studies", "sweeps", "explorer")

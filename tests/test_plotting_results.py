@@ -10,12 +10,12 @@ from studies import study_once
 
 import carom
 from carom import plots
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.basins import map_basins, map_gains
 from carom.disturbances import Grid, VelocityKick
 from carom.motions import energy_ledger
-from carom.outcome import InputError
 from carom.proofs import ProvenKicks, prove_kicks
-from carom.results import Result
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
 

@@ -15,8 +15,8 @@ from sweep_tasks import Drawn, plan_of
 
 import carom
 from carom import basins
+from carom.base.progress import Progress, Reporter, _told, bar, shows_progress
 from carom.disturbances import Grid, Sample, VelocityKick
-from carom.progress import Progress, Reporter, _told, bar, shows_progress
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
 DAMPED = PAPER.replace(gamma=0.65, mu=0.0)
@@ -63,7 +63,7 @@ def test_a_sweep_reports_in_the_same_way(tmp_path):
 
 def test_true_shows_a_bar(monkeypatch):
     shown = []
-    monkeypatch.setattr(carom.progress, "Timer", AtOnce)
+    monkeypatch.setattr(carom.base.progress, "Timer", AtOnce)
     monkeypatch.setattr(rich.progress.Progress, "update", lambda _, task, **state: shown.append(state))
     assert carom.settle(PAPER, [0.1, 0.2j], [0.3, 0.4j], progress=True).outcomes.size == 2
     assert shown[-1] == {"completed": 1.0, "description": "following starts"}
@@ -92,10 +92,10 @@ def terminal(monkeypatch):
     """An error stream that someone watches, and bars that appear at once."""
     monkeypatch.delenv("CAROM_PROGRESS", raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(carom.progress, "Timer", AtOnce)
+    monkeypatch.setattr(carom.base.progress, "Timer", AtOnce)
     stream = Terminal()
     # Not the stream itself, which pytest sets anew before the test.
-    monkeypatch.setattr(carom.progress, "sys", SimpleNamespace(stderr=stream, modules=sys.modules))
+    monkeypatch.setattr(carom.base.progress, "sys", SimpleNamespace(stderr=stream, modules=sys.modules))
     monkeypatch.setattr(rich.console.Console, "file", stream)
     return stream
 
@@ -147,7 +147,7 @@ def test_no_bar_appears_where_it_is_not_wanted_or_not_seen(why, terminal, monkey
     if why == "by nobody":
         monkeypatch.setattr(terminal, "isatty", lambda: False)
     if why == "in another process":
-        monkeypatch.setattr(carom.progress, "current_process", lambda: SimpleNamespace(name="LokyProcess-1"))
+        monkeypatch.setattr(carom.base.progress, "current_process", lambda: SimpleNamespace(name="LokyProcess-1"))
     if why == "by the environment":
         monkeypatch.setenv("CAROM_PROGRESS", "0")
     if why == "in another thread":
@@ -169,7 +169,7 @@ def test_in_a_notebook_the_bar_is_an_output_that_ends_empty(monkeypatch, termina
     shell = SimpleNamespace(kernel=object())
     monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
     monkeypatch.setitem(sys.modules, "IPython.display", SimpleNamespace(display=display))
-    monkeypatch.setattr(carom.progress, "_PAUSE", 0.0)
+    monkeypatch.setattr(carom.base.progress, "_PAUSE", 0.0)
     outer()
     assert [data["text/plain"] for data in drawn] == ["", "outer", "50 %: the whole", ""]
     assert drawn[2]["text/html"] == "<progress value='0.5000' max='1'></progress> 50 %: the whole"
@@ -185,7 +185,7 @@ def test_nothing_is_shown_unless_someone_watches(wish, capfd):
 
 def test_a_bar_appears_after_a_moment_and_shows_words_as_they_are(monkeypatch):
     screen = Console(file=io.StringIO(), width=80, force_terminal=True)
-    monkeypatch.setattr(carom.progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(carom.base.progress, "PATIENCE", 0.0)
     drawn = threading.Event()
     monkeypatch.setattr(rich.progress.Progress, "start", lambda shown: (start(shown), drawn.set()))
     with bar("loading", screen) as tell:
@@ -195,7 +195,7 @@ def test_a_bar_appears_after_a_moment_and_shows_words_as_they_are(monkeypatch):
 
 
 def test_short_functions_show_nothing_and_leave_no_thread(monkeypatch, terminal):
-    monkeypatch.setattr(carom.progress, "Timer", threading.Timer)
+    monkeypatch.setattr(carom.base.progress, "Timer", threading.Timer)
     before = threading.active_count()
     for _ in range(5):
         outer()

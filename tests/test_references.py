@@ -9,9 +9,9 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.outcome import InputError
-from carom.references import REFERENCES, Reference
-from carom.results import Result, citations
+from carom.base.outcome import InputError
+from carom.base.references import REFERENCES, Reference
+from carom.base.results import Result, citations
 
 
 def subclasses(kind: type) -> set[type]:

@@ -13,10 +13,10 @@ import pytest
 from machines import PAPER
 
 import carom
-from carom.outcome import InputError
+from carom.base.outcome import InputError
+from carom.base.references import Citations, Reference
+from carom.base.results import WIDEST, Result, fields_of, in_a_line, in_si
 from carom.parameters.told import told_along
-from carom.references import Citations, Reference
-from carom.results import WIDEST, Result, fields_of, in_a_line, in_si
 
 
 class Colour(enum.Enum):
@@ -97,7 +97,7 @@ def test_a_result_lists_its_attributes():
 
 
 def test_citations_are_a_list_with_links_in_a_notebook():
-    found = carom.results.citations(carom.find_orbits(PAPER))
+    found = carom.base.results.citations(carom.find_orbits(PAPER))
     html = found._repr_html_()
     assert repr(found) == found.text
     assert '<a href="https://doi.org/10.1098/rspa.2013.0490">doi:10.1098/rspa.2013.0490</a>.</li>' in html
@@ -163,7 +163,7 @@ def test_sizes_of_whatever_is_found_are_told_in_si_units():
     lost = carom.basins.smallest_loss(machine, kicks)
     assert "  largest          0.775555 (100 mm/s)" in repr(lost)
     assert f"  size             {lost.size:.6g} ({lost.size * 0.7 * 184.2:.3g} mm/s)" in repr(lost)
-    assert carom.results.in_a_line(lost).startswith(f"smallest lost {lost.size:.6g} (5.4")
+    assert carom.base.results.in_a_line(lost).startswith(f"smallest lost {lost.size:.6g} (5.4")
     blade = carom.basins.smallest_loss(machine, carom.disturbances.BladeLoss(0.5))
     assert "  largest          0.5 (17,500 g mm)" in repr(blade)  # half of 50 kg times 0.7 mm
     ending = carom.find_attractors(machine, carom.disturbances.Sample(kicks, 1), known=False).endings[0]

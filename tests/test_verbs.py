@@ -15,10 +15,10 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import CaromError, InputError
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.models import jeffcott
 from carom.orbits.shooting import Start
-from carom.outcome import CaromError, InputError
 from carom.parameters import Case, Machine, Scales, Zones
 from carom.sweeps import GridAxis
 
@@ -90,7 +90,7 @@ CALLS = {
     "closed_forms.runaway_speed": cm.closed_forms.runaway_speed,
     "closed_forms.slipping_whirls": lambda m: cm.closed_forms.slipping_whirls(m, 1e4),
     "closed_forms.speed_response": cm.closed_forms.speed_response,
-    "closed_forms.synchronous_response": lambda m: cm.closed_forms.synchronous_response(m, [100.0]),
+    "rotors.synchronous_response": lambda m: cm.rotors.synchronous_response(m, [100.0]),
     "closed_forms.small_cycles": cm.closed_forms.small_cycles,
     "disturbances.outward_from": cm.disturbances.outward_from,
     "explorer.explore": lambda m: told(lambda: case_explored(m)),

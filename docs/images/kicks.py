@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 import carom as cm
-from carom.outcome import Outcome
+from carom.base.outcome import Outcome
 from carom.plots import LOOKS, OUTCOMES
 
 HERE = Path(__file__).parent

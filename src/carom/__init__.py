@@ -6,7 +6,7 @@
 >>> motion = cm.simulate(machine, cm.kick(0.4, angle=0.2), 400.0)
 
 Each verb takes a machine, a case, parameters or a model.  Where one takes more than two seconds, a bar appears in terminals
-and notebooks; ``progress=False`` prevents it, and a callable receives each :class:`~carom.progress.Progress`.  What is more
+and notebooks; ``progress=False`` prevents it, and a callable receives each :class:`~carom.base.progress.Progress`.  What is more
 special lives in the packages: ``cm.disturbances``, ``cm.basins``, ``cm.bifurcations``, ``cm.closed_forms``, ``cm.plots`` and so on.
 
 Names and packages are loaded when they are first used, so ``import carom`` stays light.  The file ``__init__.pyi`` beside
@@ -20,7 +20,7 @@ from typing import Any
 
 
 def _homes() -> dict[str, str]:
-    """Home of each public name: the module it is defined in, or ``carom`` of a package."""
+    """Home of each public name: the module it is defined in, or ``carom`` of a package, ``carom.base`` of a module of it."""
     stub = ast.parse(Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
     imports = [statement for statement in stub.body if isinstance(statement, ast.ImportFrom)]
     return {alias.name: str(statement.module) for statement in imports for alias in statement.names}
@@ -40,8 +40,8 @@ def __getattr__(name: str) -> Any:
         value = version(__name__)
     elif name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    elif _HOMES[name] == __name__:
-        value = import_module(f"{__name__}.{name}")
+    elif _HOMES[name] in (__name__, f"{__name__}.base"):
+        value = import_module(f"{_HOMES[name]}.{name}")
     else:
         value = getattr(import_module(_HOMES[name]), name)
     globals()[name] = value

@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from carom.arguments import checked
-from carom.outcome import Problems, printable
+from carom.base.arguments import checked
+from carom.base.outcome import Problems, printable
 from carom.parameters.machine_file import Case, read_planar_case, split_settings
 from carom.parameters.toml_reader import read_machine_tables
 

@@ -18,7 +18,7 @@ from functools import cache
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from carom.outcome import Phase
+from carom.base.outcome import Phase
 from carom.parameters import Parameters
 
 SIGN = {Phase.FORWARD_SLIP: 1.0, Phase.BACKWARD_SLIP: -1.0, Phase.ROLLING: 0.0}

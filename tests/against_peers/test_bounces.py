@@ -14,10 +14,10 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 from .bouncing import HeyokaFlights, ScipyFlights, bounces, error_bounds

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carom.closed_forms import synchronous_response
 from carom.parameters import TouchdownBearing
 from carom.rotors import (
     PID,
@@ -22,6 +21,7 @@ from carom.rotors import (
     TouchdownPlane,
     Unbalance,
 )
+from carom.rotors.synchronous import synchronous_response
 
 ROTORS = json.loads(Path(__file__).with_name("ross_rotors.json").read_text())
 

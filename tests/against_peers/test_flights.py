@@ -10,10 +10,10 @@ import pytest
 from compilation import sized
 from machines import random_parameters
 
+from carom.base.outcome import Outcome
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.layout import workspace
 from carom.models import jeffcott
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 from .bouncing import Flight, HeyokaFlights, ScipyFlights, arrival_matrix, flight_error, stiffness_and_force

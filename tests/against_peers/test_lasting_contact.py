@@ -5,11 +5,11 @@ import pytest
 from compilation import sized
 from machines import PAPER
 
+from carom.base.outcome import Phase
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Phase
 from carom.parameters import Parameters
 
 from .constrained_motion import (

@@ -9,13 +9,13 @@ import pytest
 from compilation import sized
 from linear_rotors import bending, single, tilting, to_fixed
 
+from carom.base.outcome import Outcome, Phase
 from carom.basins import map_basins
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.disturbances import Grid, KickPlane
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 

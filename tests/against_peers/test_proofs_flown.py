@@ -7,8 +7,8 @@ import pytest
 from machines import PAPER
 
 from carom import kick, simulate
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
-from carom.outcome import Outcome
 from carom.proofs import prove_kicks, prove_states
 
 from . import plain_rotor

@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carom.closed_forms import synchronous_response
 from carom.parameters import TouchdownBearing
 from carom.rotors import (
     PID,
@@ -28,6 +27,7 @@ from carom.rotors import (
 )
 from carom.rotors.ross_import import USUAL, ImportedRotor
 from carom.rotors.starter import starter_text
+from carom.rotors.synchronous import synchronous_response
 
 FOLDER = Path(__file__).with_name("ross_imports")
 COMPUTED = json.loads((FOLDER / "computed.json").read_text())

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carom.closed_forms import synchronous_response
 from carom.parameters import TouchdownBearing
 from carom.rotors import (
     FlexibleMachine,
@@ -19,6 +18,7 @@ from carom.rotors import (
     find_whirls,
     read_rotor,
 )
+from carom.rotors.synchronous import synchronous_response
 
 FOLDER = Path(__file__).parent
 COMPUTED = json.loads((FOLDER / "ross_supports.json").read_text())

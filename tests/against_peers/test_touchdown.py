@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from machines import PAPER
 
+from carom.base.outcome import Phase
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Phase
 from carom.parameters import Parameters
 
 from . import time_stepping

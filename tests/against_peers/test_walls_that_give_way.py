@@ -11,8 +11,8 @@ from compilation import sized
 from linear_rotors import single, tilting
 
 import carom as cm
+from carom.base.outcome import Phase
 from carom.models import HuntCrossley, KelvinVoigt
-from carom.outcome import Phase
 
 NAMES = {
     Phase.FLIGHT: reference.AWAY,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from carom.attractors import exponents_of, find_attractors
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.orbits import orbit_exponents
-from carom.outcome import Outcome
 from tests.compilation import sized
 from tests.machines import PAPER
 from tests.orbits.test_exponents import CHAOTIC, nearby_growth

@@ -13,8 +13,8 @@ import carom as cm
 from carom.attractors import Attractor, exponents_of, find_attractors
 from carom.attractors.settled import settled_motion
 from carom.attractors.survival import follow_further
+from carom.base.outcome import Outcome
 from carom.models import Force, Rigid, jeffcott, rotor_of
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 pytestmark = pytest.mark.jit_only

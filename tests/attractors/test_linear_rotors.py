@@ -9,9 +9,9 @@ from machines import PAPER
 
 import carom
 from carom.attractors.settled import settled_motion
+from carom.base.outcome import Outcome
 from carom.models import from_matrices
 from carom.motions.starts import State
-from carom.outcome import Outcome
 
 pytestmark = pytest.mark.jit_only
 

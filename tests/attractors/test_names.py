@@ -10,8 +10,8 @@ import pickle
 import pytest
 
 from carom.attractors import MotionName
+from carom.base.outcome import Outcome
 from carom.orbits.names import OrbitName
-from carom.outcome import Outcome
 
 FAST = OrbitName(1, True, True)
 NAMES = {

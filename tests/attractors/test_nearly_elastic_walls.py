@@ -5,12 +5,12 @@ import pytest
 from compilation import sized
 
 from carom.attractors import exponents_of, find_attractors
+from carom.base.outcome import Outcome
 from carom.basins import share_of_kicks
 from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.studies.endings import ending_phrase, ending_words
 

@@ -6,6 +6,8 @@ import pytest
 import carom
 from carom.attractors import find_attractors, following
 from carom.attractors.survival import Survival
+from carom.base.outcome import CaromError, InputError, Outcome
+from carom.base.progress import Reporter
 from carom.closed_forms.equilibria import find_equilibria
 from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts
 from carom.models import jeffcott
@@ -14,9 +16,7 @@ from carom.motions.ensembles import Endings
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
 from carom.orbits.single_impact import find_orbits, orbits_within_reach
-from carom.outcome import CaromError, InputError, Outcome
 from carom.parameters import Parameters
-from carom.progress import Reporter
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 

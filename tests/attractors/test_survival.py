@@ -17,9 +17,9 @@ from carom.attractors.survival import (
     measure_survival,
     still_irregular,
 )
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.motions.ensembles import Endings, settle
-from carom.outcome import Outcome
 
 
 def ensemble(multiplicities, outcomes, impacts=0):

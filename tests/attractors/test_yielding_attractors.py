@@ -8,9 +8,9 @@ import pytest
 import carom as cm
 from carom.attractors import exponents_of
 from carom.attractors.settled import settled_motion
+from carom.base.outcome import Outcome
 from carom.disturbances import Grid, StateSlice
 from carom.models import KelvinVoigt
-from carom.outcome import Outcome
 from tests.yielding_rotors import Yielding
 
 pytestmark = pytest.mark.jit_only

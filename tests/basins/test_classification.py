@@ -12,6 +12,7 @@ from machines import PAPER
 
 import carom
 from carom.attractors.naming import _alike
+from carom.base.outcome import InputError, Outcome
 from carom.basins import Basin, map_basins, map_cells
 from carom.disturbances import (
     AnyState,
@@ -23,7 +24,6 @@ from carom.disturbances import (
     StateSlice,
     VelocityKick,
 )
-from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 

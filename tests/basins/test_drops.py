@@ -9,11 +9,11 @@ import pytest
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.basins import DropMap, map_drops
 from carom.basins.drops import MEASURES
 from carom.disturbances.following import NO_START
 from carom.motions import Drop, drop_loads
-from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 

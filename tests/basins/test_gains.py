@@ -12,9 +12,9 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom
+from carom.base.outcome import InputError, Outcome
 from carom.basins import GainMap, map_basins, map_gains
 from carom.disturbances import Grid, Sample, VelocityKick
-from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 

@@ -10,11 +10,11 @@ from linear_rotors import as_matrices, tilting
 from machines import PAPER
 
 import carom
+from carom.base.outcome import InputError, Outcome
 from carom.basins import smallest_loss
 from carom.basins.brackets import Bracket, Found
 from carom.basins.losses import DIRECTIONS, SIZES
 from carom.disturbances import StateSlice, VelocityKick
-from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 

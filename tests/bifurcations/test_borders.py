@@ -7,6 +7,7 @@ from functools import cache, reduce
 import numpy as np
 import pytest
 
+from carom.base.outcome import InputError, Outcome
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.neighbours import BORDERS
 from carom.models import jeffcott
@@ -14,7 +15,6 @@ from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
-from carom.outcome import InputError, Outcome
 from tests.bifurcations.test_words import doubled, located
 from tests.machines import PAPER
 

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from carom.base.outcome import InputError, Outcome
 from carom.bifurcations.boundary import SMALL_GAP, boundary_equilibria
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
@@ -11,7 +12,6 @@ from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

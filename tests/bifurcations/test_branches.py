@@ -8,6 +8,7 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import find_orbits, simulate
+from carom.base.outcome import InputError
 from carom.bifurcations import OrbitBranch, conditions, continue_orbit
 from carom.bifurcations.word_equations import Family
 from carom.closed_forms.periods import PeriodCondition
@@ -15,7 +16,6 @@ from carom.continuation import Steps
 from carom.models import jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
-from carom.outcome import InputError
 from carom.parameters import Parameters
 
 

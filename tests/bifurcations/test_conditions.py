@@ -10,11 +10,11 @@ from flint import acb, acb_mat, arb, arb_mat, ctx
 from machines import PAPER
 
 from carom import find_orbits
+from carom.base.outcome import CaromError
 from carom.bifurcations import Plane, continue_curve, continue_orbit, words
 from carom.bifurcations.conditions import conditions_at, grazing_equations, pressed_on
 from carom.continuation import continue_branch
 from carom.models import jeffcott
-from carom.outcome import CaromError
 from carom.parameters import Numbers, Scales
 
 ctx.prec = 192

@@ -7,12 +7,12 @@ import pytest
 from machines import PAPER
 
 from carom import find_bifurcations, find_orbits
+from carom.base.outcome import InputError
 from carom.bifurcations import KINDS, Bifurcation, Curve, Plane, continue_curve, continue_orbit
 from carom.bifurcations.passing import passes
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.parameters import Machine, Numbers, Scales
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))

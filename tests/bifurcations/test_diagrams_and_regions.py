@@ -10,10 +10,10 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import find_equilibria, find_orbits
+from carom.base.outcome import InputError
 from carom.bifurcations import Plane, find_bifurcations, map_regions, motions_at
 from carom.bifurcations.curves import STEPS
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.parameters import PARAMETERS, Machine, Scales
 
 

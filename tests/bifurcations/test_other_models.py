@@ -12,12 +12,12 @@ from linear_rotors import as_matrices, single, tilting
 
 import carom as cm
 from carom.attractors import MotionName
+from carom.base.outcome import Outcome
 from carom.bifurcations import sample_attractors
 from carom.bifurcations.samples import _impacts
 from carom.disturbances import Grid, VelocityKick
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome
 
 RANGE = (0.2, 0.5)
 

@@ -10,6 +10,7 @@ import pytest
 from machines import PAPER, ExactMotion
 
 from carom import find_equilibria, find_orbits, simulate
+from carom.base.outcome import Phase
 from carom.bifurcations import Bifurcation, Diagram, Plane, find_bifurcations, map_regions
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
@@ -18,7 +19,6 @@ from carom.models import jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
 from carom.orbits.orbit import Orbit
-from carom.outcome import Phase
 from carom.parameters import Numbers, Parameters
 
 pytestmark = pytest.mark.jit_only

@@ -7,15 +7,15 @@ from functools import cache
 import numpy as np
 import pytest
 
+from carom.base.files import as_json
+from carom.base.outcome import InputError
 from carom.bifurcations import Diagram, find_bifurcations
 from carom.bifurcations.documents import diagram_document
 from carom.bifurcations.several import lies_on
-from carom.files import as_json
 from carom.models import jeffcott
 from carom.motions import simulate
 from carom.orbits import find_orbits
 from carom.orbits.orbit import orbit_near
-from carom.outcome import InputError
 from tests.machines import PAPER
 
 pytestmark = pytest.mark.jit_only

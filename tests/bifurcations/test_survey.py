@@ -7,12 +7,12 @@ import pytest
 from machines import PAPER
 
 from carom import map_regions
+from carom.base.outcome import CaromError
 from carom.bifurcations import Motions, Plane, RegionMap, motions_at
 from carom.bifurcations import survey as module
 from carom.bifurcations.cells import regions_between
 from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.survey import Survey
-from carom.outcome import CaromError
 from carom.parameters import Machine, Parameters, Scales
 
 KEOGH = Machine.from_parameters(PAPER.replace(gamma=1400.0 / 9210.0), Scales(50.0, 0.7e-3, 184.2)).parameters

@@ -9,6 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from carom.base.outcome import CaromError, InputError
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.bifurcations.word_equations import Family
@@ -19,7 +20,6 @@ from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.shooting import Start, closed_flights, links_of
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError, InputError
 from tests.machines import PAPER
 from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state
 

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import CaromError, CaromWarning, InputError
 from carom.cli import main
 from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
-from carom.outcome import CaromError, CaromWarning, InputError
 
 FIELDS = {
     "mass": ("50 kg", "1 s"),

@@ -7,8 +7,8 @@ import json
 import numpy as np
 import pytest
 
+from carom.base.outcome import Outcome
 from carom.basins import Basin, GainMap
-from carom.outcome import Outcome
 
 pytestmark = pytest.mark.jit_only
 

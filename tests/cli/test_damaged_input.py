@@ -14,9 +14,9 @@ import pytest
 import typer
 from compilation import sized
 
+from carom.base.outcome import InputError
 from carom.cli import main
 from carom.loading import load
-from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine
 from carom.sweeps import load_sweep
 

@@ -9,12 +9,12 @@ import xarray
 from linear_rotors import single
 from yielding_walls import with_walls
 
+from carom.base.outcome import InputError, Phase
 from carom.cli.logs import write_csv, write_netcdf
 from carom.loading import load
 from carom.models import KelvinVoigt, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.outcome import InputError, Phase
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only

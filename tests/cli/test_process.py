@@ -145,7 +145,7 @@ sys.exit(run())
 """
 
 
-@pytest.mark.parametrize("name", ["carom.cli", "typer", "carom.cli.study", "carom.outcome"])
+@pytest.mark.parametrize("name", ["carom.cli", "typer", "carom.cli.study", "carom.base.outcome"])
 def test_interrupt_while_the_program_is_loaded(machine, name):
     code = LATE.format(name=name, machine=str(machine))
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
@@ -169,7 +169,7 @@ def test_a_sigterm_removes_unfinished_files(tmp_path):
     code = """
 import os, pathlib, signal, sys
 from carom.cli import app
-from carom.files import unfinished
+from carom.base.files import unfinished
 
 def wait(**_):
     with unfinished(pathlib.Path("."), folder=True):

@@ -7,8 +7,8 @@ from contextlib import contextmanager
 
 import pytest
 
+from carom.base.progress import Reporter
 from carom.cli.app import main
-from carom.progress import Reporter
 
 MACHINE = "examples/keogh-cole.toml"
 PAPER = "examples/source-paper.toml"

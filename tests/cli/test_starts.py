@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import InputError
 from carom.cli import main
 from carom.cli.starts import (
     check_exact,
@@ -21,7 +22,6 @@ from carom.disturbances.single import Single, read_single
 from carom.loading import load
 from carom.models import axis
 from carom.motions.starts import Kick, State
-from carom.outcome import InputError
 from carom.parameters import Parameters, Requirement, Scales, Shock
 
 

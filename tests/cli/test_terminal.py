@@ -9,10 +9,10 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from carom.base.progress import _bar
 from carom.cli.app import app, main
 from carom.cli.screen import Screen
 from carom.cli.terminal import console, print_document
-from carom.progress import _bar
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from carom.attractors import MotionName
+from carom.base.outcome import Outcome
 from carom.cli.app import main
 from carom.orbits.names import OrbitName
-from carom.outcome import Outcome
 from carom.plots import LOOKS, OUTCOMES
 from carom.plots.coexistence import ROWS
 from carom.studies.endings import ending_words

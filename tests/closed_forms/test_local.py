@@ -13,11 +13,11 @@ from machines import PAPER, flight_matrix
 from scipy.linalg import expm
 
 from carom import find_orbits
+from carom.base.outcome import InputError
 from carom.closed_forms.local import ContactSystem, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.layout import rotor_record
 from carom.models import System, jeffcott
-from carom.outcome import InputError
 
 BOUNDARY = PAPER.replace(gamma=float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)))
 

@@ -10,11 +10,11 @@ from flint import acb, arb, ctx
 from machines import PAPER, exact_return, flight_matrix, random_parameters
 from scipy.linalg import expm
 
+from carom.base.outcome import CaromError, InputError
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.periods import curvature_bound
 from carom.models import jeffcott
 from carom.orbits import period_condition
-from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 
 CRITICAL = 2.0 * 0.76

@@ -10,9 +10,9 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.closed_forms import levitation
 from carom.models import Force, jeffcott, rotor_of
-from carom.outcome import InputError
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
 TILTING = tilting().model.under(Force(-1j, np.array([0.02 - 0.1j, 0.05])))

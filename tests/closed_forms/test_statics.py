@@ -13,9 +13,9 @@ from machines import random_parameters
 from scipy.optimize import root
 
 from carom import find_equilibria
+from carom.base.outcome import Outcome
 from carom.models import from_matrices, jeffcott
 from carom.motions.ensembles import settle
-from carom.outcome import Outcome
 
 
 def misses(model, at):

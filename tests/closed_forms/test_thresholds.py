@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from machines import PAPER, path, rest_position
 from scipy.integrate import solve_ivp
 
+from carom.base.outcome import InputError
 from carom.bifurcations.motions import motions_at
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.harmless import harmless_kick, harmless_shock
@@ -31,7 +32,6 @@ from carom.closed_forms.thresholds import (
 )
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters, Scales
 
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3)

@@ -11,10 +11,10 @@ from compilation import sized
 from machines import PAPER
 from scipy.optimize import minimize_scalar
 
+from carom.base.outcome import InputError
 from carom.closed_forms import find_equilibria, rolling, speed_response
 from carom.loading import load
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.parameters import Machine, Parameters
 
 MACHINES = sized(compiled=100, interpreted=20, deep=2000)

@@ -8,13 +8,13 @@ from boundary_rotors import touching
 from yielding_rotors import Yielding
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
+from carom.base.roots import bracketed_root
 from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, small_cycles
-from carom.continuation.roots import bracketed_root
 from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.motions.starts import State
 from carom.orbits.closing import close
 from carom.orbits.happenings import arrives
-from carom.outcome import InputError, Outcome
 
 PAPER = cm.load("examples/source-paper.toml").parameters
 STAR = float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2))

@@ -7,12 +7,12 @@ import pytest
 from yielding_rotors import Yielding, packed, two_planes
 
 import carom as cm
+from carom.base.outcome import Outcome, Phase
 from carom.closed_forms.power_sums import positive_roots
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import depths
 from carom.models import HuntCrossley, KelvinVoigt, Rigid, from_matrices
 from carom.models.touchdown import Touchdown
-from carom.outcome import Outcome, Phase
 
 LAWS = [
     KelvinVoigt(100.0, 5.0),

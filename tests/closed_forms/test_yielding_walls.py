@@ -11,9 +11,9 @@ from scipy.optimize import brentq
 
 import carom
 from carom import models
+from carom.base.outcome import InputError
 from carom.closed_forms import find_equilibria, runaway_speed, slipping_whirls
 from carom.closed_forms.statics import rubs_in_wall
-from carom.outcome import InputError
 from carom.parameters import Parameters
 
 EXPONENTS = [1.0, 10 / 9, 1.5]

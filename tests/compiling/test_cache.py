@@ -16,9 +16,9 @@ from damage import damage, restore, spoilt
 from numba.core import types
 from numba.core.registry import cpu_target
 
-from carom.compiling import cache_directory
-from carom.compiling.cache import KernelCache
-from carom.outcome import CaromWarning
+from carom.base.outcome import CaromWarning
+from carom.core.compiling import cache_directory
+from carom.core.compiling.cache import KernelCache
 
 pytestmark = [pytest.mark.jit_only, pytest.mark.skipif(not COMPILED, reason="the compiler is off")]
 
@@ -105,7 +105,7 @@ def test_a_file_under_the_name_of_another_is_not_taken(kept):
 
 
 def test_what_stands_in_the_place_of_a_file_does_no_harm(kept, monkeypatch):
-    monkeypatch.setattr("carom.compiling.cache.tell_once", cache_directory.tell_once.__wrapped__)
+    monkeypatch.setattr("carom.core.compiling.cache.tell_once", cache_directory.tell_once.__wrapped__)
     kept.unlink()
     kept.mkdir()
     with pytest.warns(CaromWarning, match="cannot be kept"):
@@ -116,8 +116,8 @@ def test_a_disk_that_refuses_is_told_of_and_done_without(tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("carom.compiling.cache.write_whole", full)
-    monkeypatch.setattr("carom.compiling.cache.tell_once", cache_directory.tell_once.__wrapped__)
+    monkeypatch.setattr("carom.core.compiling.cache.write_whole", full)
+    monkeypatch.setattr("carom.core.compiling.cache.tell_once", cache_directory.tell_once.__wrapped__)
     with pytest.warns(CaromWarning, match=r"make room, or set CAROM_CACHE_DIR to a directory that can be written$"):
         assert fresh(tmp_path)(3.0) == 27.0
     assert not list(tmp_path.iterdir())

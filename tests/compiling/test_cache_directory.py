@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.compiling import cache_directory as place
+from carom.core.compiling import cache_directory as place
 
 fresh = place.cache_directory.__wrapped__
 """The directory as it would be found by another process."""
@@ -20,7 +20,7 @@ if "--nowhere" in sys.argv:
     def refuse(*_, **__):
         raise PermissionError("read-only file system")
     pathlib.Path.mkdir = refuse
-from carom.compiling.cache_directory import cache_directory
+from carom.core.compiling.cache_directory import cache_directory
 print(cache_directory())
 """
 

@@ -10,11 +10,11 @@ import warnings
 import numba
 import pytest
 
-from carom.compiling import choice
-from carom.outcome import CaromWarning, InputError
+from carom.base.outcome import CaromWarning, InputError
+from carom.core.compiling import choice
 
 MODULE = """
-from carom.compiling.decorators import expanded, formula, inlined, kernel, separate
+from carom.core.compiling.decorators import expanded, formula, inlined, kernel, separate
 
 @formula
 def squared(x):
@@ -40,7 +40,7 @@ CALL = """
 import sys
 import kernels_for_test as kernels
 print(kernels.all_of_them(3.0), sum(kernels.all_of_them.stats.cache_hits.values()))
-print("carom.compiling.intermediate" in sys.modules)
+print("carom.core.compiling.intermediate" in sys.modules)
 """
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 
 numbers = st.complex_numbers(max_magnitude=1e6, allow_nan=False, allow_infinity=False)
 

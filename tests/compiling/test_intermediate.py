@@ -9,8 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-from carom.compiling.cache import KernelCache
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.cache import KernelCache
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.records import record
 
 pytestmark = pytest.mark.jit_only
@@ -93,7 +93,7 @@ def test_a_kernel_is_linked_although_its_first_caller_never_calls_it(tmp_path):
 
 MODULE = """
 import numpy as np
-from carom.compiling.decorators import kernel, separate
+from carom.core.compiling.decorators import kernel, separate
 from carom.core.records import record
 
 @separate
@@ -149,7 +149,7 @@ def test_machine_code_that_kernels_share_is_compiled_once_and_found_by_its_name_
 
 TWO = """
 import numpy as np
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 from carom.core.records import record
 
 @kernel

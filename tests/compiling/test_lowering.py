@@ -8,7 +8,7 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import _nrt_python, rtsys
 from numba.core.types.functions import BaseFunction
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 from carom.core.records import record
 
 GRID = np.arange(12.0).reshape(3, 4)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.compiling.decorators import expanded, kernel
+from carom.core.compiling.decorators import expanded, kernel
 from carom.core.records import record
 
 pytestmark = pytest.mark.jit_only

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.continuation.roots import bracketed_root, narrowed, sign_change
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
+from carom.base.roots import bracketed_root, narrowed, sign_change
 
 
 def test_bracketed_root():

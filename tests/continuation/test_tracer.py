@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from carom.base.outcome import CaromError, InputError
 from carom.continuation import Branch, Steps, Watch, continue_branch
-from carom.outcome import CaromError, InputError
 
 
 def circle(u, p):

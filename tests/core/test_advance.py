@@ -10,6 +10,7 @@ from flights import parameters, task_from_state
 from flint import acb, arb
 from reference import first_crossing, jeffcott_flight, unit
 
+from carom.base.outcome import Outcome
 from carom.core.advance import CHATTER_HEIGHT, advance
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
@@ -19,7 +20,6 @@ from carom.core.table import flight_table
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

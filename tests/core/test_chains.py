@@ -7,13 +7,13 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
+from carom.base.outcome import Outcome
 from carom.core.block import move_to
 from carom.core.events import INSIDE, first_crossing
 from carom.core.fate import levitates
 from carom.core.flow import fly_all, nudge
 from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
-from carom.outcome import Outcome
 
 LENGTHS = [3, 4]
 

@@ -10,6 +10,7 @@ from compilation import sized
 from machines import PAPER
 
 from carom.attractors import find_attractors
+from carom.base.outcome import Outcome
 from carom.core.closing import ATTRACTS, OPEN, REPELS, close, least_period
 from carom.core.fate import memory
 from carom.models import jeffcott
@@ -18,7 +19,6 @@ from carom.motions.settling import _tools
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 SPIRALLING = Parameters(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.compiling.decorators import kernel
 from carom.core.closure import shooting_equations
+from carom.core.compiling.decorators import kernel
 from carom.core.equations import solve
 
 SEGMENTS, ENTRIES = 3, 3

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from mpmath import mpc, mpf
 
+from carom.base.outcome import Phase
 from carom.core.compliance import next_form, slip_in_wall, stay_in_wall
 from carom.core.contact_series import rub_series
 from carom.core.flow import displacement, velocity
@@ -17,7 +18,6 @@ from carom.core.layout import ORDER, rub_workspace
 from carom.core.rub import first_transition, next_phase
 from carom.core.taylor import STEP_FRACTION, margin_step, series_step, sum_series
 from carom.models import HuntCrossley, KelvinVoigt, Touchdown, from_matrices
-from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING, SEPARATED = Phase
 GAMMA, OMEGA, RHO, PHI, FRICTION, RATIO = 0.13, 0.76, 0.43, 0.21, 0.3, 3.0

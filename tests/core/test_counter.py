@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 from carom.core.counter import fresh_counter, next_number
 
 DRAWS, THREADS = 20_000, 4

@@ -28,12 +28,12 @@ from flights import (
 from flint import acb, arb
 from reference import first_crossing, plane_flight, unit
 
+from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.flow import displacement, velocity
 from carom.core.layout import DEGREE, LEVELS, record, rotor_record, workspace
 from carom.core.table import SHORTENING, flight_table
 from carom.models import jeffcott
-from carom.outcome import Outcome
 
 HORIZON = 15.0
 FEW = (0.05, 0.01)

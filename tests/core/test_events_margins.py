@@ -28,12 +28,12 @@ from flights import (
 from flint import acb, arb
 from reference import plane_flight, unit
 
+from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.block import load_polynomial, sign_changes
 from carom.core.layout import record, rotor_record
 from carom.core.table import flight_table
 from carom.models import jeffcott
-from carom.outcome import Outcome
 
 ROUNDING = 16 * EPSILON
 """Rounding error of a displacement, in units of the sizes of its terms, as the search takes it."""

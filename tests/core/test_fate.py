@@ -11,6 +11,7 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom.attractors import find_attractors
+from carom.base.outcome import Outcome, Phase
 from carom.closed_forms.equilibria import find_equilibria
 from carom.core.fate import (
     approaches_turn,
@@ -25,7 +26,6 @@ from carom.core.layout import NEAR, rotor_record, workspace
 from carom.models import Rotor, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
 MANY = sized(100, 20, 300)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 from carom.core.friction import (
     BACKWARD,
     FORWARD,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carom.base.outcome import Phase
 from carom.core.contact_series import contact_forces, rub_series
 from carom.core.layout import rub_workspace
 from carom.core.taylor import sum_series
 from carom.core.wall import push_plane
 from carom.models import KelvinVoigt, Touchdown, from_matrices
 from carom.models.limits import Limit, with_limits
-from carom.outcome import Phase
 
 MASS, STIFFNESS, DAMPING = np.diag([1.0, 0.3]), np.array([[0.6, 0.1], [0.1, 0.4]]), 0.1 * np.eye(2)
 ACROSS = np.array([[[0.03, 0.0], [0.0, 0.01]], [[0.15 + 0.05j, 0.0], [0.0, 0.1]]])

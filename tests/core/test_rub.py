@@ -13,6 +13,7 @@ from compilation import sized
 from machines import PAPER, fly, random_parameters
 from scipy.integrate import solve_ivp
 
+from carom.base.outcome import Phase
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, fly_all, velocity
 from carom.core.layout import ORDER, rotor_record, rub_workspace
@@ -27,7 +28,6 @@ from carom.core.rub import (
 )
 from carom.core.taylor import STEP_FRACTION, first_fall, series_step, sum_series
 from carom.models import jeffcott
-from carom.outcome import Phase
 from carom.parameters import Parameters
 
 FLIGHT, FORWARD, BACKWARD, ROLLING = Phase.FLIGHT, Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING

@@ -11,12 +11,12 @@ import pytest
 from flights import EPSILON
 from machines import PAPER
 
+from carom.base.outcome import Phase
 from carom.core import contact_series, rub, taylor
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.layout import ORDER, record, rotor_record, rub_workspace
 from carom.core.rounding import push_rounding, speed_rounding
 from carom.models import jeffcott
-from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING, SEPARATED = (int(phase) for phase in Phase)
 FRICTION = 0.25

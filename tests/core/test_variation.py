@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from flights import parameters
 
+from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.friction import STOPPED, sense_of, slip_of, spare_friction
@@ -16,7 +17,6 @@ from carom.core.table import flight_table
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
 from carom.core.wall import wall_of
 from carom.models import jeffcott
-from carom.outcome import Outcome
 
 STEP = 1e-3
 """Step of the differences below, whose error is of the order of its sixth power."""

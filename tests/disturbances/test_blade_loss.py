@@ -12,10 +12,10 @@ from linear_rotors import tilting
 from scipy.integrate import solve_ivp
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.basins import Basin, smallest_loss
 from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
 from carom.models import Force, jeffcott
-from carom.outcome import InputError, Outcome
 from carom.parameters import Machine, Parameters
 
 LIGHT = Machine(

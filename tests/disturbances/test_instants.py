@@ -9,11 +9,11 @@ import pytest
 
 import carom as cm
 from carom.attractors import DisturbanceSet
+from carom.base.outcome import InputError
 from carom.basins.shares import Population
 from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, VelocityKick
 from carom.disturbances.echo import ANY_INSTANT
 from carom.models import rotor_of
-from carom.outcome import InputError
 
 MACHINE, PLAIN = "examples/dropped-rotor.toml", "examples/keogh-cole.toml"
 TURNED = 0.7

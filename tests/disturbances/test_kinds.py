@@ -11,6 +11,7 @@ from machines import PAPER, rest_position
 from scipy.stats import chisquare
 
 import carom
+from carom.base.outcome import InputError
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -21,7 +22,6 @@ from carom.disturbances import (
     StateSlice,
     VelocityKick,
 )
-from carom.outcome import InputError
 
 SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(scales=SCALES)

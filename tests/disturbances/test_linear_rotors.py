@@ -13,10 +13,10 @@ from linear_rotors import FixedFrame, random_rotor, single, tilting, touchdowns
 from scipy.integrate import solve_ivp
 
 import carom
+from carom.base.outcome import InputError, Outcome
 from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, Sample, StateSlice
 from carom.disturbances.shocks import states_after_shocks
 from carom.models import jeffcott
-from carom.outcome import InputError, Outcome
 
 
 @dataclass(frozen=True, eq=False)

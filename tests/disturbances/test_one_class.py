@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced
 from carom.disturbances.echo import echo_of
 from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Part
-from carom.outcome import InputError
 
 MACHINE = cm.load("examples/keogh-cole.toml")
 

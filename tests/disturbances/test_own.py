@@ -10,10 +10,10 @@ import pytest
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.basins import Basin, GainMap, smallest_loss
 from carom.basins.document import basin_document
 from carom.disturbances import Coordinate, Disturbance, Grid, Sample, Starts, VelocityKick
-from carom.outcome import InputError, Outcome
 
 SCALES = cm.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)

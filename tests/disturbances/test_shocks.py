@@ -91,7 +91,7 @@ def test_pressed_to_the_wall_when_the_pulse_ends(peak, duration, direction):
     assert (position.conjugate() * velocity).real == pytest.approx(0.0, abs=1e-12)
     assert not ended
     found = carom.simulate(carom.models.jeffcott(machine), carom.State(position, velocity), 1.0)
-    assert found.outcome is carom.outcome.Outcome.TIME_REACHED
+    assert found.outcome is carom.base.outcome.Outcome.TIME_REACHED
 
 
 def test_a_short_shock_is_a_kick():

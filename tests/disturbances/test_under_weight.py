@@ -10,8 +10,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.disturbances import BladeLoss
-from carom.outcome import InputError
 
 MACHINE, BALLS = "examples/dropped-rotor.toml", "examples/touchdown-balls.toml"
 MASS, DAMPING, STIFFNESS, SPEED = 5.0, 900.0, 5e5, 300.0 * math.pi

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import threading
 
+from carom.base.progress import Progress
 from carom.explorer.background import Job, SupersededError, Worker
-from carom.progress import Progress
 
 SOON = 30.0
 """Seconds after which a thread that does not answer is taken to hang."""

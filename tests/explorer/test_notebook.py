@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import carom
+from carom.base.outcome import CaromError
 from carom.explorer.notebook import encoded
 from carom.explorer.page import questions
-from carom.outcome import CaromError
 
 MACHINE = carom.load("examples/keogh-cole.toml")
 SOON = 120

@@ -17,11 +17,11 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
 import carom
+from carom.base.outcome import InputError
 from carom.explorer import server as servers
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page import questions
 from carom.explorer.server import LEFT, Explorer, _compile
-from carom.outcome import InputError
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
 

@@ -12,6 +12,7 @@ import pytest
 from compilation import sized
 
 import carom
+from carom.base.outcome import InputError
 from carom.cli import main
 from carom.explorer.computing.controls import controls_of, values_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
@@ -22,7 +23,6 @@ from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.models import case_of, rotor_of
-from carom.outcome import InputError
 
 MACHINE = """
 [machine]

@@ -5,8 +5,8 @@ import os
 
 import pytest
 
-from carom.files.directory import check_directory, staged_directory
-from carom.outcome import InputError
+from carom.base.files.directory import check_directory, staged_directory
+from carom.base.outcome import InputError
 
 
 def fill(path, files):

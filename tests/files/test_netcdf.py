@@ -10,9 +10,9 @@ import xarray
 from compilation import sized
 from damage import CONTENT, spoilt
 
+from carom.base.files.netcdf import load, save
+from carom.base.outcome import InputError
 from carom.basins import Basin, GainMap
-from carom.files.netcdf import load, save
-from carom.outcome import InputError
 
 DATASET = xarray.Dataset(
     {

@@ -9,12 +9,12 @@ import time
 
 import pytest
 
-from carom.files import unfinished, write_whole
+from carom.base.files import unfinished, write_whole
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from carom.files import {name}
+from carom.base.files import {name}
 with {call}:
     os.kill(os.getpid(), signal.SIGKILL)
 """

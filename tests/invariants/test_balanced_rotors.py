@@ -14,11 +14,11 @@ import pytest
 from limiting_motions import EPSILON, angular_momentum, on_wall, starts
 from machines import PAPER
 
+from carom.base.outcome import Outcome, Phase
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
 

@@ -13,9 +13,9 @@ import pytest
 from limiting_motions import START, on_wall, starts
 from machines import PAPER
 
+from carom.base.outcome import Phase
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
-from carom.outcome import Phase
 
 
 def test_slip_of_a_huge_rotor_never_reverses():

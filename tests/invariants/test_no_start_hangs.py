@@ -16,11 +16,11 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom.base.outcome import Outcome, Phase
 from carom.models import Rotor, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
 MACHINES = 50

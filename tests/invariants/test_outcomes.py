@@ -9,10 +9,10 @@ import pytest
 from compilation import sized
 from drawn_motions import EVENTS
 
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 MACHINES = sized(40, 2, 150)

@@ -16,10 +16,10 @@ from limiting_motions import EPSILON, on_wall, starts
 from machines import PAPER
 from scipy.special import ellipj, ellipk
 
+from carom.base.outcome import Outcome, Phase
 from carom.models import jeffcott
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
-from carom.outcome import Outcome, Phase
 
 # ------------------------------------------------------------------------------------------------ μ = 0: smooth wall
 

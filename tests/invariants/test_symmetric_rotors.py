@@ -8,8 +8,8 @@ from compilation import sized
 from linear_rotors import touchdowns
 
 import carom
+from carom.base.outcome import Outcome
 from carom.models import Rotor, from_matrices, jeffcott
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 pytestmark = pytest.mark.jit_only

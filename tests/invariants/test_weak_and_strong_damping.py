@@ -13,11 +13,11 @@ import pytest
 from limiting_motions import EPSILON, START, jacobi_integral, on_wall, segment_states
 from machines import PAPER
 
+from carom.base.outcome import Outcome, Phase
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Outcome, Phase
 
 # ------------------------------------------------------------------------------------------------ γ → 0: undamped
 

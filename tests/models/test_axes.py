@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from machines import PAPER
 
+from carom.base.outcome import InputError
 from carom.models import axis, jeffcott
 from carom.models.axes import interval_around, read_interval
-from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Numbers, Scales
 
 MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))

@@ -8,9 +8,9 @@ from linear_rotors import tilting, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import from_matrices, rotor_from
 from carom.models.weight import levitation_of
-from carom.outcome import InputError
 from carom.parameters import Gravity, Scales
 
 ENDS = np.array([[1.0, 0.8], [1.0, -0.7]])

@@ -11,11 +11,11 @@ from linear_rotors import FixedFrame, single, tilting, to_fixed, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
 from carom.models import Force, from_matrices, second_order_system
 from carom.models.forcing import with_forces
-from carom.outcome import InputError, Outcome
 
 WEIGHT = (-1j, 0.01)
 FORCES = [

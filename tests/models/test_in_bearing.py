@@ -9,8 +9,8 @@ import pytest
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import jeffcott, rotor_from
-from carom.outcome import InputError
 from carom.parameters import Scales, TouchdownBearing
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)

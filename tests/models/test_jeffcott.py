@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from machines import PAPER
 
+from carom.base.outcome import InputError
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.parameters import Machine, Scales
 
 

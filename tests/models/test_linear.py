@@ -10,12 +10,12 @@ from linear_rotors import bending, single, tilting, touchdowns
 from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
+from carom.base.outcome import InputError
 from carom.models import from_matrices, jeffcott, rotor_from, rotor_of
 from carom.models.modes import modes_of
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.outcome import InputError
 
 
 def planar(parameters, beside=None):

@@ -7,8 +7,8 @@ import pytest
 from linear_rotors import bending, touchdowns
 from machines import PAPER
 
+from carom.base.outcome import InputError
 from carom.models import Rotor, axis, from_matrices, jeffcott
-from carom.outcome import InputError
 from carom.parameters import Scales
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)

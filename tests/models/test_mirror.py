@@ -10,6 +10,7 @@ from limited_reference import clipped, follow, struck
 from scipy.linalg import expm
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome, Phase
 from carom.closed_forms import harmless_kick
 from carom.closed_forms.sag import levitation
 from carom.models import (
@@ -23,7 +24,6 @@ from carom.models import (
     rotor_from,
 )
 from carom.motions import State, energy_ledger
-from carom.outcome import InputError, Outcome, Phase
 
 MASS = np.diag([1.0, 0.3])
 GYROSCOPIC = np.diag([0.0, 0.2])

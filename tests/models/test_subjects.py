@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from machines import PAPER
 
+from carom.base.outcome import InputError
 from carom.models import case_of, jeffcott, rotor_of
-from carom.outcome import InputError
 from carom.parameters import Case, Gravity, Machine, Scales, Zones
 
 MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.disturbances import KickPlane
 from carom.models import (
     FallingRestitution,
@@ -21,7 +22,6 @@ from carom.models import (
     rotor_from,
 )
 from carom.motions.starts import State
-from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=50.0)

@@ -8,9 +8,9 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import Force, Stage, exact_rotor_of, in_stages, jeffcott, rotor_of
 from carom.models.weight import levitation_of
-from carom.outcome import InputError
 from carom.parameters import Gravity, Parameters, Scales
 
 HEAVY = cm.load("examples/dropped-rotor.toml")

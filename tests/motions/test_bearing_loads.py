@@ -10,9 +10,9 @@ import pytest
 from linear_rotors import tilting
 
 import carom as cm
+from carom.base.outcome import Outcome
 from carom.motions import Whirl, drop_loads, energy_ledger, follow_loads, settling, simulation
 from carom.motions.loads import MEASURED
-from carom.outcome import Outcome
 
 pytestmark = pytest.mark.jit_only
 

@@ -7,11 +7,11 @@ import pytest
 from flexible_machines import munich
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.models import rotor_of
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull
-from carom.outcome import InputError, Outcome
 from carom.rotors import Support
 
 pytestmark = pytest.mark.jit_only

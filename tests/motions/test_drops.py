@@ -8,9 +8,9 @@ import pytest
 from linear_rotors import tilting
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.models import Stage, in_stages, rotor_of
 from carom.motions import Drop, Whirl
-from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 

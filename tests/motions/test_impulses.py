@@ -7,6 +7,7 @@ import pytest
 from compilation import sized
 from linear_rotors import random_rotor, tilting, to_fixed, touchdowns
 
+from carom.base.outcome import Phase
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import from_matrices
 from carom.motions import drop_loads
@@ -14,7 +15,6 @@ from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Phase
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only

@@ -31,11 +31,11 @@ def test_energy_closes_over_ten_thousand_impacts():
 @pytest.mark.parametrize(
     ("gamma", "start", "phases"),
     [
-        (0.2, carom.State(0.2 + 0.1j, 0.5 + 0.3j), {carom.outcome.Phase.FORWARD_SLIP}),
+        (0.2, carom.State(0.2 + 0.1j, 0.5 + 0.3j), {carom.base.outcome.Phase.FORWARD_SLIP}),
         pytest.param(
             0.07,
             carom.State(0.2 + 0.1j, 0.3j),
-            {carom.outcome.Phase.FORWARD_SLIP, carom.outcome.Phase.ROLLING},
+            {carom.base.outcome.Phase.FORWARD_SLIP, carom.base.outcome.Phase.ROLLING},
             marks=pytest.mark.jit_only,
         ),
         (0.4, carom.State(0.2 + 0.1j, 0.5 + 0.3j), set()),
@@ -155,7 +155,7 @@ def test_energy_of_random_rotors_closes():
         model = random_rotor(seed, n=1 + seed % 2, planes=2)
         try:
             motion = carom.simulate(model, carom.kick(1.0), until=100.0, max_events=3000)
-        except carom.outcome.InputError:  # the contact-free equilibrium lies outside
+        except carom.base.outcome.InputError:  # the contact-free equilibrium lies outside
             continue
         assert energy_ledger(motion).imbalance < 1e-9, seed
 
@@ -178,7 +178,7 @@ def test_energy_closes_in_walls_that_give_way(law, stiffness, friction, ratio):
     assert ledger.imbalance < 1e-10
     assert ledger.wall.any()
     assert ledger.wall_loss.max() <= 0.0
-    assert (carom.outcome.Phase.ROLLING in motion.segment_phases) == (ratio < 2.0)
+    assert (carom.base.outcome.Phase.ROLLING in motion.segment_phases) == (ratio < 2.0)
     assert not ledger.races.any()
     touches = motion.touches
     size = np.abs(ledger.friction).max()
@@ -199,9 +199,9 @@ def test_energy_closes_with_a_race_that_turns(law, speed):
     assert np.ptp(ledger.races) > 1e-3
     assert np.diff(ledger.race_drag).max() <= 0.0 < -ledger.race_drag[-1]
     assert ledger.races[0] == pytest.approx(0.5 * race.inertia * speed**2)
-    assert carom.outcome.Phase.ROLLING in motion.segment_phases
+    assert carom.base.outcome.Phase.ROLLING in motion.segment_phases
     history = motion.history()
-    rolls = history.phase == carom.outcome.Phase.ROLLING
+    rolls = history.phase == carom.base.outcome.Phase.ROLLING
     assert np.abs(history.slip[rolls]).max() < 1e-11
     assert np.all(history.friction_power <= 1e-9 * np.abs(history.friction_power).max())
 
@@ -219,5 +219,5 @@ def test_without_a_kinetic_energy_there_is_no_ledger():
     model = tilting(1).model
     motion = carom.simulate(model, carom.kick(0.1), until=1.0)
     bent = replace(motion, rotor=model.replace(mass=np.triu(model.mass + 0.1)))
-    with pytest.raises(carom.outcome.InputError, match=r"^mass = .* Hermitian"):
+    with pytest.raises(carom.base.outcome.InputError, match=r"^mass = .* Hermitian"):
         energy_ledger(bent)

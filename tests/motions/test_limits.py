@@ -9,10 +9,10 @@ import pytest
 from limited_reference import clipped, follow, struck
 
 import carom as cm
+from carom.base.outcome import Outcome, Phase
 from carom.loading import load
 from carom.models import jeffcott, rotor_of
 from carom.motions import State, Trajectory, energy_ledger
-from carom.outcome import Outcome, Phase
 from carom.parameters import ControlLimit, TouchdownBearing
 
 KEOGH = "examples/keogh-cole.toml"

@@ -14,10 +14,10 @@ from scipy.integrate import solve_ivp
 from yielding_walls import with_walls
 
 import carom as cm
+from carom.base.outcome import Outcome
 from carom.closed_forms import rolling
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import drop_loads, energy_ledger
-from carom.outcome import Outcome
 from carom.parameters import Parameters, Scales
 
 

@@ -7,7 +7,7 @@ from flexible_machines import munich
 
 import carom as cm
 from carom.motions import drop_loads, follow_loads
-from carom.motions.reduction_errors import reduction_error
+from carom.rotors.reduction_errors import reduction_error
 
 MACHINE = munich(longest_element=0.2)
 KICK = cm.kick("495 mm/s", "30 deg")

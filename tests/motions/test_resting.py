@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.outcome import Outcome, Phase
 from carom.core.fate import memory
 from carom.models import Force, jeffcott
 from carom.motions import drop_loads
 from carom.motions.resting import lies
-from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 

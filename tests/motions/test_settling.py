@@ -12,6 +12,7 @@ from sliding_motions import ahead_of, assert_slides_to_the_rub
 
 import carom
 from carom.attractors.naming import name_motions
+from carom.base.outcome import Outcome, Phase
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.closing import PASSES
@@ -23,7 +24,6 @@ from carom.motions.recurrence import least_recurrence
 from carom.motions.settling import fresh_memory, settled
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 

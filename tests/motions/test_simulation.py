@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import carom as cm
+from carom.base.outcome import Outcome
 from carom.motions.settling import Progress
-from carom.outcome import Outcome
 
 
 @pytest.mark.jit_only

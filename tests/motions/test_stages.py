@@ -11,8 +11,8 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import Force, Stage, Trigger, in_stages, jeffcott
-from carom.outcome import InputError, Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 

@@ -12,10 +12,10 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import jeffcott, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State, kick
-from carom.outcome import InputError
 from carom.parameters import Machine, Scales
 
 

@@ -9,9 +9,9 @@ import pytest
 import xarray
 from machines import PAPER
 
+from carom.base.outcome import InputError
 from carom.loading import load
 from carom.motions import State, Trajectory, drop, simulate
-from carom.outcome import InputError
 from carom.parameters import Scales
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)
@@ -93,8 +93,8 @@ def test_a_file_that_holds_no_motion_is_refused(motion, tmp_path):
     with pytest.raises(InputError, match="damaged"):
         Trajectory.load(path)
 
-    from carom.files.netcdf import load as load_dataset
-    from carom.files.netcdf import save
+    from carom.base.files.netcdf import load as load_dataset
+    from carom.base.files.netcdf import save
     from carom.motions.storage import SEGMENTS
 
     motion.save(path)

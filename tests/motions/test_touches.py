@@ -11,13 +11,13 @@ from linear_rotors import single, tilting
 from scipy.optimize import brentq
 from yielding_walls import SUMS, contacts_of, free_mass, with_walls
 
+from carom.base.outcome import Phase
 from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL, POWER
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import State, drop_loads, energy_ledger, simulate
 from carom.motions.contacts import presses, slip_velocity
 from carom.motions.ledger import NODES, WEIGHTS
 from carom.motions.touches import contact_works
-from carom.outcome import Phase
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only

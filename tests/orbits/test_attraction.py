@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import pytest
 
+from carom.base.outcome import CaromError
 from carom.motions import State, simulate
 from carom.orbits import find_orbits
 from carom.orbits.orbit import Orbit
-from carom.outcome import CaromError
 from carom.parameters import Parameters
 from tests.bouncing_machines import bouncing_parameters
 from tests.machines import PAPER, random_parameters

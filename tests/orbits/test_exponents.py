@@ -10,12 +10,12 @@ from linear_rotors import touchdowns
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
+from carom.base.outcome import CaromError, InputError, Outcome
 from carom.models import Rotor, from_matrices, jeffcott
 from carom.motions import State, kick, settle, simulate
 from carom.orbits import find_orbits
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.recognising import orbit_of_motion
-from carom.outcome import CaromError, InputError, Outcome
 from carom.parameters import Parameters
 from tests.compilation import sized
 from tests.machines import PAPER, flight_matrix, random_parameters, rest_position, strike

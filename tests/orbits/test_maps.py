@@ -12,9 +12,9 @@ from compilation import sized
 from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
 
 from carom import find_equilibria, find_orbits, simulate
+from carom.base.outcome import InputError, Outcome
 from carom.models import jeffcott
 from carom.orbits import Section, impact_map
-from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
 
 LONGEST = 60.0

@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from carom.base.outcome import InputError
 from carom.models import Rotor, jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -15,7 +16,6 @@ from carom.orbits.orbit import Orbit, margins_of, orbit_near, same_orbit
 from carom.orbits.recognising import impacts_between, orbit_of_motion
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
-from carom.outcome import InputError
 from tests.compilation import sized
 from tests.machines import PAPER, exact_matrix, random_parameters
 

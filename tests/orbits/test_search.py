@@ -9,6 +9,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from carom.base.outcome import InputError, Outcome, Phase
+from carom.base.progress import Reporter
 from carom.bifurcations import find_bifurcations
 from carom.models import rotor_of
 from carom.motions import State, settle, simulate
@@ -17,8 +19,6 @@ from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.search import Search
 from carom.orbits.searched import Searched, random_starts
-from carom.outcome import InputError, Outcome, Phase
-from carom.progress import Reporter
 from tests.bouncing_machines import bouncing_parameters, disc_points
 from tests.compilation import sized
 from tests.machines import PAPER, random_parameters

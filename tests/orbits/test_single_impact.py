@@ -25,9 +25,9 @@ from scipy.linalg import expm
 from scipy.optimize import brentq, fsolve
 
 from carom import State, find_orbits, simulate
+from carom.base.outcome import InputError, Outcome
 from carom.models import jeffcott
 from carom.orbits import Orbit, OrbitSet, Section, impact_map
-from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
 
 SETS = sized(80, 80, 200)

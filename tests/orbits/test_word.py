@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from carom.base.outcome import InputError
 from carom.orbits.word import Kind, Word
-from carom.outcome import InputError
 
 
 def test_a_word_without_segments_is_refused():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Drive
 
 MACHINE = """

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import InputError
 from carom.loading import load
-from carom.outcome import InputError
 from carom.parameters import Case, Gravity, Scales, Zones
 
 REAL, PURE, HEAVY = "examples/keogh-cole.toml", "examples/source-paper.toml", "examples/dropped-rotor.toml"

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom.base.outcome import InputError
 from carom.loading import load
 from carom.models import case_of
-from carom.outcome import InputError
 from carom.parameters import Case, Machine, Zones, in_terms_of
 
 REAL, PAPER, RIG = (f"examples/{name}.toml" for name in ("keogh-cole", "source-paper", "tum-test-rig"))

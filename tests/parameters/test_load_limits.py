@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import InputError
 from carom.loading import load
-from carom.outcome import InputError
 from carom.parameters import LoadLimits
 
 REAL = "examples/keogh-cole.toml"

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from carom.outcome import CaromError, InputError
+from carom.base.outcome import CaromError, InputError
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     MACHINE_FIELDS,

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from carom.base.outcome import CaromWarning, InputError
 from carom.loading import load
-from carom.outcome import CaromWarning, InputError
 from carom.parameters import Case, Machine, Scales, Zones
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

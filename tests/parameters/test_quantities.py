@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     ENTRIES,

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from carom.base.outcome import InputError
 from carom.loading import load
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.parameters import GRAVITY, Case, Required, Requirement, Scales, Shock, Zones, usual_kick
 
 REAL, PAPER = "examples/keogh-cole.toml", "examples/source-paper.toml"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import InputError
 from carom.loading import load
-from carom.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, TERMS, Machine
 
 REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"

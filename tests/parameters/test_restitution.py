@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters.restitution import (
     damping_ratio_of,
     dissipation_of,

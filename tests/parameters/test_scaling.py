@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Parameters, Scales
 
 NUMBERS = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}

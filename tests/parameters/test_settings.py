@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from carom.base.outcome import InputError
 from carom.loading import load
-from carom.outcome import InputError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REAL = EXAMPLES / "keogh-cole.toml"

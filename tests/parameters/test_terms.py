@@ -13,7 +13,7 @@ from compilation import sized
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import (
     ENTRIES,
     HELPER_FIELDS,

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom.base.outcome import InputError
 from carom.loading import load
-from carom.outcome import InputError
 from carom.parameters import Machine
 
 CASES = sized(40, 40, 2000)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import InputError, MultipleInputError
 from carom.loading import load
-from carom.outcome import InputError, MultipleInputError
 
 REAL = (Path(__file__).parents[2] / "examples" / "keogh-cole.toml").read_text(encoding="utf-8")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Gravity, TouchdownBearing
 
 MACHINE = """

@@ -11,6 +11,7 @@ from matplotlib.colors import to_rgb
 import carom
 from carom import plots
 from carom.attractors import MotionName
+from carom.base.outcome import InputError, Outcome
 from carom.basins import map_basins, map_gains, smallest_loss
 from carom.disturbances import (
     AnyState,
@@ -24,7 +25,6 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.orbits.names import OrbitName
-from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, looks_of
 
 pytestmark = pytest.mark.jit_only

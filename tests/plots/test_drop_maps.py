@@ -8,7 +8,7 @@ from matplotlib.path import Path
 
 import carom as cm
 from carom import plots
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 

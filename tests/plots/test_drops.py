@@ -7,8 +7,8 @@ import pytest
 
 import carom as cm
 from carom import plots
+from carom.base.outcome import InputError
 from carom.motions import Whirl, drop_loads
-from carom.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 

@@ -5,7 +5,7 @@ import os
 import pytest
 
 from carom import plots
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 
 
 @pytest.fixture(scope="module")

@@ -11,9 +11,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
 from carom import plots
+from carom.base.outcome import InputError
 from carom.basins import map_basins
 from carom.disturbances import Grid, KickPlane, VelocityKick
-from carom.outcome import InputError
 from carom.proofs import ProvenKicks, hypotheses_of
 from carom.proofs.evidence import Evidence
 from carom.proofs.families import KICKS

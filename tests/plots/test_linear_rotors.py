@@ -7,8 +7,8 @@ import pytest
 from linear_rotors import single, tilting
 
 import carom
+from carom.base.outcome import InputError
 from carom.motions import energy_ledger
-from carom.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 

@@ -108,7 +108,7 @@ def test_motion_without_its_transient(damped, bouncing, read):
 @pytest.mark.parametrize("since", [-1.0, 60.1])
 def test_transient_longer_than_the_motion(bouncing, since):
     with pytest.raises(
-        carom.outcome.InputError, match=r"since = .*: a time from 0 to the end of the motion at 60/Omega"
+        carom.base.outcome.InputError, match=r"since = .*: a time from 0 to the end of the motion at 60/Omega"
     ):
         plots.motion(bouncing, since=since)
 

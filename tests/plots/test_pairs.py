@@ -8,9 +8,9 @@ from matplotlib.colors import to_rgb
 
 import carom
 from carom import plots
+from carom.base.outcome import InputError
 from carom.basins import map_basins
 from carom.disturbances import BaseShock, BladeLoss, Grid, KickPlane, Sample, VelocityKick
-from carom.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 

@@ -9,7 +9,7 @@ from matplotlib.path import Path
 from sweep_tasks import Failing, basins_plan
 
 from carom import plots
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Case, Machine, Zones
 from carom.parameters.told import shown_from_si
 from carom.plots.maps import cell_edges

@@ -10,9 +10,9 @@ import pytest
 from compilation import sized
 
 import carom
+from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.motions import settle
-from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.proofs import Hypotheses, check, hypotheses_of, prove, prove_kicks
 from carom.proofs.balls import at_precision

@@ -13,7 +13,7 @@ import pytest
 from compilation import sized
 from machines import PAPER
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import Enclosure
 from carom.proofs.evidence import Evidence, NotShownError, rational_of

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from carom.base.outcome import InputError
 from carom.loading import load
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 
 PAPER = {"gamma": "0.1", "omega": "0.76", "rho": "3/7", "phi": "0.21", "mu": "0.15", "d": "0.95", "radius_ratio": "57"}

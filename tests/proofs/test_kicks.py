@@ -11,9 +11,9 @@ import pytest
 from compilation import sized
 from scipy.integrate import solve_ivp
 
+from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.motions import settle
-from carom.outcome import InputError
 from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, leaves, read, written
 from carom.proofs.passages import REASONS

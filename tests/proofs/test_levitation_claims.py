@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.closed_forms import levitation
 from carom.models import rotor_of
 from carom.motions.starts import Kick
-from carom.outcome import InputError
 from carom.proofs import check, prove, prove_kicks
 
 SAGGING = """

@@ -12,9 +12,9 @@ from compilation import sized
 from machines import PAPER, exact_return
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.bifurcations.conditions import jacobian_at, profile_at
 from carom.orbits import find_orbits
-from carom.outcome import InputError
 from carom.parameters import Numbers as Doubles
 from carom.proofs import check, prove
 from carom.proofs.balls import at_precision, exact_ends

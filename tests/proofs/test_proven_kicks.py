@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.proofs import ProvenKicks, hypotheses_of, prove, prove_kicks
 from carom.proofs.evidence import Evidence
 from carom.proofs.families import KICKS

@@ -9,8 +9,8 @@ import pytest
 from compilation import sized
 from machines import PAPER
 
+from carom.base.outcome import InputError
 from carom.orbits import find_orbits
-from carom.outcome import InputError
 from carom.proofs import Claim, Proof, check, prove
 from carom.proofs.balls import at_precision, interval, rational
 from carom.proofs.block_orbits import _longest

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom.base.outcome import InputError, Outcome
 from carom.closed_forms import harmless_kick
 from carom.models import jeffcott
 from carom.motions import settle
-from carom.outcome import InputError, Outcome
 from carom.proofs import check, hypotheses_of
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import Evidence

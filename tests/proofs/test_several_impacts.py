@@ -12,9 +12,9 @@ from flint import arb
 from machines import PAPER
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.orbits import Section, impact_map
-from carom.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import Evidence, NotShownError

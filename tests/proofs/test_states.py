@@ -11,9 +11,9 @@ from compilation import sized
 from scipy.linalg import expm
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.models import jeffcott
 from carom.motions import settle
-from carom.outcome import InputError, Outcome
 from carom.proofs import check, prove_states
 from carom.proofs.arrivals import limits_of, read_forms, traps_of
 from carom.proofs.balls import at_precision

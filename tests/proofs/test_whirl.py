@@ -11,7 +11,7 @@ import pytest
 from compilation import sized
 from scipy.integrate import solve_ivp
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of

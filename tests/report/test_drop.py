@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.disturbances.echo import echo_of_drop
 from carom.motions import drop_loads
-from carom.outcome import InputError
 from carom.report import write_drop_report
 from carom.studies import DropStudy
 

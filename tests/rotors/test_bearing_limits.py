@@ -10,8 +10,8 @@ from flexible_machines import symmetric
 from limited_reference import clipped, follow
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.motions import State, energy_ledger
-from carom.outcome import InputError, Outcome
 from carom.parameters import Gravity
 from carom.rotors import PID, FlexibleRotor, MagneticBearing, ProportionalDamping
 from carom.rotors.equations import loops_of

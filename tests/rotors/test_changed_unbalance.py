@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import rotor_of
-from carom.outcome import InputError
 from carom.rotors import Unbalance
 
 BEFORE = (Unbalance(1, 20e-6, 0.0), Unbalance(3, 19e-6, math.pi))

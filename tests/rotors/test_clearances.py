@@ -11,14 +11,15 @@ from flexible_machines import SOFT, munich
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.closed_forms import ball_pressure, synchronous_response
+from carom.base.outcome import InputError
+from carom.closed_forms import ball_pressure
 from carom.models import Rigid, Touchdown, from_matrices, rotor_from
 from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
-from carom.outcome import InputError
 from carom.parameters import Scales, TouchdownBearing
 from carom.plots.plane import orbit_path
 from carom.rotors import TouchdownPlane, load_machine
+from carom.rotors.synchronous import synchronous_response
 from carom.studies.document import found_orbits_document
 
 RACE = {"race_inertia": 1e-5, "race_drag": 1e-6, "mount_mass": 0.3, "mount_stiffness": 2e6, "mount_damping": 50.0}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors import PID, MagneticBearing, StateSpace, TransferFunction
 from carom.rotors.controllers import state_space_of
 from carom.rotors.state_spaces import delay, lag

@@ -9,8 +9,8 @@ import pytest
 from flexible_machines import SOFT, munich, munich_rotor, replaced, symmetric
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.models.weight import levitation_of
-from carom.outcome import InputError, Outcome
 from carom.parameters import Gravity, TouchdownBearing
 from carom.rotors import PID, FlexibleMachine, MagneticBearing, TouchdownPlane, Unbalance
 from carom.rotors.reduction import contact_error

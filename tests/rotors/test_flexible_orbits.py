@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.outcome import Outcome
+from carom.base.outcome import Outcome
 from carom.parameters import TouchdownBearing
 from carom.rotors import (
     PID,

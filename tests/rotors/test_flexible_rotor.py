@@ -9,7 +9,7 @@ import pytest
 from exact_shafts import frequencies
 from scipy.linalg import eigh
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors import Disc, FlexibleRotor, Material, ModalDamping, ProportionalDamping, Section
 
 STEEL = Material("210 GPa", 7800.0, 0.3)

@@ -12,7 +12,7 @@ import scipy.signal
 from compilation import sized
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors import campbell, find_whirls, load_machine, sensitivity
 
 UBERLANDIA = "examples/uberlandia-flexible-rotor.toml"

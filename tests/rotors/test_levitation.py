@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from flexible_machines import SOFT, munich, replaced, symmetric
 
-from carom.closed_forms import synchronous_response
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors import (
     PID,
     FlexibleMachine,
@@ -23,6 +22,7 @@ from carom.rotors import (
     find_whirls,
     sensitivity,
 )
+from carom.rotors.synchronous import synchronous_response
 
 MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm", "90 deg")])
 

@@ -9,8 +9,8 @@ import pytest
 from flexible_machines import munich
 
 import carom as cm
+from carom.base.outcome import CaromWarning, InputError
 from carom.models import rotor_of
-from carom.outcome import CaromWarning, InputError
 from carom.rotors import PID, StateSpace
 
 EXAMPLE = Path("examples/tum-flexible-rotor.toml")
@@ -275,7 +275,7 @@ def test_two_bearings_at_one_node_are_refused(load, kind, name):
         load(SMALL + again)
 
 
-@pytest.mark.filterwarnings("ignore::carom.outcome.CaromWarning")
+@pytest.mark.filterwarnings("ignore::carom.base.outcome.CaromWarning")
 def test_numbers_that_no_modes_come_from_are_refused_by_their_field(tmp_path):
     """Eight micrometres for eight millimetres, and sections without number."""
     section = '[[section]]\nlength = "1 mm"\nouter_diameter = "8 mm"\n'

@@ -13,8 +13,8 @@ import pytest
 from flexible_machines import munich, symmetric
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.models import LinearEquations, Rotor, rotor_from
-from carom.outcome import InputError
 from carom.parameters import Gravity
 from carom.rotors import PID, MagneticBearing, StateSpace
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flexible_machines import munich, munich_rotor
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors import Disc, MatrixRotor, ModalDamping, ProportionalDamping
 
 SHAFT = munich_rotor(1.0)

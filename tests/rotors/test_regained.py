@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import expm
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import TouchdownBearing
 from carom.rotors import PID, FlexibleRotor, MagneticBearing, Material, ProportionalDamping, Section, Unbalance
 from tests.flexible_machines import symmetric

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Machine, TouchdownBearing
 from carom.rotors import Support, TouchdownPlane, Unbalance, find_whirls, load_machine, rigid_rotor
 

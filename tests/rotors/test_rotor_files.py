@@ -13,7 +13,7 @@ from scipy.io import savemat
 from scipy.sparse import csc_matrix
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors import MatrixRotor, ProportionalDamping, load_machine, read_rotor, write_rotor
 
 SHAFT = munich_rotor(1.0)

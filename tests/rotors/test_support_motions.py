@@ -10,9 +10,9 @@ from flexible_machines import symmetric
 from limited_reference import clipped, follow
 
 import carom as cm
+from carom.base.outcome import Outcome
 from carom.disturbances import BaseShock, BladeLoss
 from carom.motions import State, energy_ledger
-from carom.outcome import Outcome
 from carom.parameters import Gravity
 from carom.rotors import PID, MagneticBearing, Support, Unbalance
 from carom.rotors.equations import loops_of

@@ -11,13 +11,13 @@ from scipy.integrate import solve_ivp
 from studies import study_once
 
 from carom.attractors import find_attractors
+from carom.base.files import as_json
+from carom.base.outcome import Phase
 from carom.disturbances import KickPlane, Sample
-from carom.files import as_json
 from carom.loading import load
 from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
-from carom.outcome import Phase
 from carom.parameters import Case, Machine, Parameters, Scales, Zones
 from carom.studies.actuator import bearing_demand, centre_along, largest_along, slew_limit_of
 

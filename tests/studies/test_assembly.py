@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from studies import study_once
 
-from carom.files import as_json
-from carom.outcome import InputError, Outcome
+from carom.base.files import as_json
+from carom.base.outcome import InputError, Outcome
 from carom.parameters import Case, Machine, Parameters, Requirement, Zones
 from carom.studies import study
 from carom.studies.coverage import NOT_COVERED

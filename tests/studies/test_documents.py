@@ -8,7 +8,7 @@ from linear_rotors import tilting
 from machines import PAPER
 from yielding_walls import with_walls
 
-from carom.files import as_json
+from carom.base.files import as_json
 from carom.models import KelvinVoigt, jeffcott, rotor_from
 from carom.motions import State, simulate
 from carom.parameters import Scales

@@ -7,10 +7,10 @@ import json
 import pytest
 
 import carom as cm
+from carom.base.files import as_json
+from carom.base.outcome import InputError
 from carom.disturbances.echo import echo_of_drop
-from carom.files import as_json
 from carom.motions import Whirl, drop_loads
-from carom.outcome import InputError
 from carom.studies import DropStudy, check_loads
 
 pytestmark = pytest.mark.jit_only

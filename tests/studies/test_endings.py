@@ -3,9 +3,9 @@
 import pytest
 
 from carom.attractors import MotionName, find_attractors
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
-from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.studies.endings import ending_words, hardest_impulse, shown_example, touching
 

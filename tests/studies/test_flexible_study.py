@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.closed_forms import synchronous_response
 from carom.rotors import Whirl, find_whirls, load_machine
 from carom.rotors.collocation import Collocation
+from carom.rotors.synchronous import synchronous_response
 from carom.studies.facts import about
 from carom.studies.findings import facts_of
 from carom.studies.full_size import DIRECTIONS, all_round, at_full_size

@@ -12,11 +12,11 @@ from linear_rotors import as_matrices, tilting
 from machines import PAPER
 
 import carom as cm
+from carom.base.files import as_json
+from carom.base.outcome import InputError
 from carom.basins import smallest_loss
 from carom.disturbances import Sample, VelocityKick
-from carom.files import as_json
 from carom.models import Rotor, jeffcott
-from carom.outcome import InputError
 from carom.parameters import Case, Requirement, Scales, Zones
 from carom.studies.facts import about
 from carom.studies.summaries import dimensionless_rows, motion_rows, range_rows, survived_rows

@@ -10,8 +10,8 @@ import pytest
 from machines import PAPER
 from studies import study_once
 
+from carom.base.files import as_json
 from carom.closed_forms import harmless_kick
-from carom.files import as_json
 from carom.loading import load
 from carom.orbits import find_orbits
 from carom.parameters import Case, Requirement, Shock, Zones

@@ -9,6 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from machines import random_parameters
 
+from carom.base.outcome import Outcome
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import ranges_of
 from carom.closed_forms.whirl import rolling
@@ -17,7 +18,6 @@ from carom.models import Edge, Span, axis, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import orbits_within_reach
-from carom.outcome import Outcome
 from carom.parameters import Machine, Parameters
 from carom.studies.ranges import MotionRange, motion_ranges
 

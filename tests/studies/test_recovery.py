@@ -5,11 +5,11 @@ import pytest
 from linear_rotors import touchdowns
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.closed_forms import harmless_kick
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
 from carom.models import from_matrices, jeffcott
 from carom.motions import settle
-from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.studies import check_recovery, find_recovery
 from carom.studies.trials import in_all

@@ -11,9 +11,9 @@ import pytest
 from compilation import sized
 
 import carom as cm
+from carom.base.outcome import InputError, Outcome
 from carom.models import Rotor, jeffcott
 from carom.motions.ensembles import settle
-from carom.outcome import InputError, Outcome
 from carom.parameters import Machine
 from carom.studies import unbalance_response
 from carom.studies.standards import vibration_limit

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter
 from carom.disturbances import BladeLoss
 from carom.models import jeffcott
 from carom.motions import settle, simulate
 from carom.motions.budget import Budget
-from carom.outcome import Outcome
 from carom.parameters import Parameters, Required, Shock
-from carom.progress import Reporter
 from carom.studies.kinds import required_disturbances
 from carom.studies.survives import loses, survives
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.base.files import as_json
+from carom.base.outcome import InputError
 from carom.closed_forms.sag import Levitation
-from carom.files import as_json
-from carom.outcome import InputError
 from carom.report.figures import pictures
 from carom.studies.facts import about
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from sweep_tasks import Deadly, Drawn, basins_plan, plan_of, stored_bytes
 
-from carom.outcome import CaromError, InputError
+from carom.base.outcome import CaromError, InputError
 from carom.sweeps import run_sweep
 from carom.sweeps.cluster import connect
 

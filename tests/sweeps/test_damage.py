@@ -11,7 +11,7 @@ from compilation import sized
 from damage import KINDS, damage, misplace
 from sweep_tasks import Drawn, Failing, plan_of, stored_bytes
 
-from carom.outcome import CaromWarning, InputError
+from carom.base.outcome import CaromWarning, InputError
 from carom.sweeps import open_sweep, run_sweep
 from carom.sweeps.store import SweepStore
 

@@ -9,8 +9,8 @@ import xarray
 from sweep_tasks import Drop, Failing, basins_plan, plan_of, stored_bytes
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.disturbances import Grid, KickPlane, Sample, VelocityKick
-from carom.outcome import InputError
 from carom.sweeps import GridAxis, StudyTask, load_sweep, open_sweep, plan_sweep, run_sweep
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"

@@ -8,9 +8,9 @@ from compilation import sized
 from linear_rotors import bending, tilting
 
 import carom as cm
+from carom.base.outcome import InputError
 from carom.disturbances import Grid, VelocityKick
 from carom.models import axis
-from carom.outcome import InputError
 from carom.parameters import Scales
 from carom.sweeps import GridAxis, open_sweep, plan_sweep, run_sweep
 

@@ -103,7 +103,7 @@ def test_si_variables_are_there_with_scales(keogh_cole):
 
 @pytest.mark.jit_only
 def test_basins_count_every_possible_start():
-    from carom.outcome import Outcome
+    from carom.base.outcome import Outcome
 
     plan = basins_plan(starts=40)
     found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))
@@ -117,7 +117,7 @@ def test_basins_count_every_possible_start():
 @pytest.mark.jit_only
 def test_the_smallest_kick_that_is_lost_and_its_direction():
     from carom import settle
-    from carom.outcome import Outcome
+    from carom.base.outcome import Outcome
 
     plan = basins_plan(starts=40, damping=(0.1, 0.2))
     (starts,) = plan.task._batches(_rotor(plan), plan.seed_of((0, 0)))

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from sweep_tasks import Deadly, Drawn, Failing, Warned, basins_plan, plan_of, stored_bytes
 
-from carom.outcome import CaromError, CaromWarning, InputError
+from carom.base.outcome import CaromError, CaromWarning, InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
 from carom.sweeps.local import AHEAD, _put_off, on_processes, on_threads
 from carom.sweeps.studies import StudyTask

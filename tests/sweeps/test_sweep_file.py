@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import carom
+from carom.base.outcome import InputError
 from carom.disturbances import MODELS
 from carom.loading import load
-from carom.outcome import InputError
 from carom.sweeps import load_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

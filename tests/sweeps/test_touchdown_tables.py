@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Gravity, TouchdownBearing
 from carom.sweeps import GridAxis, StudyTask, load_sweep, plan_sweep
 

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from carom.arguments import Count, checked
 from carom.attractors.groups import Attractor
+from carom.base.arguments import Count, checked
+from carom.base.outcome import CaromError, Outcome
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Rotor, Subject, rotor_of
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
-from carom.outcome import CaromError, Outcome
 
 MEASURED = 20_000
 """Impacts from which exponents of irregular bouncing are measured."""

@@ -11,14 +11,14 @@ import numpy as np
 from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
 from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_until_settled, stay_low, still_irregular
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter
+from carom.base.results import Result
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Rotor
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.simulation import simulate
-from carom.outcome import Outcome
-from carom.progress import Reporter
-from carom.results import Result
 
 FIRST_PATIENCE = 1000
 """Impacts for which a motion is followed at first."""

@@ -10,16 +10,16 @@ from carom.attractors.names import MotionName
 from carom.attractors.settled import SettledMotion, Whirl, forces_on, seen_in_contact, settled_motion, whirl_of
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
+from carom.base.outcome import Outcome, Phase
+from carom.base.results import Result
 from carom.motions.settling import REPEATING
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
-from carom.outcome import Outcome, Phase
 from carom.parameters import Scales
 from carom.parameters.told import told
-from carom.results import Result
 
 FADING = "It still bounces as far as it was followed: friction stops its slip in every impact, and the bounces provably fade."
 """What is said of rolling that is reached only after more impacts than are followed, or in the limit of infinitely many."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from carom.arguments import Whole, checked
-from carom.outcome import InputError
+from carom.base.arguments import Whole, checked
+from carom.base.outcome import InputError
 
 CONFIDENCE = 0.95
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from carom.arguments import checked, having
+from carom.base.arguments import checked, having
+from carom.base.outcome import DRIFTING_RUB, STEADY_WORDS, Outcome
 from carom.orbits.names import Name, OrbitName
-from carom.outcome import DRIFTING_RUB, STEADY_WORDS, Outcome
 
 
 @dataclass(frozen=True, eq=False, repr=False)

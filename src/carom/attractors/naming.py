@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
 from carom.attractors.settled import SAME, SettledMotion, known_orbit, same_motion, settled_motion
+from carom.base.outcome import CaromError, Outcome
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance
 from carom.models import Rotor
@@ -17,7 +18,6 @@ from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
-from carom.outcome import CaromError, Outcome
 
 LASTING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 ON_WALL = 1e-9

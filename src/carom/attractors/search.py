@@ -9,12 +9,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Seed, Whole, checked
 from carom.attractors.following import SLOWER, Ending, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions, orbits_of
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
+from carom.base.arguments import Count, Seed, Whole, checked
+from carom.base.outcome import IRREGULAR_BOUNCING, InputError, Outcome
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Members, in_a_line
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance, Plan, Sample, Starts
 from carom.disturbances.following import refuse_another_machine
@@ -22,9 +25,6 @@ from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
-from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Members, in_a_line
 
 RECOGNISED = (
     "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "

@@ -10,16 +10,16 @@ from typing import Literal
 
 import numpy as np
 
+from carom.base.outcome import Outcome, Phase
+from carom.base.results import Result
+from carom.base.roots import bracketed_root, sign_change
 from carom.closed_forms.exact_results import exact_results
-from carom.continuation.roots import bracketed_root, sign_change
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.happenings import arrives, first_of_period
 from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.simulated import SimulatedOrbit
-from carom.outcome import Outcome, Phase
-from carom.results import Result
 
 Whirl = Literal["forward", "backward", "none"]
 

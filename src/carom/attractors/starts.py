@@ -10,7 +10,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from carom.arguments import Positive, Seed, Whole, checked
+from carom.base.arguments import Positive, Seed, Whole, checked
+from carom.base.outcome import STEADY_WORDS
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
@@ -21,7 +22,6 @@ from carom.disturbances.plans import INSTANTS
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
-from carom.outcome import STEADY_WORDS
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.told import told
 

@@ -8,14 +8,14 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import Count, Reals, Whole, checked
 from carom.attractors.intervals import CONFIDENCE, exact_interval
+from carom.base.arguments import Count, Reals, Whole, checked
+from carom.base.outcome import Outcome
+from carom.base.results import fields_of
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
-from carom.outcome import Outcome
-from carom.results import fields_of
 
 MOTIONS = 200
 """Number of irregular motions that are followed."""

@@ -11,6 +11,8 @@ import cmath
 
 import numpy as np
 
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter
 from carom.basins.brackets import MOST_CHECKS, TOLERANCE, Bracket, Found, SmallestLoss, lost
 from carom.basins.families import UNBALANCE
 from carom.closed_forms.harmless import harmless_blade_loss
@@ -20,8 +22,6 @@ from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Rotor
 from carom.motions.budget import BudgetSpentError
-from carom.outcome import Outcome
-from carom.progress import Reporter
 
 CIRCLES, PHASES, FIRST = 48, 360, 8
 """Circles of the scan on each side of the unbalance before, phases on each, and as many of them that are followed first on the first of these."""

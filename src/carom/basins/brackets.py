@@ -8,12 +8,12 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Outcome
+from carom.base.results import Result
 from carom.basins.shares import CONFIDENCE
 from carom.disturbances.coordinates import TURN
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
-from carom.outcome import Outcome
 from carom.parameters import Scales
-from carom.results import Result
 
 TOLERANCE = 1e-3
 ROUND = 720

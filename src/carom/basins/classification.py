@@ -10,9 +10,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
 from carom.attractors import MotionName, Survival, document_of, follow_until_settled
 from carom.attractors.naming import name_endings
+from carom.base.arguments import Count, Whole, checked
+from carom.base.outcome import STEADY_WORDS, InputError, Outcome
+from carom.base.progress import ShowProgress, shows_progress
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Starts
@@ -22,9 +24,7 @@ from carom.models import Rotor, Subject, rotor_of
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.settling import PATIENCE, longest_time
 from carom.motions.starts import Until
-from carom.outcome import STEADY_WORDS, InputError, Outcome
 from carom.parameters import Scales, own_time
-from carom.progress import ShowProgress, shows_progress
 
 CRITERIA = (
     "levitated: by the moduli of the modes no later flight can reach the wall (proof). "
@@ -68,7 +68,7 @@ class Basin(Mapped):
     ----------
     dataset : xarray.Dataset
         Dimensions are the coordinates of a grid, or ``start``.  Variables: ``outcome``
-        (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the motion in its attribute ``motions``),
+        (:class:`~carom.base.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the motion in its attribute ``motions``),
         ``time`` until the outcome was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, even
         if only during a shock or because it started there), ``multiplicity`` (impacts per period), ``weight`` (of the
         start in shares: the area of its cell, one on average), and the starts
@@ -99,7 +99,7 @@ class Basin(Mapped):
 
     @property
     def outcomes(self) -> np.ndarray:
-        """Codes of :class:`~carom.outcome.Outcome`, −1 where there is no start."""
+        """Codes of :class:`~carom.base.outcome.Outcome`, −1 where there is no start."""
         return self.dataset["outcome"].values
 
     @property

@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from carom.arguments import checked
 from carom.attractors import MotionName
+from carom.base.arguments import checked
+from carom.base.files.netcdf import load, save
+from carom.base.outcome import Outcome
+from carom.base.results import Result, flags
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
-from carom.files.netcdf import load, save
 from carom.models import Rotor, exact_rotor_of, rotor_from
 from carom.motions.ensembles import Endings
-from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.results import Result, flags
 
 if TYPE_CHECKING:
     import xarray
@@ -56,7 +56,7 @@ class Stored(Result):
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file atomically; see :func:`carom.files.netcdf.save`."""
+        """Write a netCDF file atomically; see :func:`carom.base.files.netcdf.save`."""
         save(self.dataset, path)
 
     @classmethod

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.outcome import Outcome
+from carom.base.results import fields_of, in_si
 from carom.basins.brackets import SmallestLoss
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
@@ -20,10 +22,8 @@ from carom.basins.shares import Share
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
 from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.echo import plan_words
-from carom.outcome import Outcome
 from carom.parameters import Case, in_terms_of
 from carom.parameters.scaling import SCALING
-from carom.results import fields_of, in_si
 
 
 def basin_document(

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, checked
 from carom.attractors import MotionName
+from carom.base.arguments import Count, checked
+from carom.base.outcome import STEADY_WORDS, InputError
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.dataset import outcome_flags, programs
 from carom.basins.maps import Entry, Measure, OverPlane, Several, Told, map_over
 from carom.core.processors import available_cores
@@ -23,10 +25,8 @@ from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, follow_loads
 from carom.motions.loads import DropLoads
 from carom.motions.starts import Until
-from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
 from carom.parameters.told import number
-from carom.progress import Reporter, ShowProgress, shows_progress
 
 if TYPE_CHECKING:
     import xarray
@@ -86,7 +86,7 @@ class DropMap(OverPlane):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Dimensions are the two that are varied, in SI units.  Variables: ``outcome`` (code of :class:`~carom.outcome.Outcome`, −1
+        Dimensions are the two that are varied, in SI units.  Variables: ``outcome`` (code of :class:`~carom.base.outcome.Outcome`, −1
         where levitation does not hold the rotor off the wall), ``motion`` (index of its name), and in SI units those of :data:`MEASURES`,
         NaN where a drop has none: a force of impacts on a rigid wall, whirl of a rotor that does not go round.
     """

@@ -11,7 +11,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
+from carom.base.arguments import Count, Whole, checked
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import fields_of
 from carom.basins.dataset import Mapped, provenance
 from carom.basins.losses import smallest_lost
 from carom.basins.maps import Measure, OverPlane, Several, Told, map_over
@@ -24,9 +27,6 @@ from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
-from carom.outcome import Outcome
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import fields_of
 
 if TYPE_CHECKING:
     from carom.parameters import Scales

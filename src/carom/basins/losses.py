@@ -10,7 +10,9 @@ import math
 
 import numpy as np
 
-from carom.arguments import Count, checked
+from carom.base.arguments import Count, checked
+from carom.base.outcome import InputError, Outcome
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.blade_losses import smallest_blade_loss
 from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, Found, SmallestLoss, lost
 from carom.basins.families import harmless_size, has_sizes
@@ -19,8 +21,6 @@ from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
-from carom.outcome import InputError, Outcome
-from carom.progress import Reporter, ShowProgress, shows_progress
 
 DIRECTIONS, SIZES = 96, 96
 COARSE, COARSEST, MANY_MODES = (48, 48), (12, 24), 16

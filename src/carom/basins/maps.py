@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, TypeAlia
 
 import numpy as np
 
-from carom.arguments import whole
+from carom.base.arguments import whole
+from carom.base.outcome import InputError
+from carom.base.progress import Reporter
 from carom.basins.dataset import Stored
 from carom.models import Axis, Rotor, axis
 from carom.models.axes import Ends, read_interval, usual_range
-from carom.outcome import InputError
 from carom.parameters.told import told_entry, told_range
-from carom.progress import Reporter
 
 if TYPE_CHECKING:
     import xarray

@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import Truths, Whole, checked
 from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
 from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
+from carom.base.arguments import Truths, Whole, checked
+from carom.base.results import fields_of
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
 from carom.disturbances.echo import ANY_INSTANT, ITS_INSTANT, instants_words
 from carom.parameters import Scales
-from carom.results import fields_of
 
 
 @dataclass(frozen=True)

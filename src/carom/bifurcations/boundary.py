@@ -30,15 +30,15 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import STEADY_WORDS
+from carom.base.results import Result
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
 from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
-from carom.outcome import STEADY_WORDS
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.results import Result
 
 SMALL_GAP = 1e-5
 """Gap at which small orbits are computed: higher-order terms are of this order, rounding errors of ``1e-16/1e-5``."""

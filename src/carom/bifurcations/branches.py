@@ -9,7 +9,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import CaromError
+from carom.base.results import Result
 from carom.bifurcations.conditions import Solution, is_admissible, jacobian_at, name_of, with_slip
 from carom.bifurcations.points import Bifurcation
 from carom.models import Rotor
@@ -18,11 +20,9 @@ from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, unpack
 from carom.orbits.word import Word
-from carom.outcome import CaromError
 from carom.parameters import Numbers, Scales
 from carom.parameters.scaling import SCALING
 from carom.parameters.told import told_range
-from carom.results import Result
 
 
 @dataclass(frozen=True, eq=False, repr=False)

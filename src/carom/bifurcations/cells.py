@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.results import Result
 from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.planes import Plane
 from carom.parameters import Parameters
-from carom.results import Result
 
 THIN = 0.05
 """Fraction of the plane below which the point of a region is refined between the points of the grid."""

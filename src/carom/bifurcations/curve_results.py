@@ -8,12 +8,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.base.outcome import STEADY_WORDS
+from carom.base.results import Result
 from carom.bifurcations.conditions import RESONANCES
 from carom.bifurcations.planes import Plane
 from carom.orbits.names import CountedName, OrbitName, combined
-from carom.outcome import STEADY_WORDS
 from carom.parameters.told import told_along
-from carom.results import Result
 
 _SUBJECTS = {
     "boundary-equilibrium": STEADY_WORDS["contact-free"],

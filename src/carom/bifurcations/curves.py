@@ -8,7 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.bifurcations.conditions import (
     BOUNDLESS,
     ENDING,
@@ -25,7 +26,6 @@ from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
-from carom.outcome import InputError
 from carom.parameters import Numbers
 
 Function = Callable[[np.ndarray, float], np.ndarray]

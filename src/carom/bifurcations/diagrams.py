@@ -8,8 +8,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Seed, Whole, checked
 from carom.attractors import DisturbanceSet
+from carom.base.arguments import Seed, Whole, checked
+from carom.base.outcome import STEADY_WORDS
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Result, in_a_line
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
@@ -29,12 +32,9 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.search import Impacts
 from carom.orbits.searched import Searched
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import STEADY_WORDS
 from carom.parameters import Parameters
 from carom.parameters.scaling import SCALING
 from carom.parameters.told import shown_in
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result, in_a_line
 
 SAMPLES = 13
 """Number of values of the parameter at which all orbits are searched."""

@@ -6,6 +6,7 @@ from dataclasses import asdict
 from typing import Any
 
 from carom.attractors import DisturbanceSet, document_of, exact_interval
+from carom.base.results import record
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
@@ -15,7 +16,6 @@ from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.searched import Searched
 from carom.parameters import Scales
-from carom.results import record
 
 POINT = "kind branch=name parameter value period radial_speed admissible detail"
 BRANCH = "values period admissible stable ends=stops"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import STEADY_WORDS
 from carom.bifurcations.conditions import Solution, is_admissible, orbit_solutions, spectral_radii
 from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.closed_forms.sag import BOUNDARY
@@ -12,7 +13,6 @@ from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
 from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName, combined, in_order
-from carom.outcome import STEADY_WORDS
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.core.friction import slip_of, spare_friction
 from carom.core.margins import highest_point
 from carom.orbits.admissibility import departure
 from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Word
-from carom.outcome import InputError
 
 
 def _with_impact(orbit: Orbit) -> tuple[Word, Start]:

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.continuation import Watch
 from carom.models import Rotor
 from carom.models.axes import Axis, Ends, axis, read_interval
-from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
 from carom.parameters.told import told_along
 

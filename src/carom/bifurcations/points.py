@@ -7,16 +7,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Literal
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
-from carom.outcome import InputError
 from carom.parameters import Numbers, Scales
 from carom.parameters.told import told_entry
-from carom.results import Result
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 HALVING = "period-halving"

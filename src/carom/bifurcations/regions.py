@@ -8,7 +8,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, checked
+from carom.base.arguments import Count, checked
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Result
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curve_results import Codimension2Point, Curve
@@ -22,9 +25,6 @@ from carom.bifurcations.settled_regions import axes_of, settled_motions, settled
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Rotor, Subject, axis, exact_rotor_of, rotor_of
 from carom.orbits.names import OrbitName, combined
-from carom.outcome import CaromError
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result
 
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
 """Distance in widths of the plane, and relative difference of periods, below which codimension-2 points are the same."""

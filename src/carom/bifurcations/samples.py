@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import Count, checked
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.attractors.settled import seen_in_contact
+from carom.base.arguments import Count, checked
+from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
+from carom.base.progress import Reporter, ShowProgress
+from carom.base.results import Result
 from carom.disturbances import Plan
 from carom.models import Rotor, Subject, rotor_of
 from carom.models.axes import Ends, axis, read_interval
 from carom.motions.settling import REPEATING
 from carom.motions.simulation import simulate
-from carom.outcome import IRREGULAR_BOUNCING, Outcome
-from carom.progress import Reporter, ShowProgress
-from carom.results import Result
 
 VALUES = 31
 """Values of the parameter at which disturbances are followed."""
@@ -36,7 +36,7 @@ class AttractorSample(Result):
         Name as in :class:`~carom.attractors.Attractor`: ``"levitation"``, ``"B1,d"``, ``"irregular bouncing"``,
         ``"rolling"``, …
     outcome : str
-        Label of its :class:`~carom.outcome.Outcome`.
+        Label of its :class:`~carom.base.outcome.Outcome`.
     whirl : str
         ``"forward"``, ``"backward"`` or ``"none"`` in the fixed frame.
     count : int

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors.names import LEVITATION
+from carom.base.outcome import InputError, Outcome
+from carom.base.progress import Reporter
 from carom.bifurcations.cells import Region, connected
 from carom.bifurcations.planes import Plane
 from carom.models import Rotor
@@ -15,8 +17,6 @@ from carom.models.axes import Axis
 from carom.motions.simulation import simulate
 from carom.orbits.flow import Budget
 from carom.orbits.simulated_search import start_of
-from carom.outcome import InputError, Outcome
-from carom.progress import Reporter
 
 STARTS = 6
 """Motions that are followed at each point of the grid, from the same random numbers everywhere."""

@@ -7,6 +7,8 @@ from functools import reduce
 
 import numpy as np
 
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.neighbours import BORDERS
 from carom.bifurcations.points import HALVING, Bifurcation
@@ -18,8 +20,6 @@ from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.search import Search
 from carom.orbits.searched import Searched
 from carom.orbits.shooting import pack
-from carom.outcome import CaromError
-from carom.progress import Reporter
 
 VALUES = 9
 """Number of values of the parameter at which orbits are searched."""

@@ -13,7 +13,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import CaromError, InputError, Phase
+from carom.base.results import Result
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.simulated_family import Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
@@ -23,8 +25,6 @@ from carom.orbits.flow import Budget, Flow
 from carom.orbits.happenings import happenings, told
 from carom.orbits.names import CountedName
 from carom.orbits.simulated import SimulatedOrbit
-from carom.outcome import CaromError, InputError, Phase
-from carom.results import Result
 
 STEPS = Steps(
     first=0.01, largest=0.2, smallest=1e-6, sharpest_turn=0.3, most_points=250, tolerance=1e-10, resolution=1e-8

@@ -7,6 +7,8 @@ from functools import reduce
 
 import numpy as np
 
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.simulated import MOST_NUMBERS, STEPS, SimulatedBranch, continue_simulated, switch_simulated
 from carom.models import Rotor
@@ -16,8 +18,6 @@ from carom.orbits.names import CountedName
 from carom.orbits.searched import Searched
 from carom.orbits.simulated import SimulatedOrbit, numbered
 from carom.orbits.simulated_search import search_simulated
-from carom.outcome import CaromError
-from carom.progress import Reporter
 
 VALUES = (0.5, 0.15, 0.85)
 """Places of the range at which orbits are searched."""

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.continuation import Watch
 from carom.models.axes import Axis
 from carom.motions.trajectories import Trajectory
@@ -17,7 +18,6 @@ from carom.orbits.closing import multipliers_from
 from carom.orbits.flow import Budget, Flow
 from carom.orbits.happenings import happenings
 from carom.orbits.simulated import SimulatedOrbit
-from carom.outcome import InputError
 
 DIFFERENCE = 1e-6
 """Step of the differences by the parameter, relative to its size."""

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.base.results import Result
+from carom.base.roots import bracketed_root
 from carom.bifurcations.conditions import TESTS
 from carom.bifurcations.points import STEADY, Bifurcation
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.sag import levitation
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
-from carom.continuation.roots import bracketed_root
 from carom.models import Axis, Rotor
 from carom.parameters import Numbers, Parameters
-from carom.results import Result
 
 SAMPLES, FEWER, FEWEST = 201, 21, 3
 """Values of the parameter; the others for rotors of several coordinates, and of many, whose equations take seconds to set up."""

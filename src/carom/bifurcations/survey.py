@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter
 from carom.bifurcations.changes import PlanePoint, UnexplainedChange, accounts_for, causes_between, change_between
 from carom.bifurcations.conditions import ENDING, RESONANCES, conditions_at
 from carom.bifurcations.curve_results import Codimension2Point, Curve
@@ -17,9 +19,7 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.continuation.branch import Steps
 from carom.continuation.equations import Equations
-from carom.outcome import CaromError
 from carom.parameters import Numbers, Parameters
-from carom.progress import Reporter
 
 INSET = 1e-3
 """Distance of the outermost points from the edges, in widths of the plane."""

@@ -13,7 +13,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.progress import Reporter, ShowProgress
 from carom.bifurcations.changes import CHANGED_BY, causes_of_orbits
 from carom.bifurcations.conditions import (
     Solution,
@@ -28,7 +29,6 @@ from carom.models import Edge, Rotor, Span, Subject, axis, exact_rotor_of
 from carom.models.spans import paired
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
-from carom.progress import Reporter, ShowProgress
 
 FAR = 1.0
 """Square of the radius beyond the wall from which an orbit is surely virtual."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.outcome import CaromError, InputError
 from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET
@@ -32,7 +33,6 @@ from carom.orbits.shooting import (
     unpack,
 )
 from carom.orbits.word import Word
-from carom.outcome import CaromError, InputError
 
 REMEMBERED = 64
 """Points whose segments are kept: each is asked for by the equations, their derivative and all watches."""

@@ -11,7 +11,9 @@ from typing import Any, overload
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.roots import bracketed_root, sign_change
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
 from carom.bifurcations.neighbours import BORDERS
@@ -20,7 +22,6 @@ from carom.bifurcations.simulated import SimulatedBranch, continue_simulated
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import FAR_FROM_MOTION, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
-from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
@@ -28,7 +29,6 @@ from carom.orbits.shooting import Links, converged, pack, unpack
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.stability import multipliers_of
 from carom.orbits.word import Word
-from carom.outcome import InputError
 from carom.parameters import Numbers
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)

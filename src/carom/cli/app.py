@@ -20,8 +20,8 @@ from typing import Annotated, Any, TextIO
 
 import typer
 
+from carom.base.outcome import CaromError, CaromWarning, InputError, printable, shown
 from carom.cli.terminal import InterruptionError
-from carom.outcome import CaromError, CaromWarning, InputError, printable, shown
 
 FAILURE, BAD_INPUT, INTERRUPTED, TERMINATED = 1, 2, 130, 143
 AGAIN = 0.01

@@ -7,13 +7,13 @@ import math
 import numpy as np
 from rich.console import Console
 
+from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.basins import Basin, GainMap, SmallestLoss
 from carom.basins.families import has_sizes, size_coordinate
 from carom.basins.gains import WANTED
 from carom.cli.fitting import fitted, plain_table
 from carom.disturbances import Coordinate
 from carom.disturbances.echo import plan_words
-from carom.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.parameters import Case, InTerms, Scales, in_terms_of
 
 

@@ -6,11 +6,11 @@ import hashlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import check_output, console, print_document, progress
-from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Rotor
     from carom.motions.drops import Drop
     from carom.motions.loads import DropLoads
-    from carom.motions.reduction_errors import ReductionError
     from carom.parameters import Case
+    from carom.rotors.reduction_errors import ReductionError
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Beginning:
     def reduction_error(self, case: Case, loads: DropLoads) -> ReductionError | None:
         """Error of the reduction of a flexible machine along the motion; ``None`` of other machines."""
         from carom.models import rotor_of
-        from carom.motions.reduction_errors import reduction_error
+        from carom.rotors.reduction_errors import reduction_error
 
         if (reduced := rotor_of(case).finite_elements) is None:
             return None

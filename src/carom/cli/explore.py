@@ -7,9 +7,9 @@ from importlib.util import find_spec
 
 import typer
 
+from carom.base.outcome import CaromError
 from carom.cli.options import SETTINGS, option
 from carom.cli.terminal import console
-from carom.outcome import CaromError
 
 MACHINE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file; by default the example machine.")
 PORT = option("P", "Port on this machine; 0 for any that is free.", default=5006)

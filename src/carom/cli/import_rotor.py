@@ -35,7 +35,7 @@ def import_rotor(
     discs; bearings are in the machine file that is printed, and what it marks as ASSUMED is for you to state:
     carom import-rotor model.py -o rotor.npz > machine.toml
     """
-    from carom.results import record
+    from carom.base.results import record
     from carom.rotors.ross_import import import_rotor as read
     from carom.rotors.rotor_files import check_target, write_rotor
     from carom.rotors.starter import starter_text

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.files import try_place, write_whole
-from carom.outcome import InputError, Phase
+from carom.base.files import try_place, write_whole
+from carom.base.outcome import InputError, Phase
 
 if TYPE_CHECKING:
     import xarray

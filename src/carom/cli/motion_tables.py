@@ -14,11 +14,11 @@ from rich.text import Text
 
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
+from carom.base.outcome import Outcome, Phase
 from carom.cli.fitting import fitted, plain_table
 from carom.cli.tables import TEXT_WIDTH, complex_words, print_rows
 from carom.motions import TouchLog, Trajectory, drop_loads
 from carom.motions.contacts import yields
-from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
 from carom.parameters.told import number, told, told_angle
 from carom.studies import LoadCheck, Wording

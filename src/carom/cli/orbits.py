@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.terminal import console, print_document, progress
-from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.closed_forms.yielding_walls import SlippingWhirl
@@ -56,9 +56,9 @@ def orbits(
     if longest_period is not None:
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
+        from carom.base.results import record
         from carom.closed_forms.equilibria import steady_motions
         from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
-        from carom.results import record
         from carom.studies import found_orbits_document, orbits_document
 
         if impacts is not None:

@@ -25,13 +25,13 @@ class Output:
     def figure(self, name: str, figure: Figure) -> None:
         """Write a figure as SVG and PNG."""
         from carom import plots
-        from carom.files.directory import FIGURES
+        from carom.base.files.directory import FIGURES
 
         plots.save(figure, self.directory / FIGURES / name)
 
     def document(self, name: str, document: dict[str, Any]) -> None:
         """Write a document as JSON."""
-        from carom.files import write_json
+        from carom.base.files import write_json
 
         write_json(self.directory / f"{name}.json", document)
 
@@ -39,7 +39,7 @@ class Output:
 @contextmanager
 def output_directory(out: str, case: Case) -> Iterator[Output]:
     """Fill the directory of ``--out``; figures made meanwhile show the name and the present values of the machine."""
-    from carom.files import staged_directory
+    from carom.base.files import staged_directory
     from carom.plots import heading
     from carom.studies.wording import machine_heading
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from carom.base.outcome import InputError, shown
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.terminal import check_output, console, print_document, progress
-from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
-    from carom.progress import Reporter
+    from carom.base.progress import Reporter
     from carom.proofs import Claim, Proof
 
 CERTIFICATE = "proof.json"

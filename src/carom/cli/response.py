@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from carom.base.outcome import STEADY_WORDS, InputError
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import check_output, console, print_document, progress
-from carom.outcome import STEADY_WORDS, InputError
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -8,7 +8,7 @@ from typing import Any
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 
-from carom.outcome import printable
+from carom.base.outcome import printable
 
 
 class Screen(Console):

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import check_output, console, print_document, progress
-from carom.outcome import InputError
 
 if TYPE_CHECKING:
+    from carom.base.progress import Reporter
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
-    from carom.progress import Reporter
 
 DROP = flag(
     "--drop",
@@ -135,8 +135,8 @@ def _write(
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
     """Return the motion to draw, and how it ends, if that of what is drawn does not say it."""
+    from carom.base.outcome import Outcome
     from carom.motions.simulation import simulate as follow
-    from carom.outcome import Outcome
     from carom.report.figures import until_decayed
 
     if motion.outcome is not Outcome.LEVITATED or motion.begins:

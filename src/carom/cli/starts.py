@@ -2,7 +2,7 @@
 
 A bare number for a quantity with a dimension is refused for a machine in SI units: ``--kick 60`` may mean 60 mm/s, or 60 times
 ``c_r Ω``.  Starts and times to follow a motion may be either, for they are often those of another result.
-What cannot be read raises an :class:`~carom.outcome.InputError` that names the option, the value and what is allowed.
+What cannot be read raises an :class:`~carom.base.outcome.InputError` that names the option, the value and what is allowed.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from decimal import Decimal
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from carom.base.outcome import InputError, together
 from carom.disturbances.single import split_text
-from carom.outcome import InputError, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     Case,

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
 from carom.cli.terminal import InterruptionError, check_output, console, print_document, progress
-from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
@@ -82,8 +82,8 @@ def sweep(
 def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     """Draw the results over the axes of the sweep, with the machine as it is marked."""
     from carom import plots
-    from carom.files import staged_directory
-    from carom.files.directory import FIGURES
+    from carom.base.files import staged_directory
+    from carom.base.files.directory import FIGURES
     from carom.models import axis, rotor_of
     from carom.parameters import Case
     from carom.studies.wording import machine_heading
@@ -100,7 +100,7 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:
-    from carom.results import fields_of
+    from carom.base.results import fields_of
 
     return {
         "store": str(tally.store),
@@ -121,7 +121,7 @@ def _place(failure: dict[str, Any]) -> str:
 
 
 def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
-    from carom.progress import duration_words
+    from carom.base.progress import duration_words
     from carom.sweeps.running import rate_words
 
     screen = console()

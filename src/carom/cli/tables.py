@@ -13,8 +13,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from carom.base.outcome import Outcome
 from carom.cli.fitting import fitted, plain_table
-from carom.outcome import Outcome
 from carom.parameters.told import number
 from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import typer
 
+from carom.base.outcome import InputError, shown
 from carom.cli.options import option
-from carom.outcome import InputError, shown
 
 TEMPLATES = ("planar", "rigid", "flexible")
 """Kinds of machines, of which each has a file in the folder ``templates``: one mass in a plane, one that tilts, one that bends."""

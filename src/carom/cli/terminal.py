@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from carom.progress import Reporter, bar
+from carom.base.progress import Reporter, bar
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,14 +35,14 @@ def console(errors: bool = False) -> Console:
 def check_output(out: str | None, option: str = "--out") -> None:
     """Refuse early a directory for output that cannot be written."""
     if out is not None:
-        from carom.files import check_directory
+        from carom.base.files import check_directory
 
         check_directory(out, option)
 
 
 def print_document(document: dict[str, Any]) -> None:
     """Print one JSON object."""
-    from carom.files import as_json
+    from carom.base.files import as_json
 
     sys.stdout.write(as_json(document) + "\n")
 

@@ -9,7 +9,6 @@
 ``thresholds``      where motions begin and end
 ``harmless``        disturbances of any linear rotor that never reach the wall
 ``unbalance``       contact-free response over the speed of the shaft, of a rotor with one mass in closed form
-``synchronous``     the same of any linear rotor, at each touchdown bearing
 ``whirl``           backward whirl: runaway and rolling
 ``fading``          rolling in bounces, and when they certainly fade
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
@@ -35,7 +34,6 @@ from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.sag import Levitation, levitation
-from carom.closed_forms.synchronous import Ellipses, SynchronousResponse, synchronous_response
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
@@ -44,7 +42,6 @@ from carom.closed_forms.yielding_walls import SlippingWhirl, slipping_whirls
 
 __all__ = [
     "ContactSystem",
-    "Ellipses",
     "Equilibrium",
     "EquilibriumSet",
     "Levitation",
@@ -59,7 +56,6 @@ __all__ = [
     "SlippingWhirl",
     "SmallCycle",
     "SpeedResponse",
-    "SynchronousResponse",
     "WallMeeting",
     "ball_pressure",
     "cycle_determinant",
@@ -78,5 +74,4 @@ __all__ = [
     "slipping_whirls",
     "small_cycles",
     "speed_response",
-    "synchronous_response",
 ]

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import Reals, checked
+from carom.base.arguments import Reals, checked
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import largest_pull
 from carom.core.planar_proofs import rub_potentials

@@ -8,15 +8,15 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import Phase
+from carom.base.results import Members, Result, in_a_line
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.sag import Levitation, Status, levitation, status_of
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
 from carom.models import Rotor, Subject, rotor_of
 from carom.models.saturation import saturates
-from carom.outcome import Phase
 from carom.parameters import Scales
-from carom.results import Members, Result, in_a_line
 
 Kind = Literal["contact-free", "rub"]
 NEUTRAL = 64 * np.finfo(float).eps

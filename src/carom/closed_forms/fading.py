@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import math
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.closed_forms.whirl import rolling
 from carom.models import Subject, exact_rotor_of
 from carom.parameters import Parameters

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.arguments import Positive, Whole, checked
+from carom.base.arguments import Positive, Whole, checked
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Rotor, Subject, rotor_of
 from carom.models.mode_arrays import STEADY

@@ -25,8 +25,8 @@ from dataclasses import dataclass
 
 from scipy.special import elliprd  # type: ignore[import-untyped]
 
-from carom.arguments import NotNegative, Positive, checked
-from carom.continuation.roots import bracketed_root
+from carom.base.arguments import NotNegative, Positive, checked
+from carom.base.roots import bracketed_root
 from carom.parameters import TouchdownBearing
 
 STRIBECK = 5.0

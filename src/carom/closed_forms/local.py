@@ -25,13 +25,13 @@ from typing import Literal
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.flow import fly_all
 from carom.core.friction import sliding_factor
 from carom.core.wall import Wall
 from carom.models import Subject, System, exact_rotor_of, second_order_system
-from carom.outcome import InputError
 
 ON_WALL = 1e-9
 """Distance from the wall, in clearances, at which the equilibrium counts as on it."""

@@ -8,14 +8,14 @@ from typing import Literal
 
 import numpy as np
 
-from carom.arguments import Positive, Reals, Whole, checked
+from carom.base.arguments import Positive, Reals, Whole, checked
+from carom.base.outcome import CaromError, InputError
+from carom.base.results import Result
 from carom.core import periods
 from carom.core.friction import sliding_factor
 from carom.core.planar import planar_exponents
 from carom.models import System
-from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
-from carom.results import Result
 
 FIRST_WIDTH = 0.25
 """Width of the intervals at which the search begins, in ``1/Ω``."""

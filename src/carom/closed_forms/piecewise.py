@@ -21,9 +21,9 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import expm  # type: ignore[import-untyped]
 
+from carom.base.outcome import InputError
 from carom.core.friction import sliding_factor
 from carom.models import System
-from carom.outcome import InputError
 
 
 @dataclass(frozen=True, eq=False)

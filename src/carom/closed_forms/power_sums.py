@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from itertools import pairwise
 
-from carom.continuation.roots import bracketed_root
+from carom.base.roots import bracketed_root
 
 FARTHEST = 1e6
 """Number up to which roots are searched: no wall is that many clearances deep."""

@@ -16,10 +16,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.base.outcome import Phase
 from carom.core.friction import FORWARD, friction_ratio
 from carom.core.laws.choice import force_change, force_coefficient
 from carom.models import System
-from carom.outcome import Phase
 
 
 def rub_attracts(system: System, amplitudes: np.ndarray, contact: np.ndarray) -> bool:

@@ -7,11 +7,11 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import Reals, checked
+from carom.base.arguments import Reals, checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.models import Rotor, Subject, rotor_of
 from carom.models.saturation import saturates
-from carom.outcome import InputError
-from carom.results import Result
 
 Status = Literal["admissible", "boundary", "virtual"]
 BOUNDARY = 1e-12

@@ -31,9 +31,9 @@ from __future__ import annotations
 import math
 from typing import Literal, get_args
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.models import Edge, Span, Subject, exact_rotor_of
-from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
 
 Gain = Literal["gamma", "omega"]

@@ -21,11 +21,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import Positive, Reals, checked
+from carom.base.arguments import Positive, Reals, checked
+from carom.base.outcome import InputError, shown
+from carom.base.results import Result
 from carom.closed_forms.thresholds import largest_pull
 from carom.models import Rotor, Subject, jeffcott, rotor_of
-from carom.outcome import InputError, shown
-from carom.results import Result
 
 
 @dataclass(frozen=True, eq=False, repr=False)

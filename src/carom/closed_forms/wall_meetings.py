@@ -24,13 +24,13 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import Positive, Whole, checked
+from carom.base.arguments import Positive, Whole, checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.piecewise import Pieces
 from carom.closed_forms.statics import exponent_of
 from carom.models import Rotor, Subject, System, rotor_of
-from carom.outcome import InputError
-from carom.results import Result
 
 SAMPLES = 600
 """Instants of a flight at which it is seen whether it stays off the wall."""

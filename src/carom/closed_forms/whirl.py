@@ -48,7 +48,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.closed_forms.thresholds import (
     largest_pull,
     mean_rolling_force,

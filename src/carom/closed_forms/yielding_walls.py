@@ -42,10 +42,10 @@ from typing import Annotated
 import numpy as np
 from scipy.linalg import eigvals  # type: ignore[import-untyped]
 
-from carom.arguments import Kind, Positive, Whole, checked
+from carom.base.arguments import Kind, Positive, Whole, checked
+from carom.base.outcome import InputError
 from carom.closed_forms.power_sums import positive_roots
 from carom.models import Subject, System, rotor_of
-from carom.outcome import InputError
 
 Exponent = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 REAL = 1e-6

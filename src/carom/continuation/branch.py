@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from carom.results import Result
+from carom.base.results import Result
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,10 @@ from functools import cached_property
 
 import numpy as np
 
+from carom.base.outcome import CaromError, InputError
+from carom.base.roots import HALVINGS, bracketed_root, narrowed, sign_change
 from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
 from carom.continuation.equations import DIFFERENCE, Equations, Function, Point, Solver, applied, bordered
-from carom.continuation.roots import HALVINGS, bracketed_root, narrowed, sign_change
-from carom.outcome import CaromError, InputError
 
 STRAY = 0.3
 """Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""

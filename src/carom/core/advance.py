@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import expanded, inlined, kernel, separate
+from carom.base.outcome import Outcome
 from carom.core.arrivals import LANDING, rests, touch
+from carom.core.compiling.decorators import expanded, inlined, kernel, separate
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import levitates, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
@@ -17,7 +18,6 @@ from carom.core.rub import lift_off, press, wall_push
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
 from carom.core.shaft import enter_flight, leave_flight
 from carom.core.wall import unit
-from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)
@@ -58,7 +58,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
         Duration to follow.
     contacts : int array, shape (P,)
         State of contact of each plane at the start; on return that at the returned time.  It is a
-        :class:`~carom.outcome.Phase` on the wall (``FLIGHT``: about to leave or to strike), otherwise ``AWAY``.
+        :class:`~carom.base.outcome.Phase` on the wall (``FLIGHT``: about to leave or to strike), otherwise ``AWAY``.
     log : EventLog
         Its entries are overwritten.  An impact is followed by ``FLIGHT`` and changes the amplitudes; a long contact is logged
         in steps that change nothing.  A motion that settles at an impact ends just before it.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from carom.compiling.decorators import expanded, inlined, kernel
+from carom.base.outcome import Outcome
+from carom.core.compiling.decorators import expanded, inlined, kernel
 from carom.core.fate import doubt, forget_rub, persists, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.friction import arrival, landing
@@ -14,7 +15,6 @@ from carom.core.rounding import RESTING, speed_rounding
 from carom.core.rub import meets_wall, next_phase, rest_on_wall
 from carom.core.surfaces import may_change
 from carom.core.wall import move_plane, push_plane, set_on_wall, unit, wall_of, yields
-from carom.outcome import Outcome
 
 CONTACT, GRAZING, CHATTER = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.CHATTER)
 BOUNCING, MIXED, ROLLING = int(Outcome.BOUNCING), int(Outcome.MIXED), int(Outcome.ROLLING)

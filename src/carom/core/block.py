@@ -5,7 +5,7 @@ The flight starts from ``work.current``.  What these functions load into the wor
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined
+from carom.core.compiling.decorators import inlined
 from carom.core.flow import chain_start, squared_modulus
 from carom.core.layout import DEGREE, NODES, TERMS
 

@@ -20,15 +20,15 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel, separate
+from carom.base.outcome import Outcome
 from carom.core.advance import advance
+from carom.core.compiling.decorators import inlined, kernel, separate
 from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.layout import NEAR
 from carom.core.phases import FLIGHT, lasts
 from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.core.wall import unit
-from carom.outcome import Outcome
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 OPEN, CLOSES, ATTRACTS, REPELS = 0, 1, 2, 3

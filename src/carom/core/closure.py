@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.equations import solve
 from carom.core.segments import follow_flights
 

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import friction_ratio, slip_of
 from carom.core.laws.choice import edge, force_coefficient, press_coefficient, press_rounding

@@ -26,7 +26,7 @@ A wall that gives way has a normal force of its own, and ``n = y/|y|`` takes the
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.compliance import force_in_wall, indent, rolling_grip
 from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force

@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.compiling.decorators import expanded, inlined, kernel
+from carom.base.outcome import Outcome
 from carom.core.advance import SHORTEST, STALLED, advance
 from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
+from carom.core.compiling.decorators import expanded, inlined, kernel
 from carom.core.counter import next_number
 from carom.core.event_log import EventLog
 from carom.core.fate import doubt, forget, impacts_until_noted, levitates, recurs
@@ -24,7 +25,6 @@ from carom.core.layout import LANES, NEAR
 from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.wall import set_on_wall
-from carom.outcome import Outcome
 
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 
 
 @kernel

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.outcome import Phase
+from carom.base.outcome import Phase
 
 
 class EventLog(NamedTuple):

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import expanded, inlined, kernel
+from carom.base.outcome import Outcome
 from carom.core.block import (
     basis_amplitudes,
     derivatives,
@@ -36,9 +36,9 @@ from carom.core.block import (
     rough_root,
     sign_changes,
 )
+from carom.core.compiling.decorators import expanded, inlined, kernel
 from carom.core.flow import copy, displacement, nudge, squared_modulus
 from carom.core.layout import LEVELS, MOST_IN_POLYNOMIALS
-from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 

@@ -26,8 +26,8 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
 from carom.core.block import basis_amplitudes
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus
 from carom.core.layout import NEAR
 from carom.core.limits import FREE

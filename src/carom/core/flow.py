@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 
 THIRD = 1.0 / 3.0
 RESONANT = 1e-9

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import formula
+from carom.core.compiling.decorators import formula
 from carom.core.laws.choice import impulse, impulse_by_restitution, impulse_by_speed
 from carom.core.vector import join, where
 

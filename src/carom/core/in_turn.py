@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from carom.compiling.decorators import kernel
+from carom.base.outcome import Outcome
 from carom.core.advance import advance
+from carom.core.compiling.decorators import kernel
 from carom.core.fate import forget
 from carom.core.limits import set_limits
-from carom.outcome import Outcome
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 

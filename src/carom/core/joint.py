@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.equations import solve
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebound, slip_of

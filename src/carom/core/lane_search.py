@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from carom.compiling.decorators import inlined
 from carom.core.block import two_derivatives
+from carom.core.compiling.decorators import inlined
 from carom.core.events import ROUNDING
 from carom.core.flow import squared_modulus
 from carom.core.layout import DEGREE, LANE_NODES, LEVELS

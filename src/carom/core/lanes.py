@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
 from carom.core.advance import CHATTER_HEIGHT, flies
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
 from carom.core.friction import arrival

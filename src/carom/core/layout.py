@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from carom.compiling.target import has_wide_registers
+from carom.core.compiling.target import has_wide_registers
 from carom.core.records import blank, filled, layout_of, record
 
 NEAR = 1e-9

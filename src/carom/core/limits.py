@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import squared_modulus
 from carom.core.layout import ORDER
 from carom.core.rounding import ROUNDING

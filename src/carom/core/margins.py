@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import copy, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import margin_of_slip, slip_of, spare_friction
 from carom.core.segments import sense_after

@@ -13,7 +13,7 @@ the planes as it does without such bearings.
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined
+from carom.core.compiling.decorators import inlined
 
 
 @inlined

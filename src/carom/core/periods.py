@@ -31,7 +31,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import complex_expm1, squared_modulus
 
 # B₂ₖ/(2k)! with the Bernoulli numbers B₂ₖ: g̃(z) = −1/2 − Σ B₂ₖ z^{2k−1}/(2k)!.

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined
+from carom.base.outcome import Phase
+from carom.core.compiling.decorators import inlined
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
-from carom.outcome import Phase
 
 FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING, SEPARATED = (
     int(Phase.FLIGHT),
@@ -14,7 +14,7 @@ FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING, SEPARATED = (
     int(Phase.SEPARATED),
 )
 AWAY = -1
-"""State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.outcome.Phase`."""
+"""State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.base.outcome.Phase`."""
 
 
 @inlined

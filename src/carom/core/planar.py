@@ -10,7 +10,7 @@ import cmath
 
 import numpy as np
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 from carom.core.flow import squared_modulus
 from carom.core.friction import sliding_factor
 from carom.core.periods import propagator, returns

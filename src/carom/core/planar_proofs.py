@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel
+from carom.core.compiling.decorators import kernel
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import spare_friction
 from carom.core.layout import NEAR

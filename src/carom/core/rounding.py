@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import unbalance_drive
 from carom.core.laws.choice import force_rounding
 from carom.core.wall import wall_of

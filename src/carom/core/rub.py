@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.compliance import first_release, slip_in_wall
 from carom.core.contact_series import contact_forces, rub_series
 from carom.core.flow import acceleration, displacement, fly, squared_modulus, unbalance_drive, velocity

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import inlined, kernel
+from carom.base.outcome import Outcome
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
 from carom.core.fate import (
@@ -26,7 +27,6 @@ from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
 from carom.core.taylor import margin_step, series_step, sum_series
 from carom.core.wall import set_on_wall, unit, yields
-from carom.outcome import Outcome
 
 CONTACT, GRAZING, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (

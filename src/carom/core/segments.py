@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, flight_increments, squared_modulus
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.core.variation import strike

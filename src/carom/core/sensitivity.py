@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus
 from carom.core.friction import arrival_by_law
 from carom.core.segments import sense_after

@@ -26,7 +26,7 @@ and one more mode that moves the planes by ``WS``.  For the search of contacts a
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import complex_expm1, unbalance_response
 from carom.core.layout import LANE_TERMS, NODES
 from carom.core.phases import lasts

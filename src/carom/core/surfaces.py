@@ -7,7 +7,7 @@ effective mass, changes ``q`` by ``−gF`` with ``g = mR²/J``, and drag slows t
 
 from __future__ import annotations
 
-from carom.compiling.decorators import inlined
+from carom.core.compiling.decorators import inlined
 from carom.core.shaft import excess_coefficient, surface_excess
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.layout import ORDER
 
 STEP_FRACTION = 0.135

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import arrival_change, arrival_in_sense, sense_of
 from carom.core.wall import local_velocity, unit, wall_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from carom.compiling.decorators import formula, inlined
+from carom.core.compiling.decorators import formula, inlined
 from carom.core.flow import displacement, squared_modulus, velocity
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import inlined, kernel
+from carom.core.compiling.decorators import inlined, kernel
 from carom.core.contact_series import rub_series
 from carom.core.friction import friction_ratio
 from carom.core.laws.choice import force, stored_energy

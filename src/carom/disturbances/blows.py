@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.single import Part
-from carom.outcome import InputError
 from carom.parameters.requirement import SHOCK_DURATION
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from carom.arguments import Infinity, Kind, Truths, checked
-from carom.outcome import InputError, Outcome
+from carom.base.arguments import Infinity, Kind, Truths, checked
+from carom.base.outcome import InputError, Outcome
 from carom.parameters import UNITS, Scales
 from carom.parameters.told import number, shown_in
 
@@ -116,7 +116,7 @@ class Starts(NamedTuple):
     exists : ndarray of bool
         Whether the disturbance is possible: the start lies inside the wall, and the rotor could levitate before.
     ended : ndarray of int
-        Code of the :class:`~carom.outcome.Outcome` that ends the motion during the disturbance already, such as ``GRAZING`` or ``BEYOND_MODEL``;
+        Code of the :class:`~carom.base.outcome.Outcome` that ends the motion during the disturbance already, such as ``GRAZING`` or ``BEYOND_MODEL``;
         ``CLEAR`` where it goes on.
     touched : ndarray of bool
         Whether the rotor has already met the wall, during a shock or because it starts there.

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.base.results import in_si
 from carom.disturbances.plans import Grid, Plan
 from carom.parameters import MACHINE_FIELDS, Scales
 from carom.parameters.told import number, told, told_angle
-from carom.results import in_si
 
 if TYPE_CHECKING:
     from carom.disturbances.single import Single

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.outcome import InputError, Outcome
 from carom.disturbances.coordinates import Starts
 from carom.disturbances.model import Disturbance
 from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
-from carom.outcome import InputError, Outcome
 
 NO_START = -1
 """Outcome of a disturbance without a start: it lies outside the wall, or the rotor could not levitate before."""

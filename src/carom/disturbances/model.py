@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from carom.arguments import checked, is_number
+from carom.base.arguments import checked, is_number
+from carom.base.outcome import InputError, Outcome, shown
 from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
 from carom.disturbances.single import Part, Single, read_single
-from carom.outcome import InputError, Outcome, shown
 from carom.parameters import Scales, own_size, own_unbalance, usual_kick
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Self, TypeAlias
 
 import numpy as np
 
-from carom.arguments import Count, Seed, Whole, checked
+from carom.base.arguments import Count, Seed, Whole, checked
+from carom.base.outcome import InputError
 from carom.disturbances.coordinates import INSTANT, Starts
 from carom.disturbances.model import Disturbance
-from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:

@@ -25,6 +25,7 @@ import math
 
 import numpy as np
 
+from carom.base.outcome import Outcome
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.in_turn import advance_in_turn
@@ -33,7 +34,6 @@ from carom.core.phases import AWAY
 from carom.models import Force, Rotor
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
-from carom.outcome import Outcome
 
 LOGGED = 256
 TURN = 2.0 * math.pi

@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Scales, read_size, read_unbalance
 from carom.parameters.quantities import comma_advice, without_separators
 

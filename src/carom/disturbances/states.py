@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.disturbances.coordinates import (
     Coordinate,
     Starts,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from carom.progress import Progress
+from carom.base.progress import Progress
 
 
 class SupersededError(Exception):
@@ -22,7 +22,7 @@ class Job:
     Attributes
     ----------
     work : callable
-        Called in the thread of the worker with a callable that takes :class:`~carom.progress.Progress`; it raises
+        Called in the thread of the worker with a callable that takes :class:`~carom.base.progress.Progress`; it raises
         :class:`SupersededError` where the work is no longer wanted.
     done : callable
         Receives the result, or the exception, in that thread; nothing if the work was interrupted.  It may raise

@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import CaromError
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.questions import Questions
 from carom.explorer.page.scripts import PICTURES, joined
 from carom.explorer.page.session import Session
 from carom.explorer.page.view import SLOTS
 from carom.models import Subject, case_of
-from carom.outcome import CaromError
 from carom.plots.style import LOOKS
 
 

@@ -29,11 +29,11 @@ from tornado.httputil import HTTPServerRequest
 from tornado.ioloop import IOLoop
 from tornado.web import ErrorHandler, RequestHandler
 
+from carom.base.outcome import CaromError, InputError
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.document import TOKEN, fill, write_page
 from carom.explorer.page.questions import Questions
 from carom.explorer.page.session import Session
-from carom.outcome import CaromError, InputError
 
 HERE = "127.0.0.1"
 NAMES = (HERE, "localhost")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.models.rotor import Rotor
 from carom.models.subjects import Subject, rotor_of
-from carom.outcome import InputError
 from carom.parameters import Field, field_to_vary, read_quantity
 from carom.parameters.terms import no_such_parameter
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.outcome import InputError, shown
 from carom.models.forcing import Force
-from carom.outcome import InputError, shown
 from carom.parameters import Scales
 
 

@@ -20,12 +20,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.core.wall import Wall
 from carom.models.anisotropic import TURN
 from carom.models.from_modes import modal_system
 from carom.models.mode_arrays import EQUAL
 from carom.models.system import System
-from carom.outcome import InputError
 
 RESONANT = 1e-3
 """Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""

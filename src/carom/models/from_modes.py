@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
 from carom.models.race import RaceModes

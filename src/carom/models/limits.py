@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from carom.base.outcome import InputError, shown
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
 from carom.models.matrices import Matrices
 from carom.models.system import System
-from carom.outcome import InputError, shown
 from carom.parameters import ControlLimit, Scales
 
 _KEPT = (

@@ -10,6 +10,8 @@ from typing import Any, Self
 
 import numpy as np
 
+from carom.base.outcome import InputError, shown
+from carom.base.results import Result
 from carom.models import linear_parameters
 from carom.models.definition import Definition
 from carom.models.linear_system import is_singular, system_of
@@ -17,9 +19,7 @@ from carom.models.matrices import Matrices, Rates
 from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
-from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
-from carom.results import Result
 
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""

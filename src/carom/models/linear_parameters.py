@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.base.outcome import InputError, shown
 from carom.models.matrices import Rates
-from carom.outcome import InputError, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, WALL_FIELDS, Field, Numbers, read_quantity
 from carom.parameters.terms import no_such_parameter
 

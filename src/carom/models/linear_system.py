@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.models.anisotropic import Doubled, anisotropic_system
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
@@ -14,7 +15,6 @@ from carom.models.modes import modes_of
 from carom.models.race import RaceModes
 from carom.models.shaft import ShaftModes
 from carom.models.system import System
-from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.results import Result
 from carom.core.flow import fly_all
 from carom.core.table import flight_table
 from carom.core.wall import Wall
-from carom.results import Result
 
 TABLES = 32
 """Number of tables kept."""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 
 PARALLEL = 1e-3
 """Sine of the angle between two eigenvectors below which their modes become a pair: each digit lost is one of sixteen."""

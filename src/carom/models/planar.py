@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.core.laws.hunt_crossley import HuntCrossley
 from carom.core.laws.kelvin_voigt import KelvinVoigt
 from carom.core.laws.rigid import Rigid
@@ -27,7 +28,6 @@ from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
-from carom.outcome import InputError, shown
 from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Numbers, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX

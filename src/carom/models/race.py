@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import NotNegative, Positive, checked
+from carom.base.arguments import NotNegative, Positive, checked
 
 
 @checked

@@ -13,17 +13,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
+from carom.base.results import Result
 from carom.models.definition import Definition
 from carom.models.documents import document_of
 from carom.models.forces import checked_forces, in_scales
 from carom.models.forcing import Force, with_forces
 from carom.models.limits import Limit, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
-from carom.outcome import InputError, shown
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
 from carom.parameters.settings import GRAVITY_NAME
-from carom.results import Result
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import Positive, checked
+from carom.base.arguments import Positive, checked
 
 
 @checked

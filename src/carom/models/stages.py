@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import Infinity, NotNegative, Positive, checked
+from carom.base.arguments import Infinity, NotNegative, Positive, checked
+from carom.base.outcome import InputError, shown
 from carom.models.forces import complex_numbers
 from carom.models.rotor import ONE_STAGE, Rotor
-from carom.outcome import InputError, shown
 
 
 @checked

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.models.documents import part_from
 from carom.models.planar import RIGID, jeffcott
 from carom.models.rotor import PLANAR_ALONE, Rotor
-from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
 Subject = Machine | Case | Parameters | Rotor

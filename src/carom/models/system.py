@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.core.records import copy_of
 from carom.models.mode_arrays import EQUAL, ModeArrays
 from carom.models.nodes import Nodes
 from carom.models.race import RaceModes
 from carom.models.shaft import ShaftModes
-from carom.outcome import InputError
 from carom.parameters import Scales
 
 ROUNDING = 1e-12

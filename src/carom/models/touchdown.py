@@ -8,11 +8,11 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from carom.arguments import Kind, NotNegative, Positive, checked
+from carom.base.arguments import Kind, NotNegative, Positive, checked
+from carom.base.outcome import InputError, shown
 from carom.core.laws.law import Law
 from carom.core.wall import Wall
 from carom.models.race import Race
-from carom.outcome import InputError, shown
 from carom.parameters import TouchdownBearing
 
 FARTHEST = 2.0

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.models.rotor import Rotor
-from carom.outcome import InputError
 
 
 def levitation_of(model: Rotor) -> tuple[np.ndarray, np.ndarray]:

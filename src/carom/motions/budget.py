@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
 
 NOT_FOLLOWED = -2
 """Outcome of a motion that the events of its question did not suffice for."""

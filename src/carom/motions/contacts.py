@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Phase
+from carom.base.results import Result, flags
 from carom.core.friction import rebound
-from carom.outcome import Phase
 from carom.parameters import UNITS
-from carom.results import Result, flags
 
 if TYPE_CHECKING:
     import xarray
@@ -200,7 +200,7 @@ class ContactHistory(Table):
     """Course of a motion at its plane, with the forces and the slip of lasting contact, at chosen times; all arrays have shape (n,).
 
     In flight, and where a plane has parted from its wall, forces, slip and powers are zero.  Phases are those of
-    :class:`~carom.outcome.Phase`.  The slip velocity of the contact point is ``v = s + r(1 + θ̇)`` at the radius ``r``, which is one on a
+    :class:`~carom.base.outcome.Phase`.  The slip velocity of the contact point is ``v = s + r(1 + θ̇)`` at the radius ``r``, which is one on a
     rigid wall, less the speed of the race's surface if that turns; the power of friction is ``F v`` and that of the drive ``−F s``.  In a wall
     that gives way the gap is negative: the depth.
     """

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.motions.contacts import presses, race_speed, shaft_lead, yields
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
-from carom.outcome import InputError
 from carom.parameters import Scales
 
 EVEN = 6000

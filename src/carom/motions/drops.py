@@ -6,12 +6,12 @@ import cmath
 import math
 from dataclasses import dataclass
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.models import Rotor, Stage, Subject, Trigger, in_stages, rotor_of
 from carom.models.stages import stages_of
 from carom.models.weight import levitation_of
 from carom.motions.starts import Kick, State
-from carom.outcome import InputError, shown
 from carom.parameters import Gravity, own_size, own_time
 
 ASSUMED = Gravity()

@@ -8,7 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Reals, Whole, checked
+from carom.base.arguments import Count, Reals, Whole, checked
+from carom.base.outcome import InputError, Outcome
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Result
 from carom.core.processors import available_cores
 from carom.models import Rotor, Stage, Subject, rotor_of
 from carom.models.stages import stages_of
@@ -22,10 +25,7 @@ from carom.motions.settling import (
 )
 from carom.motions.simulation import Following, stretches
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until
-from carom.outcome import InputError, Outcome
 from carom.parameters import own_time
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result
 
 MOST_EVENTS = 1_000_000
 """Default number of impacts and steps of lasting contact after which a motion is given up."""
@@ -38,7 +38,7 @@ class Endings(Result):
     Attributes
     ----------
     outcomes : ndarray of int8
-        Codes of :class:`~carom.outcome.Outcome`.
+        Codes of :class:`~carom.base.outcome.Outcome`.
     times : ndarray
         Time at which the outcome was known, in ``1/Ω``.
     impacts : ndarray of int64

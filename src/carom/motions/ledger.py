@@ -8,7 +8,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.polynomial import legendre
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Phase
 from carom.core.wall_work import LOST
 from carom.models import Matrices, Rotor
 from carom.models.anisotropic import TURN
@@ -16,7 +17,6 @@ from carom.models.saturation import saturation_accelerations, saturation_of
 from carom.motions.contacts import Table, column, presses, race_speed, shaft_speed, yields
 from carom.motions.touches import contact_works, lost_on_parting, stored
 from carom.motions.trajectories import Trajectory
-from carom.outcome import InputError, Phase
 from carom.parameters import Scales
 
 NODES, WEIGHTS = legendre.leggauss(16)

@@ -9,7 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.arguments import Count, checked
+from carom.base.arguments import Count, checked
+from carom.base.outcome import Outcome, Phase
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.hertz import ball_pressure
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
@@ -22,8 +24,6 @@ from carom.motions.simulation import Following, stretches
 from carom.motions.starts import Beginning, State, Until
 from carom.motions.touches import ContactWorks, TouchLog, contact_works, touches_of
 from carom.motions.trajectories import Trajectory, joined
-from carom.outcome import Outcome, Phase
-from carom.progress import Reporter, ShowProgress, shows_progress
 
 RECENT = 10
 """Impacts over which the power of bouncing is averaged, at least."""

@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from carom.base.outcome import Outcome
+from carom.base.results import KINDS, Result
 from carom.models import Rotor
 from carom.motions.magnets import MagnetReach
-from carom.outcome import Outcome
 from carom.parameters import Scales
-from carom.results import KINDS, Result
 
 MEASURED = ("impulse", "force", "depth", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
 """Loads that have a unit."""

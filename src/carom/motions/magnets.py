@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.results import Result
 from carom.motions.trajectories import Trajectory
 from carom.parameters.told import number
-from carom.results import Result
 
 PER_TURN, SAMPLES = 1000, 5000
 """Instants, beside those of events, at which the place of a rotor at its magnets is looked at: in a turn, and at most in a stage or piece of one."""

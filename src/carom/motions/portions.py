@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Outcome, Phase
+from carom.base.progress import Reporter
 from carom.core.counter import fresh_counter, next_number
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.event_log import EventLog
@@ -21,9 +23,7 @@ from carom.motions.budget import START, Purse
 from carom.motions.settling import PER_SLICE, Progress, begin_limits, fresh_memory, settled, time_limit
 from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of
-from carom.outcome import Outcome, Phase
 from carom.parameters import own_time
-from carom.progress import Reporter
 
 PORTION = 16_384
 """Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""

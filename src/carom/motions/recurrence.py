@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.base.outcome import Outcome
 from carom.core.advance import advance
 from carom.core.arrivals import SHORTEST_LAP
 from carom.core.closing import PASSES
@@ -12,7 +13,6 @@ from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import FLIGHT
 from carom.models import System
-from carom.outcome import Outcome
 
 FOLLOWED, MOST_IMPACTS = 16, 4000
 """Recurrences, and impacts, for which a motion is followed further."""

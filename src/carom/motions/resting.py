@@ -14,13 +14,13 @@ import math
 
 import numpy as np
 
+from carom.base.outcome import Outcome, Phase
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
 from carom.core.fate import BLOCK, NO_TURN, TURNS, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import lasts
 from carom.models import Rotor
-from carom.outcome import Outcome, Phase
 
 STEADY = 1e-3
 """Relative change of the means of a block of turns, from one block to the next, below which backward whirl is steady."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.base.outcome import Outcome
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import PASSES, least_period
@@ -19,7 +20,6 @@ from carom.models import Rotor, System
 from carom.models.stages import NEVER, Trigger
 from carom.motions.recurrence import least_recurrence
 from carom.motions.resting import goes_round, lies
-from carom.outcome import Outcome
 
 PATIENCE = 20_000
 """Default number of impacts without recurrence after which bouncing counts as irregular.

@@ -8,7 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
+from carom.base.arguments import Count, Whole, checked
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
@@ -30,9 +32,7 @@ from carom.motions.settling import (
 )
 from carom.motions.starts import Beginning, State, Until, amplitudes_of
 from carom.motions.trajectories import Trajectory, joined
-from carom.outcome import Outcome
 from carom.parameters import own_time
-from carom.progress import Reporter, ShowProgress, shows_progress
 
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""

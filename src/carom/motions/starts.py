@@ -8,14 +8,14 @@ from typing import Annotated, Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from carom.arguments import Kind, checked, kind_of_numbers
+from carom.base.arguments import Kind, checked, kind_of_numbers
+from carom.base.outcome import InputError
 from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
 from carom.models import Rotor, Subject, rotor_of
 from carom.models.weight import levitation_of
-from carom.outcome import InputError
 from carom.parameters import own_size
 
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.files import netcdf
+from carom.base.files import netcdf
+from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import rotor_from
 from carom.motions.contacts import phase_flags
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.outcome import InputError, Outcome, Phase
 
 if TYPE_CHECKING:
     import xarray

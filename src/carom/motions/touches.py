@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Phase
 from carom.core.wall_work import (
     COLUMNS,
     DEPTH,
@@ -30,7 +31,6 @@ from carom.motions.contacts import (
     presses,
     yields,
 )
-from carom.outcome import Phase
 from carom.parameters import Scales
 
 if TYPE_CHECKING:

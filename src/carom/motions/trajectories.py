@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import Count, Reals, Whole, checked
+from carom.base.arguments import Count, Reals, Whole, checked
+from carom.base.outcome import InputError, Outcome, Phase
+from carom.base.results import Result
 from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Rotor
 from carom.motions.contacts import Blows, ContactHistory, ContactLog, LastingContact, blows_of, presses, yields
 from carom.motions.starts import State
-from carom.outcome import InputError, Outcome, Phase
-from carom.results import Result
 
 if TYPE_CHECKING:
     import xarray
@@ -55,7 +55,7 @@ class Trajectory(Result):
         Impacts per period if it settled to periodic bouncing; zero otherwise (bouncing with zero is aperiodic).
     segment_starts : ndarray, shape (n + 1,)
         Start time of each segment.  A long contact consists of several.
-    segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1, P)
+    segment_phases : ndarray of :class:`~carom.base.outcome.Phase`, shape (n + 1, P)
         Phase of each contact plane.
     event_planes : ndarray of int, shape (n,)
         Contact plane of the event that ends each segment but the last; −1 for a step of flight that changes nothing.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.base.outcome import Outcome, Phase
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.friction import slip_of, spare_friction
 from carom.core.layout import rub_workspace, workspace
@@ -12,7 +13,6 @@ from carom.core.variation import strike
 from carom.models import Rotor
 from carom.orbits.shooting import TOLERANCE, Start
 from carom.orbits.word import Kind, Word
-from carom.outcome import Outcome, Phase
 
 ARRIVAL_TOLERANCE = 1e-7
 """Relative difference below which the certified next event and the end of a segment count as the same event."""

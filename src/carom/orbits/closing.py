@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from carom.base.outcome import Phase
 from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import Budget, Flow, krylov, repeats_after
 from carom.orbits.happenings import happenings
 from carom.orbits.names import CountedName, RubbingName
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.stability import Multipliers
-from carom.outcome import Phase
 
 ITERATIONS = 12
 TOLERANCE, ACCEPTED = 1e-11, 3e-9

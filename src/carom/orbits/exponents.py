@@ -9,7 +9,9 @@ from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.arguments import Count, checked, whole
+from carom.base.arguments import Count, checked, whole
+from carom.base.outcome import CaromError
+from carom.base.results import Result
 from carom.core.closing import LONGEST
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
@@ -20,8 +22,6 @@ from carom.orbits.recognising import impacts_between
 from carom.orbits.shooting import links_of
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError
-from carom.results import Result
 
 REPEATED = 1e-8
 """Largest distance, relative to one plus the size of the state, between the simulated and the repeated end of a segment."""

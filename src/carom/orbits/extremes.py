@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Phase
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Phase
 
 SAMPLES = 2000
 

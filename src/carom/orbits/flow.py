@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from carom.base.outcome import CaromError, Outcome, Phase
 from carom.core.limits import LOWER, UPPER
 from carom.core.rub import rest_on_wall
 from carom.models import Rotor
@@ -20,7 +21,6 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.happenings import Happening, happenings
-from carom.outcome import CaromError, Outcome, Phase
 
 STEPS = (3e-6, 1e-6, 1e-7)
 """Steps of the central differences, relative to one plus the size of the state: the first at which the same happens on both sides."""

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from carom.base.outcome import CaromError
 from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.flow import Budget, Flow
 from carom.orbits.happenings import happenings
-from carom.outcome import CaromError
 
 STRETCH = 2.0
 """Time of a stretch, in ``1/Ω``, after which directions are made orthogonal."""

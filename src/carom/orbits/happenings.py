@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Phase
 from carom.core.arrivals import SHORTEST_LAP
 from carom.core.event_log import flying
 from carom.core.limits import LOWER, UPPER
 from carom.core.margins import local_motion
 from carom.motions.trajectories import Trajectory
 from carom.orbits.word import Kind
-from carom.outcome import Phase
 
 INSTANT = 1e-12
 SATURATES, RECOVERS, LANDS = "saturate", "unsaturate", "land"

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
-from carom.outcome import REGULAR_BOUNCING
+from carom.base.outcome import REGULAR_BOUNCING
 
 Slip = Literal[1, -1]
 

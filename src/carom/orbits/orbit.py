@@ -8,7 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Reals, Whole, checked
+from carom.base.arguments import Reals, Whole, checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.core.closing import ALIKE
 from carom.core.margins import least_margins
 from carom.models import Rotor, Subject, exact_rotor_of
@@ -23,9 +25,7 @@ from carom.orbits.shooting import Links, Start, converged, links_of
 from carom.orbits.simulated import SimulatedOrbit, same_simulated
 from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
-from carom.outcome import InputError
 from carom.parameters import Scales
-from carom.results import Result
 
 SHORTEST = 1e-9
 """Least duration of a flight, in ``1/Ω``."""

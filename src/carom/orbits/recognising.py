@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import Outcome
 from carom.models import Rotor
 from carom.motions.trajectories import Trajectory
 from carom.orbits.happenings import arrives, first_of_period, impact_kinds
@@ -13,7 +14,6 @@ from carom.orbits.shooting import Start
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.simulated_search import periodic_of
 from carom.orbits.word import Kind, Word
-from carom.outcome import Outcome
 
 PERIODIC = (Outcome.BOUNCING, Outcome.MIXED)
 AROUND = 1e-3

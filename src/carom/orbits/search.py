@@ -12,7 +12,9 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from carom.arguments import whole
+from carom.base.arguments import whole
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter
 from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
 from carom.motions.simulation import simulate
@@ -24,8 +26,6 @@ from carom.orbits.searched import KIND, Searched, random_starts
 from carom.orbits.shooting import Start, closed_flights, links_of, pack
 from carom.orbits.simulated import SimulatedOrbit, numbered
 from carom.orbits.word import Word
-from carom.outcome import Outcome
-from carom.progress import Reporter
 
 GUESSES, MOST_IMPACTS = 1500, 64
 """Default number of guesses for each number of impacts, and the most impacts that are searched."""

@@ -12,7 +12,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Reals
+from carom.base.arguments import Reals
+from carom.base.outcome import Phase
+from carom.base.results import Result
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.extremes import Extremes, extremes_of
@@ -21,9 +23,7 @@ from carom.orbits.happenings import Happening, happenings, told
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, RubbingName
 from carom.orbits.stability import Multipliers
-from carom.outcome import Phase
 from carom.parameters import Scales
-from carom.results import Result
 
 CLOSE = 1e-5
 """Distance of two orbits, relative to one plus their size, below which they are the same."""

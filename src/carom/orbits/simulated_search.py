@@ -7,6 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from carom.base.outcome import Outcome
+from carom.base.progress import Reporter
 from carom.models import Rotor
 from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
@@ -17,8 +19,6 @@ from carom.orbits.flow import Budget, repeats_after
 from carom.orbits.happenings import arrives, first_of_period
 from carom.orbits.searched import FASTEST, KIND, Searched, random_starts
 from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
-from carom.outcome import Outcome
-from carom.progress import Reporter
 
 SETTLED, FRESH, GUESSES = 120, 60, 150
 """Motions followed until they settle, fresh ones afterwards, and stretches of further ones that are tried for each number of impacts."""

@@ -10,7 +10,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Positive, Reals, Seed, checked
+from carom.base.arguments import Count, Positive, Reals, Seed, checked
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Members, in_a_line
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
 from carom.models import Rotor, Subject, exact_rotor_of, rotor_of
@@ -24,8 +26,6 @@ from carom.orbits.shooting import Start
 from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Members, in_a_line
 
 MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""

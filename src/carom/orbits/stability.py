@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.orbits.shooting import Links
-from carom.outcome import InputError
-from carom.results import Result
 
 
 @dataclass(frozen=True, eq=False, repr=False)

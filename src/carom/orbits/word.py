@@ -9,10 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
-from carom.arguments import Count, checked
+from carom.base.arguments import Count, checked
+from carom.base.outcome import InputError
 from carom.core import segments
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
-from carom.outcome import InputError
 
 
 class Kind(IntEnum):

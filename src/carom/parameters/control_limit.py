@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carom.arguments import NotNegative, Positive, checked
+from carom.base.arguments import NotNegative, Positive, checked
 from carom.parameters.told import number
 
 

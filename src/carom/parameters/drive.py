@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters.fields import Field, by_name
 from carom.parameters.tables import Table
 from carom.parameters.told import number

@@ -10,8 +10,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.arguments import checked
-from carom.outcome import InputError, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 
 RPM = math.pi / 30.0
 """One revolution per minute in rad/s."""

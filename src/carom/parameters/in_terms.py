@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localcontext
 from typing import Annotated, Any, Literal, NamedTuple
 
-from carom.arguments import checked, whole
+from carom.base.arguments import checked, whole
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field
 from carom.parameters.machine import Machine

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from carom.arguments import Count, Infinity, Kind, checked
-from carom.outcome import InputError
+from carom.base.arguments import Count, Infinity, Kind, checked
+from carom.base.outcome import InputError
 from carom.parameters.fields import Field, by_name
 from carom.parameters.tables import Table
 from carom.parameters.told import number

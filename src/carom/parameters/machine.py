@@ -11,8 +11,9 @@ from typing import Any
 
 import pydantic
 
-from carom.arguments import checked
-from carom.outcome import CaromWarning, InputError, shown
+from carom.base.arguments import checked
+from carom.base.outcome import CaromWarning, InputError, shown
+from carom.base.tabular import Tabular
 from carom.parameters.control_limit import ControlLimit
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
@@ -21,7 +22,6 @@ from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import Scales
 from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
 from carom.parameters.told import number, told_entry
-from carom.tabular import Tabular
 
 LEAST_RADIUS = 5.0
 """Rotor radius in clearances below which a machine file probably has a wrong unit; touchdown bearings have 20 to 1000."""

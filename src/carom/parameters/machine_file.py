@@ -6,8 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, cast
 
-from carom.arguments import checked
-from carom.outcome import InputError, Problems, shown, together
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown, together
+from carom.base.tabular import Tabular
 from carom.parameters.drive import Drive
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, name_errors, unknown_names
 from carom.parameters.gravity import Gravity
@@ -23,7 +24,6 @@ from carom.parameters.terms import ENTRIES
 from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
-from carom.tabular import Tabular
 
 _SETTING = "--set"
 UNUSED = 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol, Self, runtime_checkable
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field
 from carom.parameters.scaling import Scales
 

@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple
 
-from carom.arguments import checked, having
-from carom.outcome import InputError, shown
+from carom.base.arguments import checked, having
+from carom.base.outcome import InputError, shown
 from carom.parameters.conversions import CONVERSIONS, root
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
 from carom.parameters.quantities import read_quantity

@@ -11,8 +11,8 @@ from numbers import Real
 from tokenize import TokenError
 from typing import Any
 
-from carom.arguments import checked
-from carom.outcome import shown
+from carom.base.arguments import checked
+from carom.base.outcome import shown
 from carom.parameters.common_units import COMMON_UNITS, Roots
 from carom.parameters.fields import Field
 

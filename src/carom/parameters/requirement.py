@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, cast, get_args
 
-from carom.arguments import checked
-from carom.outcome import InputError, Problems, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_names
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Scales

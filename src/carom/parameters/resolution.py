@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from decimal import Context, Decimal, localcontext
 from typing import Any
 
-from carom.outcome import InputError, Problems, shown
+from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors
 from carom.parameters.quantities import read_decimal, read_quantity

@@ -42,8 +42,8 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from carom.arguments import Kind, NotNegative, Positive, checked
-from carom.continuation.roots import bracketed_root
+from carom.base.arguments import Kind, NotNegative, Positive, checked
+from carom.base.roots import bracketed_root
 
 Restitution = Annotated[float, Kind(lambda number: 0.0 < number <= 1.0, "a number above 0, at most 1")]
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from carom.arguments import checked
-from carom.outcome import Problems
+from carom.base.arguments import checked
+from carom.base.outcome import Problems
 from carom.parameters.fields import Field, unknown_name, unknown_names
 from carom.parameters.gravity import GRAVITY_FIELDS
 from carom.parameters.terms import SETTABLE, check_names

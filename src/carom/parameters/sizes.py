@@ -7,8 +7,8 @@ from dataclasses import replace
 from decimal import Decimal
 from typing import NamedTuple
 
-from carom.arguments import checked
-from carom.outcome import InputError, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.parameters.fields import Field
 from carom.parameters.quantities import read_quantity, without_separators
 from carom.parameters.scaling import UNITS, Scales

@@ -6,8 +6,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
-from carom.arguments import checked
-from carom.outcome import InputError, Problems, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, unknown_names
 from carom.parameters.quantities import read_quantity
 

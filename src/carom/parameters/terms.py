@@ -20,8 +20,8 @@ from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
 
-from carom.arguments import checked
-from carom.outcome import InputError, Problems, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import (
     MACHINE_FIELDS,
     PARAMETERS,

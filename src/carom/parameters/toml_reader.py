@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from carom.outcome import InputError, Problems, shown, together
+from carom.base.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
 
 _WHAT = "machine file"

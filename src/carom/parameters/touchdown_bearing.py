@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from carom.outcome import InputError, shown, together
+from carom.base.outcome import InputError, shown, together
 from carom.parameters.fields import Field, by_name, length_field
 from carom.parameters.tables import Table
 from carom.parameters.told import number

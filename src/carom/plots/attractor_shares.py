@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.plots.cells import looks_of, share_bars
 from carom.plots.plane import one_axes
 from carom.plots.style import TWO_COLUMNS, styled

@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.disturbances import outward_from
-from carom.outcome import InputError
 from carom.plots.cells import MotionLook, around, finish, looks_of, motion_looks, paint, share_bars
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from carom.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.base.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:

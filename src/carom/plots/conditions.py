@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
 
-from carom.arguments import Reals, checked
-from carom.outcome import InputError
+from carom.base.arguments import Reals, checked
+from carom.base.outcome import InputError
 from carom.plots.figure import narrow
 from carom.plots.placement import spread
 from carom.plots.plane import Floats, finish, one_axes

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 
-from carom.arguments import Count, Positive, checked
-from carom.outcome import Outcome
+from carom.base.arguments import Count, Positive, checked
+from carom.base.outcome import Outcome
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled

@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from carom.arguments import checked
-from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
+from carom.base.arguments import checked
+from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
 from carom.plots.coexistence import coexistence, looks_between, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter, told_parameter

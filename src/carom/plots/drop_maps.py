@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import checked
-from carom.outcome import InputError
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.parameters.told import number as plain
 from carom.plots.cells import finish, looks_of, paint
 from carom.plots.figure import StyledFigure

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import Positive, checked
+from carom.base.arguments import Positive, checked
 from carom.plots.courses import sampled
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import MANY_POINTS, Floats, clearance_circle, key, label_frame, point

@@ -18,7 +18,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import Bbox
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.plots.sheet import ONE_COLUMN, applied, drawing
 
 _heading: ContextVar[str] = ContextVar("_heading", default="")

@@ -10,9 +10,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from carom.arguments import checked
-from carom.files import write_whole
-from carom.outcome import InputError
+from carom.base.arguments import checked
+from carom.base.files import write_whole
+from carom.base.outcome import InputError
 from carom.plots.sheet import drawing
 
 # Without these settings a file would contain the date of its creation.

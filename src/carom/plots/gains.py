@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
-from carom.arguments import checked
-from carom.outcome import InputError
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.parameters import in_terms_of
 from carom.parameters.in_terms import EXACT
 from carom.parameters.told import shown_in

@@ -10,8 +10,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from carom.arguments import checked
-from carom.outcome import InputError
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.parameters.told import rounded_down, shown_in
 from carom.plots.basins import draw_cells
 from carom.plots.cells import MotionLook, around, finish, looks_of

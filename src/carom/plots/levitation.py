@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.parameters.fields import RPM
 from carom.plots.plane import key, one_axes
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, styled

@@ -13,7 +13,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from carom.outcome import STEADY_WORDS
+from carom.base.outcome import STEADY_WORDS
 from carom.plots.plane import Floats
 from carom.plots.style import Look
 

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import Count, checked
-from carom.outcome import InputError
+from carom.base.arguments import Count, checked
+from carom.base.outcome import InputError
 from carom.plots.bands import bands_on_the_circle, drawing_times, flying
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.plane import (

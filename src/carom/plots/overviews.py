@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import Whole, checked
-from carom.outcome import InputError
+from carom.base.arguments import Whole, checked
+from carom.base.outcome import InputError
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.placement import spread_angles
 from carom.plots.plane import (

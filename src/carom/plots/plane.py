@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from numpy.typing import NDArray
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, Look
 from carom.plots.words import axis_label, clearance, times_larger

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
 
-from carom.arguments import checked
-from carom.outcome import STEADY_WORDS
+from carom.base.arguments import checked
+from carom.base.outcome import STEADY_WORDS
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter

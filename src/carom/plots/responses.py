@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import checked
-from carom.outcome import STEADY_WORDS
+from carom.base.arguments import checked
+from carom.base.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, key, with_neighbours

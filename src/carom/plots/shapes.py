@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, key
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled

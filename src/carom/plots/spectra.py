@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import SymmetricalLogLocator
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.plots.plane import one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import orbit_look, orbit_words

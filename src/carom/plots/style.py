@@ -36,7 +36,7 @@ from typing import Any, ParamSpec
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.plots.figure import arrange, write_plain_ticks
 from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
 from carom.plots.sheet import drawing
@@ -116,7 +116,7 @@ REGIMES = (
     Look("#5c1236", "rolling", hatch="////"),
     Look("#b8c2cc", "parted from the wall", hatch="||||"),
 )
-"""Looks of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
+"""Looks of the regimes of a touchdown, in the order of :class:`carom.base.outcome.Phase`."""
 
 OUTCOMES = MappingProxyType(
     {
@@ -136,7 +136,7 @@ OUTCOMES = MappingProxyType(
         "stalled": Look("#dcdcdc", Outcome.STALLED.words),
     }
 )
-"""Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own.
+"""Looks of endings, by the label of their :class:`~carom.base.outcome.Outcome`; irregular bouncing has a look of its own.
 
 The worse an ending, the darker it is, in nearly even steps: what comes back is the brightest area, and backward whirl the darkest,
 also in print without colour.

@@ -16,8 +16,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
-from carom.arguments import checked
-from carom.outcome import STEADY_WORDS, InputError
+from carom.base.arguments import checked
+from carom.base.outcome import STEADY_WORDS, InputError
 from carom.parameters import SETTINGS, Field
 from carom.parameters.told import shown_from_si
 from carom.plots.maps import BLANKS, SHADES, cell_edges, draw_map, mark_present

@@ -62,7 +62,7 @@
 ==================  ==============================================================
 """
 
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
 
 try:
     import flint  # noqa: F401

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_series
 
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
 from carom.proofs.courses import Course, Return, period_condition
 from carom.proofs.lines import Line, Numbers
 from carom.proofs.series import hull, narrower, terms

@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import arb_series
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters.terms import conflicts
 from carom.proofs.balls import interval, rational
 from carom.proofs.hypotheses import Hypotheses

@@ -10,9 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from carom.arguments import checked
-from carom.outcome import CaromError, InputError, printable, shown
-from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.base.arguments import checked
+from carom.base.outcome import CaromError, InputError, printable, shown
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import Enclosure
 from carom.proofs.claims import FORMAT, Claim, Proof
 from carom.proofs.evidence import Evidence, NotShownError

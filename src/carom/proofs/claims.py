@@ -10,11 +10,11 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any, ClassVar, Literal, get_args
 
-from carom.arguments import checked
-from carom.files import write_whole
+from carom.base.arguments import checked
+from carom.base.files import write_whole
+from carom.base.results import WIDEST, Members
 from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure
-from carom.results import WIDEST, Members
 
 FORMAT = "carom proof 1"
 Status = Literal["proven", "refuted", "undecided"]

@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from carom.outcome import CaromError
-from carom.progress import Reporter
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter
 
 _Found = TypeVar("_Found")
 _RATIONAL = re.compile(r"-?[0-9]{1,2000}(?:/[0-9]{1,2000})?")

@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Field
 from carom.parameters.exact import ExactNumber
 from carom.proofs.balls import ball_of

@@ -16,10 +16,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, cast
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown, together
 from carom.loading import load
 from carom.models import Subject, exact_rotor_of
-from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, MACHINE_FIELDS, PARAMETERS, TERMS, Machine
 from carom.parameters.exact import ExactNumber, read_exact
 from carom.parameters.fields import name_errors, unknown_name

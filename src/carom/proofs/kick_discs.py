@@ -12,9 +12,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from flint import arb, arb_series
 
+from carom.base.outcome import InputError, Outcome
 from carom.models import Rotor, jeffcott
 from carom.motions import settle
-from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational

@@ -10,8 +10,8 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
-from carom.outcome import CaromError
-from carom.progress import Reporter
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
 from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves

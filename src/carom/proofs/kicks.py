@@ -7,12 +7,12 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, NamedTuple
 
-from carom.arguments import Count, checked, whole
+from carom.base.arguments import Count, checked, whole
+from carom.base.outcome import InputError, shown
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.core.processors import available_cores
 from carom.models import Subject
-from carom.outcome import InputError, shown
 from carom.parameters import read_quantity
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.families import KICKS, Family

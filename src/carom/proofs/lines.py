@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from flint import arb_series
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERM_FIELDS, TERMS, Field
 from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name

@@ -26,7 +26,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
 from carom.proofs.moments import UNIT, dot
 from carom.proofs.patches import Departure
 from carom.proofs.series import hull

@@ -9,10 +9,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.closed_forms import harmless_kick
 from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
-from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
 from carom.proofs.families import KICKS
@@ -20,7 +21,6 @@ from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.seeds import doubles_of
-from carom.results import Result
 
 _ROUNDING = 1e-12
 """Relative difference of numbers of the same machine, once exact and once in doubles."""
@@ -248,7 +248,7 @@ def _parts(tree: Tree) -> tuple[KickPart, ...]:
 
 
 def _check_machine(hypotheses: Hypotheses, rotor: Rotor) -> None:
-    """Compare the numbers of the equations with those of a proof; :class:`~carom.outcome.InputError` if they are others."""
+    """Compare the numbers of the equations with those of a proof; :class:`~carom.base.outcome.InputError` if they are others."""
     values = rotor.parameters.as_dict()
     for name, proven in doubles_of(hypotheses).as_dict().items():
         if name != "phi" and not isclose(proven, values[name], rel_tol=_ROUNDING):

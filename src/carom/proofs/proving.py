@@ -7,13 +7,13 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Annotated, Any
 
-from carom.arguments import checked, whole
+from carom.base.arguments import checked, whole
+from carom.base.outcome import InputError, shown
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.loading import load
 from carom.models import Rotor, Subject, rotor_of
-from carom.outcome import InputError, shown
 from carom.parameters import Field, own_size, read_quantity
 from carom.parameters.exact import read_exact
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import Evidence, NotShownError

@@ -15,7 +15,7 @@ from itertools import groupby, pairwise
 from math import floor, log2
 from typing import Any
 
-from carom.progress import Reporter
+from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision, enclosure_of, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError

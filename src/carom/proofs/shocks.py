@@ -6,9 +6,9 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Annotated
 
-from carom.arguments import Count, checked, whole
+from carom.base.arguments import Count, checked, whole
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.models import Subject
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.claims import Proof
 from carom.proofs.families import SHOCKS, STEPS
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Field
 from carom.parameters.exact import ExactNumber, read_exact
 from carom.proofs.balls import ball_of, rational

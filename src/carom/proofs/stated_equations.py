@@ -10,8 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 from flint import acb, acb_mat, arb
 
+from carom.base.outcome import InputError
 from carom.models import Rotor
-from carom.outcome import InputError
 from carom.proofs.evidence import NotShownError
 
 LARGEST = 400

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.models import Subject
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.claims import Proof
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.proving import proof_of

@@ -6,11 +6,11 @@ from functools import partial
 from pathlib import Path
 
 from carom import plots
-from carom.arguments import checked
-from carom.files import staged_directory, write_json
+from carom.base.arguments import checked
+from carom.base.files import staged_directory, write_json
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.motions import Trajectory
 from carom.motions.courses import shown_until
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.figure_files import Picture, draw_figures
 from carom.report.film import Film, film_of, film_script
 from carom.report.html import page_template, versions

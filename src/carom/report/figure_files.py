@@ -9,8 +9,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from carom import plots
-from carom.files.directory import FIGURES
-from carom.progress import Reporter
+from carom.base.files.directory import FIGURES
+from carom.base.progress import Reporter
 from carom.report.html import InlineFigure, inline_figure
 
 

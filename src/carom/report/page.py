@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from carom import plots
-from carom.arguments import checked
-from carom.files import staged_directory, write_json
-from carom.files.directory import MANIFEST
+from carom.base.arguments import checked
+from carom.base.files import staged_directory, write_json
+from carom.base.files.directory import MANIFEST
+from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.parameters.told import number
 from carom.plots.sheet import drawing
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.basins import drawable
 from carom.report.figure_files import draw_figures
 from carom.report.figures import pictures

@@ -35,6 +35,8 @@
 ``branches``              exponents followed over the speed of the shaft
 ``collocation``           whether sensors see a whirl as the magnet moves it
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
+``synchronous``           :func:`synchronous_response`: contact-free response to unbalance at any speed, of any rotor
+``reduction_errors``      by how much the vectors left out change a motion with contact
 ``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings
 ========================  =================================================================
 """
@@ -57,12 +59,14 @@ from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import Support
+from carom.rotors.synchronous import Ellipses, SynchronousResponse, synchronous_response
 from carom.rotors.whirls import Campbell, Whirl, campbell, find_whirls
 
 __all__ = [
     "PID",
     "Campbell",
     "Disc",
+    "Ellipses",
     "FlexibleDefinition",
     "FlexibleMachine",
     "FlexibleRotor",
@@ -78,6 +82,7 @@ __all__ = [
     "Sensitivity",
     "StateSpace",
     "Support",
+    "SynchronousResponse",
     "TouchdownPlane",
     "TransferFunction",
     "Unbalance",
@@ -89,5 +94,6 @@ __all__ = [
     "read_rotor",
     "rigid_rotor",
     "sensitivity",
+    "synchronous_response",
     "write_rotor",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, Field, TouchdownBearing
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries

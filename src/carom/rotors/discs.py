@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.arguments import checked
-from carom.outcome import InputError
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.parameters import Field
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 
 

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import Count, Positive, checked
+from carom.base.arguments import Count, Positive, checked
+from carom.base.outcome import InputError, shown
 from carom.models import Rotor
-from carom.outcome import InputError, shown
 from carom.parameters import Gravity
 from carom.parameters.tables import read_entries
 from carom.rotors.attachments import TouchdownPlane, Unbalance

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.base.outcome import InputError, shown
 from carom.models import Limit, LinearEquations, Rates
 from carom.models.system import System
-from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 from carom.parameters import read_quantity
 from carom.parameters.fields import length_field
 from carom.rotors.beams import beam_element

@@ -9,7 +9,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.parameters import Field
 from carom.parameters.told import number
 from carom.rotors.damping import Damping

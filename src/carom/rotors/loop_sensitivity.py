@@ -9,9 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import checked
-from carom.outcome import InputError
-from carom.results import Result
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.rotors.equations import block, loops_of
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import motions_at

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import checked
-from carom.outcome import CaromWarning, InputError, Problems, shown
+from carom.base.arguments import checked
+from carom.base.outcome import CaromWarning, InputError, Problems, shown
 from carom.parameters import Case, Gravity, Requirement, Scales, read_quantity
 from carom.parameters.fields import unknown_name
 from carom.parameters.machine import LEAST_RADIUS
@@ -89,7 +89,7 @@ def load_machine(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> 
 
     See Also
     --------
-    carom.rotors.find_whirls, carom.rotors.sensitivity, carom.closed_forms.synchronous_response : does it levitate well?
+    carom.rotors.find_whirls, carom.rotors.sensitivity, carom.rotors.synchronous_response : does it levitate well?
 
     Examples
     --------

@@ -12,8 +12,8 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple, Self
 
-from carom.arguments import checked
-from carom.outcome import InputError, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, Gravity, read_quantity
 from carom.parameters.fields import nearest_name
 from carom.parameters.settings import GRAVITY_NAME

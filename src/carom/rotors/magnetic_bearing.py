@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.rotors.state_spaces import real_numbers
 
 ROUNDED = 1e-6

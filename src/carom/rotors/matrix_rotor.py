@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices

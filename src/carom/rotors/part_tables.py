@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
-from carom.outcome import InputError, together
+from carom.base.outcome import InputError, together
 from carom.parameters import MACHINE_FIELDS, TOUCHDOWN_FIELDS, Field, TouchdownBearing
 from carom.parameters.fields import by_name
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.models import Limit, Rotor, Touchdown
 from carom.models.planar import law_of, race_of
 from carom.models.touchdown import FARTHEST
-from carom.outcome import InputError
 from carom.parameters import Scales
 from carom.parameters.restitution import damping_ratio_of
-from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import checked
-from carom.outcome import InputError, Problems, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown
 from carom.parameters import MACHINE_FIELDS, Field, Gravity, read_quantity
 from carom.parameters.fields import by_name, length_field
 from carom.parameters.tables import read_entries

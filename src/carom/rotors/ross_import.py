@@ -12,8 +12,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from carom.arguments import checked
-from carom.outcome import InputError, shown
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.rotors.damping import ModalDamping
 from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.rotor_files import read_rotor

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import checked
-from carom.files import write_whole
-from carom.outcome import InputError, shown
+from carom.base.arguments import checked
+from carom.base.files import write_whole
+from carom.base.outcome import InputError, shown
 from carom.rotors.discs import Disc
 from carom.rotors.matrix_rotor import MatrixRotor
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.fields import by_name, length_field
 from carom.parameters.tables import read_entries

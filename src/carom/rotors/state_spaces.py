@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.outcome import InputError, shown
+from carom.base.outcome import InputError, shown
 
 LARGEST = 1e100
 """Largest number of a controller: products of two still are numbers."""

@@ -9,9 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Positive, checked
-from carom.outcome import InputError, shown
-from carom.results import Result
+from carom.base.arguments import Count, Positive, checked
+from carom.base.outcome import InputError, shown
+from carom.base.results import Result
 from carom.rotors.branches import followed
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import STRAIGHT, growing, motions_at

@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 
 from carom.attractors import AttractorSet
+from carom.base.results import record
 from carom.core.limits import WITHIN
 from carom.disturbances import Sample
 from carom.models import rotor_of
@@ -37,7 +38,6 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Case, ControlLimit
 from carom.parameters.told import number
-from carom.results import record
 from carom.studies.trials import coordinates_at_largest
 
 STEP = 0.05

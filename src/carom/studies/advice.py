@@ -13,6 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from carom.base.results import Result, record
 from carom.basins.shares import percent
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
@@ -21,7 +22,6 @@ from carom.disturbances import Sample
 from carom.models import Edge, Span, rotor_of
 from carom.motions.budget import BudgetSpentError
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.results import Result, record
 from carom.studies.actuator import asked_by
 from carom.studies.facts import Evidence
 from carom.studies.questions import FEWEST

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
+from carom.base.outcome import Outcome
 from carom.models import Edge
-from carom.outcome import Outcome
 from carom.parameters import in_terms_of
 from carom.parameters.told import number, told_entry
 from carom.studies.advice import GAIN_FACTOR, Change, evidence_of

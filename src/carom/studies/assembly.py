@@ -14,8 +14,11 @@ from functools import cached_property
 from importlib import import_module
 from typing import Any, ClassVar, NamedTuple, get_args
 
-from carom.arguments import checked
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import in_a_line
 from carom.closed_forms import harmless_kick
 from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.exact_results import exact_results
@@ -25,10 +28,7 @@ from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, axis, case_of, rotor_of
 from carom.motions.budget import Budget, Question
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
-from carom.outcome import InputError
 from carom.parameters import Case, Field, Required, Requirement, read_quantity
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import in_a_line
 from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
 from carom.studies.document import study_document
 from carom.studies.drops import drop_of

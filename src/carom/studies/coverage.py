@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.outcome import STEADY_WORDS
+from carom.base.outcome import STEADY_WORDS
 from carom.studies.study_data import StudyData
 
 SAMPLED = "Disturbances other than those simulated{but}. They are samples: one between them, or a larger one, may end elsewhere."

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.closed_forms import SpeedResponse, SynchronousResponse
+from carom.closed_forms import SpeedResponse
+from carom.rotors.synchronous import SynchronousResponse
 from carom.studies.standards import Side, required_margin
 
 HALF_POWER = math.sqrt(0.5)

@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
 
-from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, document_of, exact_interval
+from carom.base.arguments import checked
+from carom.base.results import record
 from carom.basins import share_of_kicks
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
@@ -25,7 +26,6 @@ from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Machine, Parameters
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
-from carom.results import record
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
 from carom.studies.motion_documents import SCALES, STATE

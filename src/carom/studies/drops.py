@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.attractors import MotionName
+from carom.base.outcome import InputError, Outcome
+from carom.base.results import Result, fields_of, in_si
 from carom.disturbances.echo import Echo, echo_of_drop
 from carom.models import Rotor, rotor_of
 from carom.motions import DropLoads, Trajectory, drop, drop_loads, simulate
 from carom.motions.drops import ASSUMED, Drop
-from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.motions.starts import State, amplitudes_of
-from carom.outcome import InputError, Outcome
 from carom.parameters import Case
-from carom.results import Result, fields_of, in_si
+from carom.rotors.reduction_errors import ReductionError, reduction_error
 from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.load_tables import load_entries, load_tables
 from carom.studies.wording import Wording

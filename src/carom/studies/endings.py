@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from carom.attractors import Attractor, AttractorSet, Ending, MotionName
-from carom.outcome import Outcome
+from carom.base.outcome import Outcome
 
 
 def ending_phrase(motion: MotionName) -> str:

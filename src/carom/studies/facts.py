@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any, Literal
 
-from carom.results import record
+from carom.base.results import record
 
 Evidence = Literal["proven", "closed form", "searched", "sampled", "stated", "chosen by carom"]
 Topic = Literal[

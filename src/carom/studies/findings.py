@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from carom.attractors.names import LEVITATION
+from carom.base.outcome import STEADY_WORDS, Outcome
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
 from carom.motions.magnets import pull_words
 from carom.orbits.orbit import Orbit
-from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number

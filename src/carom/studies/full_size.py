@@ -9,6 +9,8 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import Outcome
+from carom.base.results import Result, record
 from carom.basins import Share
 from carom.basins.losses import GOLDEN
 from carom.disturbances import Disturbance
@@ -18,10 +20,8 @@ from carom.motions import State, Trajectory, drop_loads, simulate
 from carom.motions.budget import present_question
 from carom.motions.loads import DropLoads, TouchdownLoads
 from carom.motions.magnets import MagnetReach
-from carom.motions.reduction_errors import ReductionError, reduction_error
-from carom.outcome import Outcome
 from carom.parameters import LoadLimits, Required, Scales
-from carom.results import Result, record
+from carom.rotors.reduction_errors import ReductionError, reduction_error
 from carom.studies.kinds import Kind, required_disturbances, required_kinds
 from carom.studies.load_checks import LoadCheck, check_loads, worst_of
 

@@ -15,11 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from carom.closed_forms import SynchronousResponse, speed_response, synchronous_response
+from carom.base.results import Result, record
+from carom.closed_forms import speed_response
 from carom.models import Rotor
 from carom.parameters import Case, Machine
 from carom.parameters.fields import RPM
-from carom.results import Result, record
 from carom.rotors import (
     Campbell,
     FlexibleMachine,
@@ -31,6 +31,7 @@ from carom.rotors import (
 )
 from carom.rotors.collocation import Collocation, collocations
 from carom.rotors.loop_sensitivity import zone_of
+from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.rotors.whirls import turns
 from carom.studies.critical_speeds import Critical, criticals_of, exact_criticals
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from carom.closed_forms import SynchronousResponse
 from carom.parameters.told import number
 from carom.rotors import Campbell, Whirl
+from carom.rotors.synchronous import SynchronousResponse
 from carom.studies.facts import Fact
 from carom.studies.levitating import Levitating, LoopPeak
 from carom.studies.response_words import critical_words, micrometres, rpm

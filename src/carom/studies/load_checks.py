@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import record
 from carom.motions import DropLoads, TouchdownLoads
-from carom.outcome import InputError
 from carom.parameters import LIMIT_FIELDS, LoadLimits
 from carom.parameters.told import number
-from carom.results import record
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from carom.base.outcome import Outcome
+from carom.base.results import record
 from carom.motions import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.loads import MEASURED
-from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
 from carom.parameters.told import number
-from carom.results import record
 from carom.studies.load_checks import check_loads
 from carom.studies.wording import Wording, counted
 

@@ -6,14 +6,14 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import Phase
+from carom.base.results import record
 from carom.motions import drop_loads
 from carom.motions.contacts import LastingContact
 from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Phase
 from carom.parameters import LoadLimits
-from carom.results import record
 from carom.studies.load_tables import load_entries
 
 _TIMES = ("time", "start", "end", "peak_time")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from carom.base.results import record
 from carom.parameters.told import number, rounded_down, shown_in
-from carom.results import record
 from carom.studies.facts import Fact
 from carom.studies.study_data import StudyData
 from carom.studies.wording import counted, listed

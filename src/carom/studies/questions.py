@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from carom.base.results import record
 from carom.models import Rotor
 from carom.motions.budget import Question
-from carom.results import record
 from carom.studies.facts import Fact
 from carom.studies.wording import listed
 

@@ -12,6 +12,8 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from carom.base.outcome import CaromError
+from carom.base.progress import ShowProgress
 from carom.bifurcations import orbit_windows
 from carom.bifurcations.steady import steady_points
 from carom.closed_forms.equilibria import find_equilibria
@@ -21,10 +23,8 @@ from carom.models import Axis, Edge, Rotor, Span, axis, exact_rotor_of
 from carom.models.axes import usual_range
 from carom.models.spans import spans_where
 from carom.orbits.single_impact import longest_within_reach
-from carom.outcome import CaromError
 from carom.parameters import PHYSICAL_PARTNER
 from carom.parameters.told import own_entry
-from carom.progress import ShowProgress
 
 Motion = Steady | Literal["single-impact", "stable-single-impact"]
 

@@ -16,17 +16,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Positive, Seed, checked
+from carom.base.arguments import Count, Positive, Seed, checked
+from carom.base.outcome import InputError
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Result
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Rotor, Span, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.models.spans import paired, spans_where
 from carom.motions.budget import BudgetSpentError
-from carom.outcome import InputError
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.told import told_along
-from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result
 from carom.studies.ranges import Motion, MotionRange, motion_ranges
 from carom.studies.trials import Check, Trial
 

@@ -11,23 +11,17 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import checked
-from carom.closed_forms import (
-    SpeedResponse,
-    SynchronousResponse,
-    find_equilibria,
-    rolling,
-    speed_response,
-    synchronous_response,
-)
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import in_a_line, record
+from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
-from carom.outcome import InputError
 from carom.parameters import read_quantity
 from carom.parameters.fields import RPM
-from carom.results import in_a_line, record
 from carom.rotors import find_whirls
+from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.critical_speeds import criticals_of, exact_criticals
 from carom.studies.levitating import WHIRLS, speeds_of_response
 from carom.studies.response_data import ResponseData, Rubs, Steady, Stretch, stretches_between
@@ -80,7 +74,7 @@ def unbalance_response(
 ) -> UnbalanceResponse:
     """Response to the unbalance over the speed of the shaft, with contact where the rotor touches.
 
-    The contact-free response is linear (:func:`~carom.closed_forms.synchronous_response`), and of a rotor with one mass known in closed form
+    The contact-free response is linear (:func:`~carom.rotors.synchronous_response`), and of a rotor with one mass known in closed form
     (:func:`~carom.closed_forms.speed_response`).  Where it would leave the clearance it is virtual, and the rotor runs in contact.  The synchronous rubs in one
     touchdown bearing are given with their stability; bouncing is not, see :func:`~carom.find_bifurcations` along ``"speed"``.
 

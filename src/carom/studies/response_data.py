@@ -12,10 +12,11 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
-from carom.arguments import checked
-from carom.closed_forms import SpeedResponse, SynchronousResponse, synchronous_response
+from carom.base.arguments import checked
+from carom.base.results import Result
+from carom.closed_forms import SpeedResponse
 from carom.parameters import Case, Scales
-from carom.results import Result
+from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.critical_speeds import Critical
 from carom.studies.standards import vibration_limit
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.outcome import STEADY_WORDS
+from carom.base.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.parameters.told import number
 from carom.studies.critical_speeds import Critical

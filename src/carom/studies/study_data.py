@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 from carom.attractors import AttractorSet
+from carom.base.results import Result, record
 from carom.basins import Share
 from carom.closed_forms.equilibria import Equilibrium, SteadyMotion
 from carom.closed_forms.exact_results import ExactResults, exact_results
@@ -15,7 +16,6 @@ from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, Required
-from carom.results import Result, record
 from carom.rotors import ReducedMachine
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation

@@ -9,13 +9,13 @@ from typing import Literal
 
 from carom.attractors import Attractor, AttractorSet
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
+from carom.base.outcome import STEADY_WORDS
 from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.outcome import STEADY_WORDS
 from carom.parameters import Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.named import own_numbers

@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 
 from carom.attractors import AttractorSet
+from carom.base.progress import Reporter
+from carom.base.results import Result, record
 from carom.basins import Share, SmallestLoss, smallest_loss
 from carom.basins.families import harmless_size
 from carom.closed_forms.harmless import shift_by_unbalance
@@ -23,8 +25,6 @@ from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Rotor
 from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
-from carom.progress import Reporter
-from carom.results import Result, record
 from carom.studies.full_size import FullSize
 from carom.studies.kinds import Kind, required_kinds
 from carom.studies.questions import FEWEST, SMALLEST, events_for

@@ -14,16 +14,16 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Seed, checked
 from carom.attractors import MotionName
 from carom.attractors.naming import name_endings
+from carom.base.arguments import Count, Seed, checked
+from carom.base.results import Result
 from carom.basins.shares import Population, Share
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import follow
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
-from carom.results import Result
 
 FIRST_LOOK = 200
 """Number of disturbances of a kind that are followed first; the others follow only if none of these is lost."""

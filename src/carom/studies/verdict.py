@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
+from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.basins import Share, SmallestLoss
 from carom.disturbances.echo import ANY_INSTANT
-from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
 from carom.studies.kinds import LABELS, Kind, required_kinds

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from carom.arguments import checked
+from carom.base.arguments import checked
 from carom.models import Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.indentation import gives_way

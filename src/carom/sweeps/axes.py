@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
-from carom.arguments import Count, checked
-from carom.outcome import InputError, Problems, shown
+from carom.base.arguments import Count, checked
+from carom.base.outcome import InputError, Problems, shown
 from carom.parameters import SETTINGS, Field, field_to_set, read_quantity
 
 if TYPE_CHECKING:

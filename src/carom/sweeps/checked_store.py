@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from zarr.storage import LocalStore, WrapperStore
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.sweeps.chunk_record import ChunkRecord, record_file
 from carom.sweeps.integrity import DamagedError
 from carom.sweeps.layout import ROOT

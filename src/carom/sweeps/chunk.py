@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.compiling.target import processor
-from carom.outcome import CaromError
-from carom.results import Result
+from carom.base.outcome import CaromError
+from carom.base.results import Result
+from carom.core.compiling.target import processor
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import Status
 

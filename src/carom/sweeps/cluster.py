@@ -11,7 +11,7 @@ from queue import Empty, SimpleQueue
 from socket import gethostname
 from typing import TYPE_CHECKING
 
-from carom.outcome import CaromError, InputError
+from carom.base.outcome import CaromError, InputError
 from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
 from carom.sweeps.local import AHEAD
 from carom.sweeps.plan import SweepPlan
@@ -31,7 +31,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
 
     Only as many numbers are taken as the present workers can work on.  Workers may join and leave.  If a worker is lost, the
     scheduler gives its chunks to another one.  If too many workers are lost while they compute the same chunk, the scheduler
-    gives it up, and the chunk is recorded as failed.  A :class:`~carom.outcome.CaromError` says that the scheduler is lost, or
+    gives it up, and the chunk is recorded as failed.  A :class:`~carom.base.outcome.CaromError` says that the scheduler is lost, or
     that a worker cannot load carom or has another version of it.
     """
     from distributed import CancelledError, KilledWorker

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.files import sync_directory, unfinished
-from carom.outcome import InputError
-from carom.results import flags
+from carom.base.files import sync_directory, unfinished
+from carom.base.outcome import InputError
+from carom.base.results import flags
 from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.versions import other_version, versions

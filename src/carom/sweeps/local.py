@@ -17,7 +17,7 @@ from multiprocessing import connection
 from multiprocessing.process import BaseProcess
 from types import FrameType
 
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
 from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
 from carom.sweeps.plan import SweepPlan
 
@@ -53,7 +53,7 @@ def on_processes(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Gener
     """Compute chunks in worker processes, and yield them in the order in which they become ready.
 
     Only as many numbers are taken as the workers can work on.  A process that ends unexpectedly (killed, out of
-    memory) is replaced, and its chunk is tried once more; a :class:`~carom.outcome.CaromError` if processes end before
+    memory) is replaced, and its chunk is tried once more; a :class:`~carom.base.outcome.CaromError` if processes end before
     they begin.  loky starts them without running the calling script again, so it needs no ``if __name__ ==
     "__main__"``.
     """

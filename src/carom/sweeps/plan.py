@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.arguments import Count, Seed, Whole, checked
+from carom.base.arguments import Count, Seed, Whole, checked
+from carom.base.outcome import InputError, shown
 from carom.disturbances import Grid, Plan, Sample
-from carom.outcome import InputError, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Parameters, Zones
 from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, check_settings
 from carom.sweeps.axes import GridAxis

@@ -11,10 +11,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from carom.arguments import Count, checked
+from carom.base.arguments import Count, checked
+from carom.base.outcome import InputError
+from carom.base.progress import Reporter, ShowProgress, duration_words, shows_progress
 from carom.core.processors import available_cores
-from carom.outcome import InputError
-from carom.progress import Reporter, ShowProgress, duration_words, shows_progress
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.store import SweepStore

@@ -23,9 +23,9 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from filelock import FileLock, Timeout
 
-from carom.arguments import checked
-from carom.files import sync_directory, write_whole
-from carom.outcome import CaromWarning, InputError
+from carom.base.arguments import checked
+from carom.base.files import sync_directory, write_whole
+from carom.base.outcome import CaromWarning, InputError
 from carom.sweeps.chunk import MOST_FAILURES, Chunk
 from carom.sweeps.chunk_record import RECORDS, ChunkRecord, record_file
 from carom.sweeps.integrity import DamagedError, seal, seal_of
@@ -261,7 +261,7 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     xarray.Dataset
         Variables over the axes of the sweep; data are read when needed.  ``status`` says which points were computed.
         Reading a chunk of which a file is damaged, missing or another's raises an
-        :class:`~carom.outcome.InputError` that names the file.
+        :class:`~carom.base.outcome.InputError` that names the file.
 
     Raises
     ------

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Whole, checked
-from carom.outcome import STEADY_WORDS
+from carom.base.arguments import Whole, checked
+from carom.base.outcome import STEADY_WORDS
+from carom.base.results import fields_of, in_si
 from carom.parameters import Case, Zones
-from carom.results import fields_of, in_si
 from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, cast
 
 import pydantic
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, Problems, shown, together
 from carom.disturbances import MODELS, Sample
 from carom.loading import load
-from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     SETTINGS,

@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from carom.base.results import flags
 from carom.parameters import UNITS
-from carom.results import flags
 
 
 class Status:

@@ -8,7 +8,7 @@ import sys
 
 LAW = """
 from dataclasses import dataclass
-from carom.compiling.decorators import formula
+from carom.core.compiling.decorators import formula
 from carom.core.laws.compliant import no_impulse
 from carom.core.laws.hunt_crossley import press_coefficient, press_rounding
 from carom.core.laws.kelvin_voigt import edge

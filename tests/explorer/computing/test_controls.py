@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import carom
+from carom.base.outcome import InputError
 from carom.explorer.computing.controls import controls_of, in_options, unit_of, values_of, with_settings
-from carom.outcome import InputError
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 

@@ -10,6 +10,7 @@ from compilation import sized
 from machines import PAPER
 
 import carom
+from carom.base.outcome import InputError, Outcome
 from carom.explorer.computing.exports import Kick
 from carom.explorer.computing.kicked_motion import LONGEST, MOST_IMPACTS, follow_kick
 from carom.explorer.computing.kicks import map_kicks
@@ -17,7 +18,6 @@ from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import hits_of
 from carom.models import jeffcott, rotor_of
-from carom.outcome import InputError, Outcome
 from carom.plots import OUTCOMES
 
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))

@@ -10,12 +10,12 @@ from compilation import sized
 from machines import PAPER
 
 import carom
+from carom.base.outcome import Outcome
 from carom.disturbances import FASTEST, BaseShock, BladeLoss, Grid, KickPlane
 from carom.explorer.computing.kicks import NOWHERE, map_kicks, opening_range, telling_pair
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import RestKick, rest_of
 from carom.models import jeffcott
-from carom.outcome import Outcome
 from carom.plots import OUTCOMES
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import carom
+from carom.base.outcome import InputError
 from carom.closed_forms import harmless_kick
 from carom.explorer.computing import proofs
 from carom.explorer.computing.planes import planes_of
 from carom.models import rotor_of
-from carom.outcome import InputError
 from carom.proofs import prove_kicks
 
 pytestmark = pytest.mark.jit_only

@@ -145,7 +145,7 @@ def test_a_wrong_value_does_not_swallow_what_is_being_computed(page, monkeypatch
     def slow(rotor, plane, largest, tell):
         begun.set()
         go_on.wait(SOON)
-        tell(carom.progress.Progress(1.0, "found"))
+        tell(carom.base.progress.Progress(1.0, "found"))
         return Loss(None, "none found", "")
 
     monkeypatch.setattr(questions, "find_loss", slow)
@@ -169,7 +169,7 @@ def test_what_is_typed_is_told_in_the_unit_of_its_slider(page, name, text, value
 
 def test_a_machine_whose_orbits_cannot_be_computed_is_told_as_such(page, monkeypatch):
     def refuse(rotor):
-        raise carom.outcome.CaromError("no orbits; change the damping")
+        raise carom.base.outcome.CaromError("no orbits; change the damping")
 
     monkeypatch.setattr(questions, "table_of", refuse)
     page.session.show(request(1, held=True))
@@ -262,7 +262,7 @@ def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     def endless(rotor, plane, largest, tell):
         begun.set()
         while True:
-            tell(carom.progress.Progress(0.5, "still looking"))
+            tell(carom.base.progress.Progress(0.5, "still looking"))
 
     monkeypatch.setattr(questions, "find_loss", endless)
     page.session.show(request(1))

@@ -7,8 +7,8 @@ import pytest
 from machines import PAPER
 
 from carom import find_orbits
+from carom.base.outcome import InputError
 from carom.models import jeffcott
-from carom.outcome import InputError
 from carom.reproductions.mora2014.propositions import fixed_points, hopf_side
 
 

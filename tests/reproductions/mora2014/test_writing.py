@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 from carom.reproductions import mora2014
 
 

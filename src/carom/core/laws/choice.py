@@ -6,8 +6,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from carom.compiling.decorators import formula
 from carom.core import laws
+from carom.core.compiling.decorators import formula
 from carom.core.laws.law import LAWS
 
 Function = Callable[..., Any]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.compiling.decorators import formula
+from carom.core.compiling.decorators import formula
 
 
 @formula

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.arguments import Positive, checked
-from carom.compiling.decorators import formula
+from carom.base.arguments import Positive, checked
+from carom.core.compiling.decorators import formula
 from carom.core.laws.law import FromZeroToOne, Law
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.arguments import NotNegative, Positive, checked
-from carom.compiling.decorators import formula
+from carom.base.arguments import NotNegative, Positive, checked
+from carom.core.compiling.decorators import formula
 from carom.core.laws.compliant import no_impulse
 from carom.core.laws.law import Law
 

@@ -10,7 +10,7 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import Annotated, ClassVar, Self
 
-from carom.arguments import Kind
+from carom.base.arguments import Kind
 from carom.core import laws
 from carom.core.wall import Wall
 

@@ -9,8 +9,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
+from carom.base.outcome import InputError, Problems, printable, shown
 from carom.models import rotor_of
-from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TERM_FIELDS, Case, Field, read_quantity
 from carom.parameters.terms import set_by
 from carom.parameters.touchdown_bearing import PREFIX

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.base.outcome import STEADY_WORDS
+from carom.base.progress import ShowProgress
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
 from carom.explorer.computing.controls import Control, unit_of
 from carom.models import Rotor
-from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
-from carom.progress import ShowProgress
 
 _STEADY = {
     "contact-free": ("levitated", STEADY_WORDS["contact-free"]),

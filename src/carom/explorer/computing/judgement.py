@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from carom.base.outcome import InputError
+from carom.base.progress import Reporter, ShowProgress
 from carom.basins import smallest_loss
 from carom.explorer.computing.kicked_motion import MOST_EVENTS
 from carom.explorer.computing.kicks import heavy
@@ -13,10 +15,8 @@ from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import hits_of, wall_at
 from carom.models import Rotor
 from carom.motions import simulate
-from carom.outcome import InputError
 from carom.parameters import Case, LoadLimits
 from carom.parameters.told import told
-from carom.progress import Reporter, ShowProgress
 from carom.studies import study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import about

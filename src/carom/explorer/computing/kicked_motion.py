@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors.naming import name_motions
+from carom.base.outcome import Outcome
+from carom.base.progress import ShowProgress
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import Hits, hits_of, wall_at
 from carom.models import Rotor
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
-from carom.outcome import Outcome
 from carom.parameters.told import shown_in
 from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
-from carom.progress import ShowProgress
 from carom.studies.wording import counted, listed
 
 LONGEST, LONGEST_BOUNCING = 260.0, 110.0

@@ -8,6 +8,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from carom.base.outcome import InputError, Outcome
+from carom.base.progress import ShowProgress
 from carom.basins import Share, map_basins
 from carom.disturbances import Grid
 from carom.disturbances.blade_loss import levitating_before
@@ -15,10 +17,8 @@ from carom.disturbances.following import NO_START, follow
 from carom.explorer.computing.planes import Plane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Rotor
-from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
 from carom.plots.style import OUTCOMES
-from carom.progress import ShowProgress
 
 NOWHERE = 255
 """Cell without a start."""
@@ -66,7 +66,7 @@ class KickMap:
     largest : float
         Largest disturbance, in units of the equations: the radius of the disc.
     outcomes : ndarray of int, shape (n, n)
-        Codes of :class:`~carom.outcome.Outcome` by first (rows) and second component, both ascending; -1 without a start.
+        Codes of :class:`~carom.base.outcome.Outcome` by first (rows) and second component, both ascending; -1 without a start.
     touched : ndarray of bool, shape (n, n)
         Whether the rotor met the wall.
     cells : ndarray of uint8, shape (n, n)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from carom.closed_forms import SynchronousResponse, synchronous_response
+from carom.base.outcome import InputError
+from carom.base.progress import Reporter, ShowProgress
 from carom.models import rotor_of
-from carom.outcome import InputError
 from carom.parameters import Case
 from carom.parameters.told import number
-from carom.progress import Reporter, ShowProgress
 from carom.rotors.reduced_machine import UNHELD
+from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies import unbalance_response
 from carom.studies.levitating import WHIRLS, levitating, whirls_of
 from carom.studies.levitation_facts import bearing_facts, frequency_words, response_words, whirl_words

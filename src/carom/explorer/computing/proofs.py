@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.base.outcome import InputError
+from carom.base.progress import ShowProgress
 from carom.explorer.computing.planes import Plane
 from carom.models import Rotor, exact_rotor_of
-from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down
-from carom.progress import ShowProgress
 
 LIMIT = "30 s"
 """Time for the search."""

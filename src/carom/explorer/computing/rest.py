@@ -7,11 +7,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from carom.base.outcome import STEADY_WORDS, CaromError, InputError
 from carom.closed_forms import Equilibrium, find_equilibria
 from carom.disturbances import Coordinate, Disturbance, KickPlane, Starts, outward_from
 from carom.models import Rotor
 from carom.motions import State
-from carom.outcome import STEADY_WORDS, CaromError, InputError
 
 NONE = "No disturbance is followed: with these values there is no levitation that it could disturb."
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict, fields
 from typing import Any
 
+from carom.base.results import fields_of
 from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms import SynchronousResponse, harmless_blade_loss, harmless_kick, harmless_shock
+from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.diagrams import Picture, Point
 from carom.explorer.computing.judgement import Loss
@@ -21,7 +22,7 @@ from carom.parameters import Case, Scales
 from carom.parameters.fields import RPM
 from carom.parameters.told import number, shown_in, told
 from carom.plots.style import LOOKS
-from carom.results import fields_of
+from carom.rotors.synchronous import SynchronousResponse
 
 Message = dict[str, Any]
 FEW = 12

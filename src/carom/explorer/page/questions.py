@@ -7,6 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.base.outcome import CaromError
+from carom.base.progress import ShowProgress
+from carom.base.results import fields_of
 from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
@@ -24,10 +27,7 @@ from carom.explorer.page import messages
 from carom.explorer.page.messages import Message
 from carom.explorer.page.view import SLOTS, View
 from carom.models import Rotor, rotor_of
-from carom.outcome import CaromError
 from carom.parameters import Case
-from carom.progress import ShowProgress
-from carom.results import fields_of
 
 Pairs = tuple[tuple[float, float], ...]
 COARSE, FINE = 60, 120

@@ -8,13 +8,13 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from typing import Any
 
+from carom.base.outcome import CaromError, InputError
+from carom.base.progress import Progress
 from carom.explorer.background import Job, Worker
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.messages import Message
 from carom.explorer.page.questions import Questions, Shown, Subject, Work
 from carom.explorer.page.view import SLOTS, View, read_kick, read_view
-from carom.outcome import CaromError, InputError
-from carom.progress import Progress
 
 PAUSE = 0.06
 """Seconds without a further step after which, while a slider is dragged, more than the most urgent is computed."""

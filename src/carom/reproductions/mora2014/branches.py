@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from carom.base.results import Result
 from carom.bifurcations import Bifurcation, OrbitBranch
 from carom.bifurcations.words import continue_orbit
 from carom.continuation import Steps
@@ -11,7 +12,6 @@ from carom.models import jeffcott
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
 from carom.reproductions.mora2014.source import machine_at
-from carom.results import Result
 
 DAMPINGS = (0.002, 0.2)
 """Range of the damping; without damping there are infinitely many orbits."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from carom.base.results import fields_of
 from carom.reproductions.mora2014.pictures import Picture
 from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.reproductions.mora2014.source import CITATION, machine_at
-from carom.results import fields_of
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from carom.base.results import Result
+from carom.base.roots import bracketed_root
 from carom.bifurcations import Bifurcation, OrbitBranch
 from carom.bifurcations.conditions import grazing_equations
-from carom.continuation.roots import bracketed_root
 from carom.core.planar import radial_rates
 from carom.models import jeffcott
 from carom.parameters import Numbers
 from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
 from carom.reproductions.mora2014.source import machine_at
-from carom.results import Result
 
 SAMPLES = 96
 """Number of subintervals of the period in which extrema are searched."""

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.base.results import Result
 from carom.models import Rotor, jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.source import machine_at
-from carom.results import Result
 
 TURNS = 2.0
 """Turns of the shaft over which levitation is drawn."""

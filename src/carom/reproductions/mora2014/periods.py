@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.base.results import Result
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
@@ -15,7 +16,6 @@ from carom.orbits.single_impact import find_orbits
 from carom.parameters import Numbers
 from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at
-from carom.results import Result
 
 LONGEST_DRAWN = 30.0
 """Longest period drawn, in ``1/Ω``."""

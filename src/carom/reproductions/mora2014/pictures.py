@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
+from carom.base.results import Result
 from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.reproductions.mora2014.source import printed_texts
-from carom.results import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

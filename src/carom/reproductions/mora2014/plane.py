@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from carom.base.results import Result
 from carom.bifurcations import Bifurcation, Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
 from carom.closed_forms.thresholds import rub_limit
 from carom.continuation import Steps
 from carom.reproductions.mora2014.branches import FirstPair
 from carom.reproductions.mora2014.source import machine_at
-from carom.results import Result
 
 PLANE = Plane("gamma", "omega", (0.02, 0.42), (0.68, 0.9))
 STEPS = Steps(first=0.01, largest=0.05, sharpest_turn=0.15)

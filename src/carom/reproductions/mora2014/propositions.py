@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from carom.base.outcome import InputError
 from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
 from carom.closed_forms.thresholds import ranges_of
 from carom.models import jeffcott
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import InputError
 from carom.parameters import Parameters
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.base.results import Result
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.extrema import RadiusDiagram, radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
@@ -19,7 +20,6 @@ from carom.reproductions.mora2014.periods import (
 )
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
-from carom.results import Result
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -32,7 +32,7 @@ from numba.core.types import (  # type: ignore[attr-defined]
 )
 from numba.np.arrayobj import load_item, store_item
 
-from carom.compiling.instructions import (
+from carom.core.compiling.instructions import (
     COMPLEX_OPERATIONS,
     EXTREMES,
     array_in_record,

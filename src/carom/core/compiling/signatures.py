@@ -14,7 +14,7 @@ from numba.core.targetconfig import ConfigStack
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 from numba.core.typing import signature
 
-from carom.compiling.instructions import EXTREMES
+from carom.core.compiling.instructions import EXTREMES
 
 
 class RecallingContext:

@@ -8,9 +8,9 @@ from typing import Any, TypeVar
 import numba
 from numba.extending import register_jitable
 
-from carom.compiling.cache import keep
-from carom.compiling.choice import compiles_plainly
-from carom.compiling.names import NamingCompiler
+from carom.core.compiling.cache import keep
+from carom.core.compiling.choice import compiles_plainly
+from carom.core.compiling.names import NamingCompiler
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
@@ -19,7 +19,7 @@ _OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "ns
 
 
 def kernel(function: Kernel) -> Kernel:
-    """Compile a kernel: no Python objects, no global interpreter lock, cached on disk (:mod:`carom.compiling.cache`).
+    """Compile a kernel: no Python objects, no global interpreter lock, cached on disk (:mod:`carom.core.compiling.cache`).
 
     Arithmetic follows IEEE 754, but products and sums may be fused, and the sign of zero is undefined.
 
@@ -56,7 +56,7 @@ def _compile(function: Kernel, share: bool = False, **more: bool | str) -> Kerne
     if compiles_plainly():
         compiled: Kernel = numba.jit(**options, pipeline_class=NamingCompiler)(function)
     else:
-        from carom.compiling.intermediate import (
+        from carom.core.compiling.intermediate import (
             compile_once,  # imported here: another version of Numba may lack what it uses
         )
 

@@ -23,10 +23,10 @@ from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-from carom.compiling.cache_directory import cache_directory, tell_once
-from carom.compiling.choice import compiles_plainly
-from carom.compiling.names import source_of
-from carom.files import write_whole
+from carom.base.files import write_whole
+from carom.core.compiling.cache_directory import cache_directory, tell_once
+from carom.core.compiling.choice import compiles_plainly
+from carom.core.compiling.names import source_of
 
 CHECKSUM = 32
 """Length of the checksum at the start of a file, in bytes."""

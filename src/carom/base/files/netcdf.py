@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.files.whole import write_whole
-from carom.outcome import InputError
+from carom.base.files.whole import write_whole
+from carom.base.outcome import InputError
 
 if TYPE_CHECKING:
     import xarray

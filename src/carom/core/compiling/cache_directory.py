@@ -12,7 +12,7 @@ from pathlib import Path
 
 from platformdirs import user_cache_path
 
-from carom.outcome import CaromWarning
+from carom.base.outcome import CaromWarning
 
 VARIABLE = "CAROM_CACHE_DIR"
 """Environment variable that sets the cache directory."""

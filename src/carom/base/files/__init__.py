@@ -8,9 +8,9 @@
 =============  ============================================================
 """
 
-from carom.files.directory import check_directory, staged_directory
-from carom.files.documents import as_json, write_json
-from carom.files.whole import sync_directory, try_place, unfinished, write_whole
+from carom.base.files.directory import check_directory, staged_directory
+from carom.base.files.documents import as_json, write_json
+from carom.base.files.whole import sync_directory, try_place, unfinished, write_whole
 
 __all__ = [
     "as_json",

@@ -7,10 +7,10 @@ from typing import Any
 from numba.core.typed_passes import NativeLowering
 from numba.core.untyped_passes import InlineInlinables, RewriteSemanticConstants
 
-from carom.compiling.lowering import KernelLowering
-from carom.compiling.names import NamingCompiler
-from carom.compiling.shapes import RecordShapes
-from carom.compiling.signatures import RecallingContext
+from carom.core.compiling.lowering import KernelLowering
+from carom.core.compiling.names import NamingCompiler
+from carom.core.compiling.shapes import RecordShapes
+from carom.core.compiling.signatures import RecallingContext
 
 
 class KernelCompiler(NamingCompiler):

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from carom.files.whole import unfinished
-from carom.outcome import InputError
+from carom.base.files.whole import unfinished
+from carom.base.outcome import InputError
 
 FIGURES = "figures"
 MANIFEST = "study.json"

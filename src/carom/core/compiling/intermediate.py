@@ -15,8 +15,8 @@ from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined
 from numba.core.registry import CPUDispatcher
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 
-from carom.compiling.libraries import CallerLibrary, IntermediateLibrary
-from carom.compiling.steps import KernelCompiler
+from carom.core.compiling.libraries import CallerLibrary, IntermediateLibrary
+from carom.core.compiling.steps import KernelCompiler
 
 
 def compile_once(function: Any, options: dict[str, Any], share: bool) -> Any:
@@ -37,7 +37,7 @@ def _serve_kernels(kernel: Any) -> None:
 def _share_machine_code(kernel: Any) -> None:
     """Make the kernels that call a kernel use its machine code, which is compiled once for them and for Python.
 
-    Callers are kept on the disk with the name that they call, which is the same in each process (:mod:`carom.compiling.names`).
+    Callers are kept on the disk with the name that they call, which is the same in each process (:mod:`carom.core.compiling.names`).
     """
     add_overload, get_call_template = kernel.add_overload, kernel.get_call_template
 

@@ -8,7 +8,7 @@ from functools import cache
 
 import numba
 
-from carom.outcome import CaromWarning, InputError
+from carom.base.outcome import CaromWarning, InputError
 
 VARIABLE = "CAROM_COMPILER"
 """Environment variable that chooses how kernels are compiled."""

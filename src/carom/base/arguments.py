@@ -31,7 +31,7 @@ from typing import (
     overload,
 )
 
-from carom.outcome import InputError
+from carom.base.outcome import InputError
 
 if TYPE_CHECKING:
     import numpy as np  # loaded where an array is read: the parameters of a machine do without it
@@ -87,7 +87,7 @@ def checked(target: Callable[_Given, _Value]) -> Callable[_Given, _Value]: ...
 def checked(target: Any) -> Any:
     """Let a function, or the constructor of a class, refuse what its annotations do not allow.
 
-    It raises :class:`~carom.outcome.InputError`, which names the argument, the value and what is allowed.
+    It raises :class:`~carom.base.outcome.InputError`, which names the argument, the value and what is allowed.
     """
     if isinstance(target, type):
         target.__init__ = checked(target.__init__)  # type: ignore[misc]

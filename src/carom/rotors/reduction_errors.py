@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from carom.base.results import Result
 from carom.models import Rotor
 from carom.motions.load_sums import follow_loads
 from carom.motions.loads import DropLoads, FirstContact
 from carom.parameters.told import number
-from carom.results import Result
 from carom.rotors import ReducedMachine
 
 BEYOND = 3.0

@@ -2,7 +2,7 @@
 
 A kernel knows of this only the decorators it is defined with.  Numba's compiler compiles each kernel anew in each of its
 callers; where it is known to work, most of that is left out.  Everything here that rests on Numba's internals serves that
-alone, and can be done without (:func:`~carom.compiling.choice.compiles_plainly`).
+alone, and can be done without (:func:`~carom.core.compiling.choice.compiles_plainly`).
 
 ===================  ===========================================================
 ``decorators``       how kernels are defined

@@ -16,11 +16,11 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.results import Result
 from carom.models import Limit, Rotor, Subject, rotor_of
-from carom.outcome import InputError
 from carom.parameters import Zones
-from carom.results import Result
 from carom.rotors import FlexibleMachine
 from carom.rotors.equations import Equations, loops_of
 from carom.rotors.whirls import speeds_of
@@ -148,7 +148,7 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/dropped-rotor.toml")
-    >>> found = cm.closed_forms.synchronous_response(machine, [machine.parameters.scales.speed])
+    >>> found = cm.rotors.synchronous_response(machine, [machine.parameters.scales.speed])
     >>> print(f"{found.reach[0, 0]:.4f}")
     0.4012
     """

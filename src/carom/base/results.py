@@ -13,10 +13,10 @@ from typing import Any, ClassVar, TypeVar, overload
 
 import numpy as np
 
-from carom.arguments import checked
-from carom.outcome import InputError
-from carom.references import REFERENCES, Citations, carom_itself
-from carom.tabular import Tabular
+from carom.base.arguments import checked
+from carom.base.outcome import InputError
+from carom.base.references import REFERENCES, Citations, carom_itself
+from carom.base.tabular import Tabular
 
 Member = TypeVar("Member")
 WIDEST = 120
@@ -46,7 +46,7 @@ class Result(Tabular):
 
     ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.  ``figure``
     names the function of :mod:`carom.plots` that draws such a result; it is empty if there is none.  ``rests_on`` names the
-    publications of :mod:`carom.references` behind the methods that make such a result.
+    publications of :mod:`carom.base.references` behind the methods that make such a result.
     """
 
     shown: ClassVar[tuple[str, ...]] = ()
@@ -150,7 +150,7 @@ def citations(result: object) -> Citations:
     Returns
     -------
     Citations
-        :attr:`~carom.references.Citations.text` for people, :attr:`~carom.references.Citations.bibtex` for a file.
+        :attr:`~carom.base.references.Citations.text` for people, :attr:`~carom.base.references.Citations.bibtex` for a file.
 
     Raises
     ------

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from carom.outcome import CaromError
+from carom.base.outcome import CaromError
 
 HALVINGS = 30
 """Default number of halvings."""
