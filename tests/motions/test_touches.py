@@ -147,7 +147,7 @@ def test_a_contact_that_goes_on():
     assert not touches.lasts[:-1].any()
     assert touches.end[-1] == motion.time
     assert loads.impulse == touches.normal_impulse[:-1].max(initial=0.0) < touches.normal_impulse[-1]
-    assert loads.impacts == len(touches)
+    assert loads.contacts == len(touches)
 
 
 def test_a_motion_that_begins_in_the_wall():
