@@ -139,13 +139,13 @@ def _end(low: _Place, high: _Place, level: Level, at: Callable[[float], _Place])
 
     low, high = narrowed(low, high, NARROW)
     value = float(np.mean([place.value for place in narrowed(low, high, EXACT)]))
-    sides = ([each[1:] for each in side.solutions] for side in (low, high))
-    causes = causes_of_orbits(*sides, low.levitates != high.levitates)
+    below, above = ([each[1:] for each in side.solutions] for side in (low, high))
+    causes = causes_of_orbits(below, above, low.levitates != high.levitates)
     causes = [each for each in causes if each.kind in CHANGED_BY[level] and each.period > SHORT]
     inside = getattr(low, level) or getattr(high, level)
     if not causes:  # of an elastic rotor
         shortest = min(inside, key=lambda each: each.period)
-        return Edge(value, "vanishing-period", *shortest[2:], shortest.name)
+        return Edge(value, "vanishing-period", shortest.period, shortest.radial_speed, shortest.name)
 
     def apart(pair: tuple[Bifurcation, Solution]) -> float:
         cause, orbit = pair

@@ -155,8 +155,8 @@ def _by_impacts(rotor: Rotor, state: State, impacts: int, transient: int, batche
         if stretch is None:
             return None
         directions, _ = _carried(stretch.passages, directions)
-        state = stretch.end
-    before, grown, stretches = _apart(stretch.rate, directions), [], []
+        state, last = stretch.end, stretch
+    before, grown, stretches = _apart(last.rate, directions), [], []
     for stretch in _stretches(rotor, state, impacts):
         if stretch is None:
             return None
@@ -168,7 +168,7 @@ def _by_impacts(rotor: Rotor, state: State, impacts: int, transient: int, batche
         raise CaromError(f"only {len(durations)} segments were measured: raise impacts or lower batches")
     section, time = directions.shape[1], float(durations.sum())
     kept = _directions_kept(rotor, words)
-    rate = float((_apart(stretch.rate, directions) - before)[kept]) / time
+    rate = float((_apart(stretches[-1].rate, directions) - before)[kept]) / time
     values, errors = np.full(section + 1, -np.inf), np.zeros(section + 1)
     values[:kept], errors[:kept] = _means(np.concatenate(grown)[:, :kept], durations, batches)
     values[-1], errors[-1] = rate, abs(rate)

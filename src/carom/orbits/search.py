@@ -74,7 +74,9 @@ def search_orbits(
     return search.named(), done
 
 
-def _orbits_of_ends(rotor: Rotor, count: int, random: np.random.Generator) -> Iterator[tuple[Orbit, int]]:
+def _orbits_of_ends(
+    rotor: Rotor, count: int, random: np.random.Generator
+) -> Iterator[tuple[Orbit | SimulatedOrbit, int]]:
     """Orbits on which motions from random starts end, with the number of motions; an orbit may come several times."""
     ends: Endings = settle(rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
     ends = ends[((ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities > 0)) | (ends.outcomes == Outcome.MIXED)]
@@ -208,7 +210,7 @@ class Search:
         # Entry by entry: a solution with one huge duration is not near to everything.
         return bool((np.abs(pack(solution) - known) < within * (1.0 + np.abs(known))).all(axis=1).any())
 
-    def _add(self, orbit: Orbit) -> bool:
+    def _add(self, orbit: Orbit | SimulatedOrbit) -> bool:
         """Keep an orbit; whether it is new and has no more impacts than are searched."""
         if orbit.impacts > self.impacts or any(same_orbit(orbit, other) for other in self.found):
             return False

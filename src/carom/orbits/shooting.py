@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import CaromError
 from carom.core.closure import carry_through_segments, close_flights, shooting_equations
 from carom.core.segments import follow_flights
 from carom.core.sensitivity import sensitivity_of_flights
@@ -110,7 +111,9 @@ def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
 
 def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray:
     """Exact derivative of the left sides of the equations by a parameter of the planar rotor, shape (m (2N + 1),)."""
-    system, rates = rotor.system, rotor.rates(name) or ()
+    system, rates = rotor.system, rotor.rates(name)
+    if rates is None:
+        raise CaromError(f"how the rotor changes with {name} is not known exactly")
     at = word.kinds, word.planes, word.planes, *start
     changes: np.ndarray = sensitivity_of_flights(system.arrays, *system.nodes, *rates, *at)
     return changes

@@ -180,7 +180,8 @@ def _dial(axes: Axes, basin: Cells) -> None:
     axes.set_axis_off()
     axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
     for turned in (0, 90, 180, 270):
-        axes.text(*around(np.radians(turned), np.array(1.15)), f"{turned}°", ha="center", va="center")
+        x, y = around(np.radians(turned), np.array(1.15))
+        axes.text(float(x), float(y), f"{turned}°", ha="center", va="center")
     words = angle.words
     if model.kind == "release":
         motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}

@@ -283,11 +283,11 @@ def _gap_axis(axes: Axes, scales: Scales | None) -> None:
     if scales is None or axes.get_ylim()[0] <= 0.9 * wall:
         return
 
-    def turned(value: Floats) -> Floats:
+    def turned(value: Any) -> Any:
         """From mm to µm, which are 0 at the wall."""
         return 1e3 * (wall - np.asarray(value))
 
-    def back(gap: Floats) -> Floats:
+    def back(gap: Any) -> Any:
         return wall - 1e-3 * np.asarray(gap)
 
     axes.secondary_yaxis("right", functions=(turned, back)).set_ylabel("gap to the wall (\N{GREEK SMALL LETTER MU}m)")

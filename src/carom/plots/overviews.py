@@ -111,7 +111,7 @@ def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> Non
         if meaning != "virtual":
             direction_arrow(axes, line, look)
         point(axes, complex(line[0]), meaning, hollow=meaning != "stable", size=3.2, label="", layer=5.0)
-    for meaning in dict.fromkeys(orbit_look(orbit) for orbit in reversed(shown)):
+    for meaning in dict.fromkeys(orbit_look(orbit) for orbit in reversed(list(shown))):
         look, line_look = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
         axes.plot(
             [],

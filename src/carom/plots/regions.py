@@ -15,7 +15,7 @@ from carom.base.outcome import STEADY_WORDS
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter
-from carom.plots.plane import Floats, legend_above
+from carom.plots.plane import legend_above
 from carom.plots.style import TWO_COLUMNS, styled
 from carom.plots.words import with_symbols
 
@@ -65,7 +65,7 @@ def region_map(found: RegionMap, virtual: bool = False) -> Figure:
     return figure
 
 
-def _write(axes: Axes, words: str, place: Floats, gid: str, shift: float = 0.0, **options: Any) -> None:
+def _write(axes: Axes, words: str, place: Any, gid: str, shift: float = 0.0, **options: Any) -> None:
     """Write words at a place, or shifted from it to the left and downward, readable upon lines."""
     outline = [Stroke(linewidth=2.5, foreground="#ffffff"), Normal()]
     axes.annotate(

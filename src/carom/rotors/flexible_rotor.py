@@ -94,7 +94,7 @@ class FlexibleRotor(BendingRotor):
         return tuple(max(1, math.ceil(section.length / longest * (1.0 - 1e-12))) for section in self.sections)
 
     @cached_property
-    def places(self) -> np.ndarray:
+    def places(self) -> np.ndarray:  # type: ignore[override]
         """Where the ends of all elements lie along the shaft, m, shape (E + 1,)."""
         lengths = [
             section.length / count
@@ -108,12 +108,12 @@ class FlexibleRotor(BendingRotor):
         return sum(self.divisions[:node])
 
     @cached_property
-    def node_places(self) -> np.ndarray:
+    def node_places(self) -> np.ndarray:  # type: ignore[override]
         """Where its nodes are, from node 0 on, m."""
         return np.append(0.0, np.cumsum([section.length for section in self.sections]))
 
     @cached_property
-    def matrices(self) -> RotorMatrices:
+    def matrices(self) -> RotorMatrices:  # type: ignore[override]
         """``M``, ``K`` and ``G``."""
         matrices = np.zeros((3, 2 * len(self.places), 2 * len(self.places)))
         first = 0

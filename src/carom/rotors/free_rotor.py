@@ -127,7 +127,7 @@ class BendingRotor(FreeRotor):
         return None if own is None else np.array([own.rate(each) for each in self.free_modes.frequencies.tolist()])
 
     @cached_property
-    def damping_matrix(self) -> np.ndarray:
+    def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
         """``D``, shape (n, n): N s/m, N s, N m s."""
         if not isinstance(self.damping, Damping):
             return self.damping

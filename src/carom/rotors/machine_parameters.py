@@ -28,7 +28,7 @@ WHOLE: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "
 """Parameters of the machine as a whole, beside its weight."""
 OF_STATES = ("integral", "derivative", "delay")
 """Entries at zero of which a controller has fewer states."""
-_Paths = Mapping[str, tuple[tuple[str, ...], Field]]
+_Paths = dict[str, tuple[tuple[str, ...], Field]]
 """By the name of an entry, the attributes that lead to it from its part, and its field."""
 
 

@@ -121,7 +121,7 @@ class MatrixRotor(BendingRotor):
         return cls(**{name: found[name] for name in "MKG"}, nodes=nodes, damping=found.get("D", damping), **others)
 
     @cached_property
-    def matrices(self) -> RotorMatrices:
+    def matrices(self) -> RotorMatrices:  # type: ignore[override]
         """``M``, ``K`` and ``G``."""
         found = RotorMatrices(self.M.copy(), self.K, self.G.copy())
         for disc in self.discs:

@@ -84,7 +84,7 @@ class RigidRotor(FreeRotor):
         object.__setattr__(self, "stations", tuple(listed))
 
     @cached_property
-    def matrices(self) -> RotorMatrices:
+    def matrices(self) -> RotorMatrices:  # type: ignore[override]
         """``M``, ``K`` and ``G`` of displacement and tilt, or of the tilt alone."""
         if self.pivot is None:
             inertias = np.array([self.mass, self.diametral_inertia]), np.array([0.0, self.polar_inertia])
@@ -106,12 +106,12 @@ class RigidRotor(FreeRotor):
         return FreeModes(np.zeros(len(sizes)), np.diag(1.0 / np.sqrt(sizes)))
 
     @cached_property
-    def places(self) -> np.ndarray:
+    def places(self) -> np.ndarray:  # type: ignore[override]
         """Where its stations, its centre of mass and its fixed point are, m."""
         return np.unique([*self.stations, 0.0, *([] if self.pivot is None else [self.pivot])])
 
     @cached_property
-    def node_places(self) -> np.ndarray:
+    def node_places(self) -> np.ndarray:  # type: ignore[override]
         """Its stations, m."""
         return np.array(self.stations)
 
