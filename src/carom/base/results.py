@@ -14,6 +14,7 @@ from typing import Any, ClassVar, TypeVar, overload
 import numpy as np
 
 from carom.base.arguments import checked
+from carom.base.boxes import box
 from carom.base.outcome import InputError
 from carom.base.references import REFERENCES, Citations, carom_itself
 from carom.base.tabular import Tabular
@@ -63,8 +64,7 @@ class Result(Tabular):
         """
         if not self.figure:
             raise InputError("plot", type(self).__name__, "a result that carom.plots has a figure of")
-        # The layers forbid imports from above, so the figure is named here as data.
-        return getattr(import_module("carom.plots"), self.figure)(self, *args, **options)
+        return getattr(box("figures"), self.figure)(self, *args, **options)
 
     def rows(self) -> list[tuple[str, str]]:
         """By default the names of the attributes and their values."""

@@ -21,7 +21,6 @@ from carom.plots.words import counted, formula, number, told_in
 
 if TYPE_CHECKING:
     from carom.basins import Basin, Cells
-    from carom.proofs.proven_kicks import KickPart, ProvenKicks
 
 PIXELS = 640
 """Points along each side of the disc at which it is asked what is proven."""
@@ -41,7 +40,7 @@ _VEIL = 0.62
 
 @checked
 @styled
-def proven_kicks(kicks: ProvenKicks, basin: Basin | Cells | None = None, title: str | None = None) -> Figure:
+def proven_kicks(kicks: Any, basin: Basin | Cells | None = None, title: str | None = None) -> Figure:
     """Draw what is proven of a disc of kicks.
 
     With a basin, where kicks end is shown pale where it is simulated only, and in full colour where it is proven.  Beside it, the cells are shown by the number of impacts after which they return at most, and the open ones by the reason.  Circles mark the kicks that never
@@ -78,7 +77,7 @@ def proven_kicks(kicks: ProvenKicks, basin: Basin | Cells | None = None, title: 
     return finish(figure, motions, title or _title(kicks), columns=2, shares=False)
 
 
-def _panels(kicks: ProvenKicks, basin: Cells | None) -> tuple[Figure, list[Axes]]:
+def _panels(kicks: Any, basin: Cells | None) -> tuple[Figure, list[Axes]]:
     """A new figure with axes beside each other; below each other where figures are one column wide."""
     entries = len(kicks.parts) + 2 + (0 if basin is None else len(basin.motions) + 1)
     if basin is None or narrow():
@@ -89,12 +88,12 @@ def _panels(kicks: ProvenKicks, basin: Cells | None) -> tuple[Figure, list[Axes]
     return figure, list(figure.subplots(1, 2))
 
 
-def _title(kicks: ProvenKicks) -> str:
+def _title(kicks: Any) -> str:
     unit = shown_in("velocity", kicks.rotor.scales)[1]
     return f"Proven: {kicks.words.replace(unit, formula(unit))}"
 
 
-def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells, motions: list[MotionLook]) -> None:
+def _sampled(axes: Axes, kicks: Any, basin: Cells, motions: list[MotionLook]) -> None:
     """Paint where kicks end, pale where nothing is proven."""
     draw_cells(axes, basin, motions)
     reach = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
@@ -110,7 +109,7 @@ def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells, motions: list[MotionL
         axes.fill_between([], [], fc="white", ec="#a6a6a6", lw=0.4, label="pale: not proven")
 
 
-def _proven(axes: Axes, kicks: ProvenKicks) -> None:
+def _proven(axes: Axes, kicks: Any) -> None:
     """Fill the cells in the looks of their parts."""
     looks = _looks(kicks)
     radius = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
@@ -122,11 +121,11 @@ def _proven(axes: Axes, kicks: ProvenKicks) -> None:
         axes.add_collection(PolyCollection(cells, **look, **edge, rasterized=True, label=_words(part)))
 
 
-def _looks(kicks: ProvenKicks) -> list[dict[str, Any]]:
+def _looks(kicks: Any) -> list[dict[str, Any]]:
     """Colours of the parts: green the darker the more impacts, that of the rub, grey where nothing is proven."""
     left = iter(_GREYS)
 
-    def colour(part: KickPart) -> str:
+    def colour(part: Any) -> str:
         if part.impacts is not None:
             return _TEALS[min(part.impacts, len(_TEALS) - 1)]
         return _RUB if part.refuted else next(left, _GREYS[-1])
@@ -134,7 +133,7 @@ def _looks(kicks: ProvenKicks) -> list[dict[str, Any]]:
     return [{"facecolor": colour(part)} for part in kicks.parts]
 
 
-def _words(part: KickPart) -> str:
+def _words(part: Any) -> str:
     share = f"{number(100.0 * part.share, 3)} %"
     if part.refuted:
         return f"proven to end in the rub: {share}"
@@ -152,7 +151,7 @@ def _outline(edges: np.ndarray) -> np.ndarray:
     return np.hstack([around(turn, np.array(fast)), around(turn[::-1], np.array(slow))]).T
 
 
-def _frame(axes: Axes, kicks: ProvenKicks) -> None:
+def _frame(axes: Axes, kicks: Any) -> None:
     """Draw the circles of what never touches and of what all comes back."""
     factor, unit = told_in("velocity", kicks.rotor.scales)
     reach = _REACH * factor * kicks.largest

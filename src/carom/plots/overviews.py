@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from carom.models import Rotor
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
-    from carom.studies import Study
 
 _ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
@@ -87,7 +86,7 @@ def equilibria_and_orbits(
 
 
 @checked
-def overview(study: Study, title: str | None = None, *, virtual: bool = False) -> Figure:
+def overview(study: Any, title: str | None = None, *, virtual: bool = False) -> Figure:
     """Draw :func:`~carom.plots.equilibria_and_orbits` of a study.
 
     Raises

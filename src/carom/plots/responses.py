@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,9 +17,6 @@ from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, key, with_neighbours
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import number
-
-if TYPE_CHECKING:
-    from carom.studies import UnbalanceResponse
 
 NO_LEVITATION = f"no {STEADY_WORDS['contact-free']}"
 _FREE = replace(LOOKS["contact-free"], line="-", width=1.5)
@@ -40,7 +37,7 @@ _LOWEST = 0.05
 
 @checked
 @styled
-def unbalance_response(response: UnbalanceResponse) -> Figure:
+def unbalance_response(response: Any) -> Figure:
     """Draw amplitude and phase over the speed of the shaft in two panels.
 
     Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; counted
@@ -63,7 +60,7 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
     return figure
 
 
-def _title(response: UnbalanceResponse, *, named: bool) -> str:
+def _title(response: Any, *, named: bool) -> str:
     """Write the vibration at the present speed with its zone, and the name of the machine if it is not above."""
     width = 2e6 * float(response.now.touchdowns.major[0, response.worst])
     sag = 1e6 * float(response.now.sags[response.worst])
@@ -73,7 +70,7 @@ def _title(response: UnbalanceResponse, *, named: bool) -> str:
     return f"at {where}: {found}" if named else f"{response.case.name} at {where}\n{found}"
 
 
-def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: float) -> None:
+def _amplitudes(axes: Axes, response: Any, speeds: Floats, width: float) -> None:
     inside = response.reach <= 1.0
     top = _top(response)
     # Zones count sag and whirl, and the sag leaves so much less of each.
@@ -109,7 +106,7 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
             if not np.isnan(radii).all():
                 along = response.rubs.speeds / RPM if response.rubs else speeds
                 axes.plot(along, width * radii, **look.stroke, label=look.words, zorder=2.5)
-    limit = 1e6 * _limit(response)
+    limit = 1e6 * response.allowed_si
     axes.plot(speeds, limit, **_LIMIT.stroke, label=_LIMIT.words, zorder=2)
     _half_power(axes, response, width, top)
     axes.set(ylim=(0.0, width * top), ylabel="vibration (µm peak to peak)")
@@ -123,17 +120,11 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
     right.set_ylabel("radius (mm)")
 
 
-def _limit(response: UnbalanceResponse) -> Floats:
-    from carom.studies.standards import vibration_limit
-
-    return vibration_limit(response.speeds)
-
-
-def _top(response: UnbalanceResponse) -> float:
+def _top(response: Any) -> float:
     """Largest amplitude shown, in the smallest clearance."""
     least, rubs = float(response.whirl.clearances.min()), response.rubs
     limit, highest = (
-        float(_limit(response).max()) / (2.0 * least),
+        float(response.allowed_si.max()) / (2.0 * least),
         float(response.peak_to_peak_si.max()) / (2.0 * least),
     )
     needed = max(1.15 * highest, 1.15 * limit, _LOWEST)
@@ -141,7 +132,7 @@ def _top(response: UnbalanceResponse) -> float:
     return min(max(needed, 1.1), _HIGHEST) if touches else min(needed, 1.1)
 
 
-def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: float) -> None:
+def _half_power(axes: Axes, response: Any, width: float, top: float) -> None:
     """Mark the width of the peak, where it is on the page."""
     free = response.contact_free
     if free is None or free.half_power is None or not math.isfinite(free.peak):
@@ -152,7 +143,7 @@ def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: floa
         axes.plot(ends, [width * height] * 2, **_HALF.stroke, marker="|", ms=5.0, label=_HALF.words, zorder=4)
 
 
-def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
+def _phases(axes: Axes, response: Any, speeds: Floats) -> None:
     inside, rubs = response.reach <= 1.0, response.rubs
     lags = np.degrees(response.lags)
     lowest, highest = (
@@ -171,7 +162,7 @@ def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
     axes.set_ylabel("lag behind the\nunbalance (degrees)")
 
 
-def _marks(axes: Axes, response: UnbalanceResponse) -> None:
+def _marks(axes: Axes, response: Any) -> None:
     """Mark the present and the critical speed, and where no levitation is possible."""
     words = f"{NO_LEVITATION} possible"
     for stretch in response.stretches:

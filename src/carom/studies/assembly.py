@@ -11,11 +11,11 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from importlib import import_module
 from typing import Any, ClassVar, NamedTuple, get_args
 
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.base.arguments import checked
+from carom.base.boxes import box
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import in_a_line
@@ -233,21 +233,17 @@ def _is_known(asked: Asked) -> bool:
     return exact_results(asked.rotor).orbits
 
 
-def _prover() -> Any:
-    """The proofs, which need an extra; they stand above studies, so they are named here as data."""
-    return import_module("carom.proofs")
-
-
 def _prove(asked: Asked, tell: Reporter) -> Any:
-    return _prover().prove(asked.rotor, progress=tell)
+    return box("proofs").prove(asked.rotor, progress=tell)
 
 
 def _prove_kicks(asked: Asked, tell: Reporter) -> Any:
     """Of the kicks that must be survived, or of larger ones where these never touch."""
     harmless = harmless_kick(asked.rotor)
     reach = asked.required.kick if asked.required.kick > harmless else BEYOND * harmless
-    proof = _prover().prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell)
-    return _prover().ProvenKicks.of(proof, asked.rotor)
+    prover = box("proofs")
+    proof = prover.prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell)
+    return prover.ProvenKicks.of(proof, asked.rotor)
 
 
 def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:

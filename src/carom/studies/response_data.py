@@ -195,6 +195,11 @@ class ResponseData(Result):
         edges = crossings(self.speeds, asked.max(axis=1) - 1.0, lambda at: float(self.at(at).saturation.max()) - 1.0)
         return stretches_between(self.interval, edges, lambda at: bool(self.at(at).saturation.max() > 1.0))
 
+    @property
+    def allowed_si(self) -> np.ndarray:
+        """Shaft vibration that API 617 allows at the speeds, m peak to peak, shape (m,)."""
+        return vibration_limit(self.speeds)
+
     @cached_property
     def exceeds_api_617(self) -> tuple[Stretch, ...]:
         """Over which speeds the contact-free vibration exceeds the limit of API 617."""
@@ -203,7 +208,7 @@ class ResponseData(Result):
             width, allowed = 2.0 * self.at(speed).touchdowns.major.max(), vibration_limit(np.array(speed))
             return float(np.arctan2(width, allowed)) - 0.25 * math.pi  # finite at the peak of an undamped rotor
 
-        values = np.arctan2(self.peak_to_peak_si, vibration_limit(self.speeds)) - 0.25 * math.pi
+        values = np.arctan2(self.peak_to_peak_si, self.allowed_si) - 0.25 * math.pi
         edges = crossings(self.speeds, values, over)
         return stretches_between(self.interval, edges, lambda speed: over(speed) > 0.0)
 
