@@ -111,7 +111,7 @@ class Sample(_Plan):
     """A seeded random sample; a longer one of the same seed begins with the shorter.
 
     It is uniform in every coordinate, and in the instant where that matters, but uniform over the area where sizes in all directions fill a disc (kicks, shocks,
-    steps of the unbalance, states).
+    states).
 
     Attributes
     ----------

@@ -34,13 +34,13 @@ if TYPE_CHECKING:
 
 PLANAR_ALONE = (
     "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
-    "carom.drop, carom.study, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands study, simulate, drop, attractors, basins, "
-    "orbits, explore, and sweep with [basins]"
+    "carom.drop, carom.study, carom.find_attractors, carom.find_orbits, carom.find_bifurcations, carom.map_regions, carom.map_basins and carom.map_gains work, "
+    "and every command that reads a machine file"
 )
 _WITHOUT_FORCES = (
     "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
     "carom.drop, carom.study, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
-    "losses of a blade, steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
+    "losses of a blade, releases and states work; a setting gravity=0 leaves weight out"
 )
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
 _OF_EQUATIONS = [

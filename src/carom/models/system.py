@@ -21,8 +21,8 @@ ROUNDING = 1e-12
 ANISOTROPIC = "bearings that act differently in two directions"
 """What a rotor has that is refused for it."""
 ISOTROPIC_ALONE = (
-    "bearings alike in both directions; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors and "
-    "carom.map_basins work"
+    "bearings alike in both directions; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
+    "carom.find_orbits with impacts and carom.map_basins work"
 )
 
 

@@ -63,7 +63,7 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
         axes.set_title(f"starts {said} in the fixed frame")
         levitation = complex(basin.rotor.system.arrays.offsets[0])
         point(axes, clearance(basin.scales) * levitation, "contact-free", colour="#ffffff")
-    # The size of a step of the unbalance is a change of the eccentricity: no radius of a picture.
+    # Only sizes in all directions are radii of a picture.
     if smallest is not None and len(along) == 2 and (kind in (smallest.kind, "kick-plane")):
         _mark_smallest(axes, basin, smallest)
     for panel in beside:
