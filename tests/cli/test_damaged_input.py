@@ -334,7 +334,7 @@ def nothing_computed(monkeypatch):
         raise typer.Exit(0)
 
     for home, name in (
-        ("cli.simulate", "_follow"),
+        ("motions.simulation", "simulate"),
         ("basins", "map_basins"),
         ("closed_forms.equilibria", "find_equilibria"),
         ("bifurcations", "find_bifurcations"),
