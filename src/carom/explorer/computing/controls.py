@@ -157,7 +157,7 @@ def _single(case: Case) -> Iterator[Control]:
     shared = {control.name for control in _shared(case)}
     for name, entry in _entries(case).items():
         own = entry.entry
-        if name == own or own not in _KINDS or len(entry.parts.of(_named(case))) < 2:
+        if name == own or own not in _KINDS or len(getattr(_named(case), entry.attribute)) < 2:
             continue
         kind, number = _KINDS[own], name.rpartition("_")[2]
         value = _value(case, name, _unit(case, name, kind))
