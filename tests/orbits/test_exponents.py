@@ -14,7 +14,7 @@ from carom.base.outcome import CaromError, InputError, Outcome
 from carom.models import Rotor, from_matrices, jeffcott
 from carom.motions import State, kick, settle, simulate
 from carom.orbits import find_orbits
-from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
+from carom.orbits.exponents import CHUNK, LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.recognising import orbit_of_motion
 from carom.parameters import Parameters
 from tests.compilation import sized
@@ -74,6 +74,14 @@ def test_exponents_add_up_to_the_growth_of_volumes():
             assert np.isneginf(found.values).sum() == found.lost
     assert compared > 10
     assert lost > 0
+
+
+def test_stretches_of_a_long_motion_follow_one_another():
+    rotor = jeffcott(PAPER.replace(gamma=0.081))
+    start = find_orbits(rotor)["B1,d"].departure
+    found = lyapunov_exponents(rotor, State(start.position, 1.001 * start.velocity), CHUNK + 900)
+    assert found.positive
+    assert abs(found.values.sum() - found.volume) < 1e-9
 
 
 @pytest.mark.parametrize("parameters", [PAPER, PAPER.replace(gamma=0.083), LANDING, WITHOUT_REBOUND, ROLLING])
