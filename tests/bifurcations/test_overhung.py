@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.bifurcations.simulated import continue_simulated, switch_simulated
+from carom.base.outcome import InputError
+from carom.bifurcations.simulated import continue_simulated
 from carom.models import KelvinVoigt, Touchdown, from_corotating_matrices
 from carom.orbits.closing import close
 
@@ -58,5 +59,8 @@ def test_a_family_is_followed_where_a_flight_vanishes_and_doubles():
     assert (doubling.kind, round(doubling.value, 5)) == ("period-doubling", 4.86196)
     assert any(point.kind == "grazing" and abs(point.value - 5.2787) < 1e-4 for point in branch.special)
     assert {each.impacts for each in branch.orbits} == {1, 2}
-    doubled = switch_simulated(doubling, (4.85, 4.88))
+    doubled = cm.bifurcations.switch(doubling, (4.85, 4.88))
     assert doubled.orbits[0].period == pytest.approx(2.0 * doubling.period, rel=0.02)
+    grazing = next(point for point in branch.special if point.kind == "grazing")
+    with pytest.raises(InputError, match="a period doubling"):
+        cm.bifurcations.switch(grazing)

@@ -18,7 +18,7 @@ from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
 from carom.bifurcations.neighbours import BORDERS
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET, Bifurcation
-from carom.bifurcations.simulated import SimulatedBranch, continue_simulated
+from carom.bifurcations.simulated import SimulatedBranch, continue_simulated, switch_simulated
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import FAR_FROM_MOTION, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
@@ -124,12 +124,13 @@ def continue_orbit(
 
 
 @checked
-def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = True) -> OrbitBranch:
+def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = True) -> OrbitBranch | SimulatedBranch:
     """Branch that crosses or continues another at a special point.
 
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and
     where friction begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the
-    other slip.  ``admissible`` of the branch says which of its orbits are motions, and so on which side.
+    other slip.  ``admissible`` of the branch says which of its orbits are motions, and so on which side.  A branch of orbits that were
+    closed on the flow of the simulator goes on through such points by itself, and begins another one at a period doubling alone.
 
     Parameters
     ----------
@@ -147,11 +148,15 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
         No orbit is found next to it.
     """
     kind, orbit = point.kind, point.orbit
-    if kind not in ("period-doubling", *BORDERS):
-        raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(BORDERS)}")
+    simulated = isinstance(orbit, SimulatedOrbit)
+    if kind != "period-doubling" and (simulated or kind not in BORDERS):
+        others = "" if simulated else f", or one of: {', '.join(BORDERS)}"
+        raise InputError("special point", kind, f"a period doubling{others}")
     along = axis(orbit.rotor, point.parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
+    if simulated:
+        return switch_simulated(point, ends)
     present, limits = interval_around(along, value, ends)
     if kind == "period-doubling":
         family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)

@@ -16,9 +16,7 @@ BLADE_LOSS = option(
 )
 NODE = option("NODE", "The node of a flexible machine at which the blade is lost.")
 OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
-PROVE = flag(
-    "--prove", "Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof]."
-)
+PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")
 ALONG = option(
     "NAME",
     "A parameter along which recovery is searched and a change is looked for, such as 'speed', 'friction' or 'derivative'; may be repeated. By "

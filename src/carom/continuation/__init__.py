@@ -5,7 +5,6 @@
 ``tracer``      the algorithm: steps, their ends, special points
 ``equations``   the equations in scaled unknowns, and Newton's method
 ``refinement``  points between those of a branch, to draw it
-``roots``       bracketed root of a function of one variable
 ==============  =======================================================
 """
 

@@ -46,7 +46,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``sensitivity``        how these equations change with a parameter
 ``margins``            how far an orbit is from a change of its word
 ``variation``          how small changes of a state propagate
-``growth``             growth of small changes along a motion
 ``processors``         number of available processor cores
+``compiling``          how kernels are compiled and kept on the disk
 =====================  ===========================================================
 """

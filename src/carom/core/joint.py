@@ -7,7 +7,7 @@ effective mass of its plane, an impact changes the velocities by
 
 The laws hold at every plane at once.  *Newton's restitution* for several contacts (Moreau 1988): ``ṙ⁺ ≤ −d max(ṙ⁻, 0)``, ``P ≥ 0``,
 and one of the two is an equality.  Friction: ``|F| ≤ μP``; the slip ``v⁺`` vanishes, or ``F = −μP sgn v⁺``.  For a plane alone that is
-the law of :func:`carom.core.wall.rebound`.
+the law of :func:`carom.core.friction.rebound`.
 
 Friction changes the speed of a shaft that may change it too: with ``Δσ = Σ_q h_q F_q`` and ``ε = ȳep`` of :mod:`carom.core.shaft` the
 velocities change by ``i(s_p − ε_p)Δσ`` more, where the imaginary part of ``u`` now counts that of the surface.  Of a race that turns it

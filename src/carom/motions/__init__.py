@@ -18,7 +18,6 @@
 ``load_sums``         loads, added up piece by piece
 ``courses``           a drop sampled over all stages, to be drawn
 ``magnets``           how near a rotor comes to its magnets, and by how much their linear law is wrong there
-``reduction_errors``  what the vectors left out of a flexible machine change
 ``ledger``            energies of a motion
 ====================  ======================================================================================
 """

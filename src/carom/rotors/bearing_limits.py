@@ -1,4 +1,4 @@
-"""Limits of the magnetic bearings of a flexible machine, in the units of its model (:mod:`carom.models.limited`).
+"""Limits of the magnetic bearings of a flexible machine, in the units of its model (:mod:`carom.models.limits`).
 
 Without an amplifier the controller asks for the current ``i``, and what is beyond a limit is missing in the force ``−ki i``.  With one of bandwidth ``ω_b``
 it asks for ``u``, and the current of the amplifier follows,

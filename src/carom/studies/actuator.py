@@ -1,6 +1,6 @@
 """What the motions of a study have to do with the limits of the magnetic bearings.
 
-A limit of force or current acts in the motion (:mod:`carom.models.limited`): which disturbances come to it, and how many of these come back, is counted.
+A limit of force or current acts in the motion (:mod:`carom.models.limits`): which disturbances come to it, and how many of these come back, is counted.
 
 The rate of the current is not limited in the motion of the planar rotor, whose ``n`` equal bearings follow the controller at once, each by the control
 current ``i = ((k/n + ks)z + (c/n)ż)/ki`` (:mod:`carom.parameters.terms`).  What it asks for is compared with the limit afterwards: a motion that
