@@ -90,7 +90,7 @@ class Bifurcation(Result):
     admissible: bool = True
     detail: str = ""
     place: float = math.nan
-    # Not narrower: a word of segments, or closed on the flow of the simulator.
+    # Not narrower: a word of impacts, or closed on the flow of the simulator.
     shot: Any = None
 
     def line_of(self, name: str, value: object) -> str:

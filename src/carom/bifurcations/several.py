@@ -65,9 +65,11 @@ def searched_branches(
             if not (virtual or point.admissible) or not _begins_another(point, impacts, [*singles, *found]):
                 continue
             try:
-                add(switch(point, limits, virtual=virtual))
+                branch = switch(point, limits, virtual=virtual)
             except CaromError:
                 continue
+            if isinstance(branch, OrbitBranch):
+                add(branch)
 
     for single in singles:
         leave(single.special)

@@ -2,7 +2,7 @@
 
 ====================  ====================================================================
 ``orbit``             a periodic orbit of any word, with its margins
-``word``              which segments follow one another in it
+``word``              which impacts follow one another in it
 ``shooting``          its equations and Newton's method
 ``admissibility``     whether it is a motion of the machine
 ``single_impact``     all orbits with one impact a period

@@ -114,7 +114,7 @@ class SimulatedOrbit(Result):
 
     @property
     def word(self) -> str:
-        """The same: what happens is no word of segments at one touchdown bearing."""
+        """The same: what happens is no word of impacts at one touchdown bearing."""
         return self.segments
 
     @property

@@ -67,7 +67,7 @@ class OrbitSet(Members[Orbit]):
 
     # Not narrower: without a search it is a planar rotor, whose parameters are read.
     rotor: Any
-    # Not narrower: those of a search are closed as words of segments, or on the flow of the simulator.
+    # Not narrower: those of a search are closed as words of impacts, or on the flow of the simulator.
     members: tuple[Any, ...]
     impacts: int
     search: Searched | None
