@@ -13,6 +13,7 @@ print(motion.outcome.meaning)
 print(len(motion.contacts), "impacts until it has settled,", motion.multiplicity, "in each period afterwards")
 
 # %%
-# What to see: on the left, in the frame that turns with the shaft, the pale path of the first turns ends in a small loop that touches the
-# wall once: that is regular bouncing.  On the right the same loop as seen from outside, its impacts all round the bearing.
+# What to see: on the left, in the frame that turns with the shaft, the last eight turns are one small loop that touches the wall once: that is
+# regular bouncing.  The points say where the rotor was once a turn before.  On the right the same loop as seen from outside, its impacts all
+# round the bearing.
 figure = cm.plots.motion(motion)
