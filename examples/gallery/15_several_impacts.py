@@ -15,6 +15,7 @@ for orbit in orbits:
 print(orbits.argument)
 
 # %%
-# What to see: one of the unstable orbits with two impacts.  On the left both impacts are nearly at the same place: it was born from an orbit
-# with one, and is close to it still.
-figure = orbits["P2,1"].plot()
+# What to see: the stable one of the orbits with two impacts.  On the left both impacts are nearly at the same place: it was born from the orbit
+# with one, where that doubles its period, and is close to it still.
+(doubled,) = (orbit for orbit in orbits if orbit.impacts == 2 and orbit.stable)
+figure = doubled.plot()

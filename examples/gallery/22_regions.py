@@ -14,6 +14,6 @@ for region in regions.regions[:3]:
     print(region.motions)
 
 # %%
-# What to see: below the green curve the machine levitates, above it it cannot.  Between the dashed and the black line it can also bounce for ever.  Each area names the
-# motions in it; the star is the machine.
+# What to see: below the green curve the machine levitates, above it it cannot.  Between the dashed and the black line it can also bounce for
+# ever.  Each area has a number, and the list below tells the motions in it; the star is the machine.
 figure = regions.plot()

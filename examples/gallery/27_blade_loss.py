@@ -13,5 +13,5 @@ basin = cm.map_basins(machine, cm.Grid(loss, (360,)))
 print(basin.share_recovered.words)
 
 # %%
-# What to see: some phases of the change, relative to the unbalance before at the right, come back; at the others the rotor bounces or rubs.  Where a blade is lost is chance, so the share of green is the chance to come back.
+# What to see: some phases of the change, relative to the unbalance before at the right, come back; at the others the rotor rubs.  Where a blade is lost is chance, so the share of green is the chance to come back.
 figure = basin.plot()
