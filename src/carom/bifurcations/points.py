@@ -37,7 +37,7 @@ class Bifurcation(Result):
     kind : str
         Of orbits: ``"fold"`` (of the closed form: two periods meet), ``"speed-fold"`` (two radial speeds of one period
         meet), ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
-        ``"non-smooth-hopf"`` (orbits with one impact, or one contact with a wall that gives way, shrink to a boundary equilibrium), ``"vanishing-impact"`` (the
+        ``"non-smooth-hopf"`` (orbits with one impact shrink to a boundary equilibrium), ``"vanishing-impact"`` (the
         speed of an impact vanishes: grazing of the orbit without this impact), ``"slip-stop"`` (friction begins or
         ceases to stop the slip in an impact), ``"contact-onset"`` (an impact without rebound begins to stay on the wall),
         ``"contact-change"`` (something else that happens in a period begins or ceases to), ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the
