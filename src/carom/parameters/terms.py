@@ -152,9 +152,11 @@ def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has
     if name in TERMS and TERMS[name].sets in varied:
         field, formula, *_ = TERMS[name]
         return InputError(name, shown(given), f"stands for {field} = {formula}; use {field} here")
-    if has_scales or name not in MACHINE_FIELDS:
+    if has_scales or name not in SETTABLE:
         return unknown_name(name, given, varied, "the parameters")
-    allowed = f"not a parameter here ({', '.join(varied)}), as mass, clearance and speed are not known"
+    partner = {partner: number for number, partner in PHYSICAL_PARTNER.items()}.get(set_by(name))
+    advice = f"set {partner} instead" if partner in varied else "use a file with a [machine] table"
+    allowed = f"not a parameter here ({', '.join(varied)}), as mass, clearance and speed are not known; {advice}"
     return InputError(name, shown(given), allowed)
 
 
