@@ -187,10 +187,10 @@ def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:
         _check_speeds("races", state.races, len(places), "one for each race that turns")
         amplitudes[places] = state.races
     if state.shaft:
-        place = system.arrays["shaft"][0]
         _check_speeds(
             "shaft", state.shaft, 0 if system.shaft is None else 2, "speed and angle of a shaft whose speed changes"
         )
+        place = system.arrays["shaft"][0]
         amplitudes[place], amplitudes[place + 1] = cmath.rect(1.0, state.shaft[1]), state.shaft[0]
     contact = np.full(len(system.arrays["rows"]), AWAY)
     for plane in range(len(contact)):

@@ -31,6 +31,8 @@ LEFT = 1e-6
 """Factor in any stretch below which a direction counts as taken away."""
 CONFIDENT = 3.0
 """Standard errors by which an exponent has to differ from zero to have a sign."""
+TINY = float(np.finfo(float).tiny)
+"""Growth of directions that contact takes away, whose exponents are left out: its logarithm is finite."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -161,7 +163,7 @@ def _by_impacts(rotor: Rotor, state: State, impacts: int, transient: int, batche
         if stretch is None:
             return None
         directions, factors = _carried(stretch.passages, directions)
-        grown.append(np.log(factors))
+        grown.append(np.log(np.maximum(factors, TINY)))
         stretches.append(stretch)
     words, durations = [each.word for each in stretches], np.concatenate([each.durations for each in stretches])
     if len(durations) < batches:

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
-from carom.base.outcome import CaromError
+from carom.base.outcome import CaromError, Phase
 from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import Budget, Flow
 from carom.orbits.happenings import happenings
 
@@ -20,6 +21,8 @@ NOTHING = 1e-7
 EVENTS = 7e6
 """Events (:class:`~carom.orbits.flow.Budget`) after which no further stretch is measured."""
 MOST = 100_000
+BESIDE, CUTS = 1e-3, 41
+"""Distance from a rigid wall, in clearances, that is next to it, and times tried at which a stretch may end."""
 
 
 class Grown:
@@ -37,8 +40,7 @@ class Grown:
     def __init__(self, rotor: Rotor, state: State, impacts: int, transient: int) -> None:
         self.rotor, self.budget = rotor, Budget(EVENTS / 4)
         motion = simulate(rotor, state, 0.5 * STRETCH, settle=False)
-        flow, self.vector = Flow.at(motion, motion.time, self.budget)
-        self.flow = flow
+        self.flow, self.vector = Flow.at(motion, _cut(motion), self.budget)
         self.directions = np.linalg.qr(np.random.default_rng(0).normal(size=(len(self.vector),) * 2))[0]
         self._measure(transient)
         self.budget.left = EVENTS  # a long transient must leave something to be measured
@@ -52,20 +54,37 @@ class Grown:
     def _measure(self, impacts: int) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:
         """Follow the motion for a number of impacts and landings, or as long as there is time."""
         found: list[np.ndarray] = []
+        durations: list[float] = []
         struck = landed = 0
         while struck + landed < impacts and len(found) < MOST and not self.budget.spent:
             motion = self.flow.follow(self.vector, STRETCH)
+            if motion is not None and (length := _cut(motion)) < STRETCH:
+                motion = self.flow.follow(self.vector, length)
             if motion is None:
                 raise CaromError("the motion goes beyond the model: it has no exponents")
             happened = happenings(motion)
-            if not happened and not struck and len(found) > 50:
+            if not happened and not struck + landed and len(found) > 50:
                 raise CaromError("the motion stops hitting the wall: it has no exponents of impacts")
-            slopes = self.flow.derivative(self.vector, STRETCH, happened)
+            slopes = self.flow.derivative(self.vector, motion.time, happened)
             if not np.isfinite(slopes).all():
                 raise CaromError("the derivative of the motion is not known: it goes beyond the model beside it")
             self.directions, triangle = np.linalg.qr(slopes @ self.directions)
             found.append(np.log(np.maximum(np.abs(np.diag(triangle)), NOTHING)))
+            durations.append(motion.time)
             struck += sum(each.arrives for each in happened)
             landed += sum(each.label == "land" for each in happened)
             self.flow, self.vector = Flow.at(motion, motion.time, self.budget)
-        return np.full(len(found), STRETCH), np.array(found).reshape(len(found), -1), (struck, landed)
+        return np.array(durations), np.array(found).reshape(len(found), -1), (struck, landed)
+
+
+def _cut(motion: Trajectory) -> float:
+    """Time near the end of a stretch at which no plane flies next to a rigid wall, beyond which no motion beside it could begin."""
+    system = motion.rotor.system
+    times = motion.time * np.linspace(1.0, 0.5, CUTS)
+    amplitudes, phases = motion.amplitudes_at(times)
+    radii = np.array(
+        [[abs(system.at_plane(each, plane)[0]) for plane in range(phases.shape[1])] for each in amplitudes]
+    )
+    beside = (phases == Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0) & (radii > 1.0 - BESIDE)
+    clear = np.flatnonzero(~beside.any(axis=1))
+    return float(times[clear[0]]) if len(clear) else motion.time
