@@ -19,12 +19,13 @@ from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.search import Search
 from carom.orbits.searched import Searched, random_starts
+from carom.parameters import Parameters
 from tests.bouncing_machines import bouncing_parameters, disc_points
 from tests.compilation import sized
 from tests.machines import PAPER, random_parameters
 
 DOUBLED = PAPER.replace(gamma=0.083)
-CHATTERING = PAPER.replace(omega=0.334, rho=0.416, d=0.49, gamma=0.18, mu=0.287)
+LANDING = Parameters(0.0274, 1.0566, 0.42048, 0.0, 0.35408, 0.0269, 1.0477)
 """Bounces that chatter into a stretch of sliding twice a turn or so."""
 GUESSES = sized(400, 5, 1500)
 MANY = 10_000
@@ -85,10 +86,10 @@ def test_with_at_most_so_many_impacts():
 @pytest.mark.jit_only
 def test_an_orbit_with_lasting_contact_is_found():
     """Its period is the time between the lift-offs of a motion that has settled; two directions do not survive the contact."""
-    (orbit,) = [each for each in find_orbits(CHATTERING, impacts=1, guesses=1) if not each.impacts]
+    (orbit,) = [each for each in find_orbits(LANDING, impacts=1, guesses=1) if not each.impacts]
     assert (orbit.name, orbit.segments) == ("rubbing 1", "land slide+ lift")
     assert np.abs(orbit.multipliers.values[1:]).max() < 1e-6
-    motion = simulate(CHATTERING, orbit.departure, 60.0 * orbit.period)
+    motion = simulate(LANDING, orbit.departure, 60.0 * orbit.period)
     flying = motion.segment_phases[:, 0] == Phase.FLIGHT
     lifts = motion.segment_starts[1:][~flying[:-1] & flying[1:]]
     assert np.diff(lifts)[-5:] == pytest.approx(orbit.period, abs=1e-8)
