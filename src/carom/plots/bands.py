@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom.plots.plane import Complex, Floats, Frame
 from carom.plots.style import LOOKS
-from carom.plots.words import clearance, told_in
+from carom.plots.words import clearance
 
 if TYPE_CHECKING:
     from carom.motions.contacts import LastingContact
@@ -44,16 +44,6 @@ def drawing_times(trajectory: Trajectory, since: float = 0.0, until: float | Non
     times = times[(times >= since) & (times <= end)]
     ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
     return times[flying(trajectory, times) | np.isin(times, ends)]
-
-
-def bands_over_time(axes: Axes, trajectory: Trajectory) -> None:
-    """Mark lasting contact on the wall line of a plot of the radius over time."""
-    for kind in _KINDS:
-        spans = [span for span in trajectory.lasting_contacts if span.kind == kind]
-        times = np.array([moment for span in spans for moment in (span.start, span.end, np.nan)])
-        scales = trajectory.scales
-        wall = np.where(np.isnan(times), np.nan, clearance(scales))
-        _band(axes, kind, told_in("time", scales)[0] * times, wall)
 
 
 def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since: float = 0.0) -> None:
