@@ -308,7 +308,7 @@ def switch_simulated(point: Bifurcation, interval: Ends, budget: Budget | None =
     along = axis(orbit.rotor, point.parameter)
     vector = Flow.vector(orbit.start)
     free = orbit.repeats is None
-    slopes = orbit.flow.derivative(vector, orbit.period, happenings(orbit.motion))
+    slopes = orbit.flow.derivative(vector, orbit.motion)
     values, vectors = np.linalg.eig(slopes)
     direction = vectors[:, int(np.argmin(np.abs(values + 1.0)))].real
     direction = direction / np.abs(direction).max()
@@ -321,7 +321,7 @@ def switch_simulated(point: Bifurcation, interval: Ends, budget: Budget | None =
             motion = flow.follow(*found)
             if motion is None:
                 continue
-            values = multipliers_from(flow.derivative(*found, happenings(motion)), free=free)
+            values = multipliers_from(flow.derivative(found[0], motion), free=free)
             doubled = orbit.moved(flow, *found, values, CountedName(2 * orbit.impacts, 1))
             return continue_simulated(doubled, point.parameter, interval, budget=budget)
     raise CaromError("no orbit of twice the period was found beside the period doubling")

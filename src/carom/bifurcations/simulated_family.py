@@ -16,7 +16,6 @@ from carom.models.axes import Axis
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import multipliers_from
 from carom.orbits.flow import Budget, Flow
-from carom.orbits.happenings import happenings
 from carom.orbits.simulated import SimulatedOrbit
 
 DIFFERENCE = 1e-6
@@ -80,10 +79,10 @@ class Family:
         """Derivative of the end of the period by its start."""
         key = u.tobytes() + np.float64(p).tobytes()
         if key not in self._slopes:
-            motion, flow, (vector, period) = self.motion(u, p), self.flow(p), self.split(u)
+            motion, flow, (vector, _) = self.motion(u, p), self.flow(p), self.split(u)
             if motion is None or flow is None:
                 return np.full((len(vector),) * 2, np.nan)
-            self._slopes[key] = flow.derivative(vector, period, happenings(motion))
+            self._slopes[key] = flow.derivative(vector, motion)
         return self._slopes[key]
 
     def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:

@@ -25,8 +25,7 @@ def carry_through_impact(rotor, plane, before, directions):
     directions : complex array, shape (D, N)
         Changes of the amplitudes, along the wall; overwritten.
     """
-    wall = wall_of(rotor, plane)
-    carry_through_blow(rotor, plane, wall, sense_of(local_velocity(rotor, plane, before), wall), before, directions)
+    carry_through_blow(rotor, plane, wall_of(rotor, plane), sense_of_impact(rotor, plane, before), before, directions)
 
 
 @inlined
@@ -93,6 +92,51 @@ def carry_to_wall(rotor, plane, duration, arrival, directions, delays):
         position_change = displacement(rotor, plane, directions[i]) - rotor.offsets[plane]
         delays[i] = -(position.conjugate() * position_change).real / outward
     shift(rotor, arrival, directions, delays)
+
+
+@kernel
+def carry_through_impacts(rotor, planes, arrivals, afters, durations, directions):
+    """Replace changes at the start of a sequence of flights and impacts by the changes at its end, at the same time.
+
+    Returns the largest distance of amplitudes after an impact from those of an impact on this touchdown bearing alone.
+
+    Parameters
+    ----------
+    rotor : record of :func:`~carom.core.layout.rotor_record`
+    planes : int array, shape (n,)
+        Touchdown bearing of each impact; −1 where one flight goes over into the next.
+    arrivals, afters : complex arrays, shape (n, N)
+        Amplitudes before and after each impact.
+    durations : array, shape (n + 1,)
+        Length of each flight.
+    directions : complex array, shape (D, N)
+        Changes of the amplitudes; overwritten.
+    """
+    delays, increments, apart = np.empty(directions.shape[0]), np.empty_like(directions), 0.0
+    for i in range(durations.shape[0]):
+        if i < planes.shape[0] and planes[i] >= 0:
+            carry_to_wall(rotor, planes[i], durations[i], arrivals[i], directions, delays)
+            carry_through_impact(rotor, planes[i], arrivals[i], directions)
+            after = arrivals[i].copy()
+            strike(rotor, planes[i], sense_of_impact(rotor, planes[i], arrivals[i]), after, directions[:0])
+            for k in range(after.shape[0]):
+                apart = max(apart, squared_modulus(after[k] - afters[i, k]))
+            for row in range(delays.shape[0]):
+                delays[row] = -delays[row]
+            shift(rotor, after, directions, delays)
+        else:
+            flight_increments(rotor, directions, durations[i], increments)
+            for row in range(directions.shape[0]):
+                for k in range(directions.shape[1]):
+                    directions[row, k] += increments[row, k]
+    return math.sqrt(apart)
+
+
+@inlined
+def sense_of_impact(rotor, plane, before):
+    """Sense of the slip in an impact, from the amplitudes just before it."""
+    wall = wall_of(rotor, plane)
+    return sense_of(local_velocity(rotor, plane, before), wall)
 
 
 @kernel

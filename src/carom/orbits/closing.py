@@ -15,9 +15,9 @@ from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.stability import Multipliers
 
 ITERATIONS = 12
-TOLERANCE, ACCEPTED = 1e-11, 3e-9
-"""Distance of the end from the start, relative to one plus the size of the state, at which Newton's method stops; and that which is accepted
-where rounding lets it fall no further."""
+TOLERANCE, CLOSED, ACCEPTED = 1e-15, 1e-11, 3e-9
+"""Distance of the end from the start, relative to one plus the size of the state, at which Newton's method stops; that from which on it stops
+as soon as a step leads no nearer, as small orbits are better known than that; and that which is accepted where rounding lets it fall no further."""
 KEPT = 0.1
 """Factor by which the distance must fall for the derivative to be kept."""
 LONGEST_STEP, BACKTRACKS = 0.3, 5
@@ -97,7 +97,7 @@ def newton(flow: Flow, vector: np.ndarray, period: float, *, free: bool) -> tupl
             return None
         length = float(np.abs(change).max()) / (1.0 + float(np.abs(vector).max()))
         share, before = min(1.0, LONGEST_STEP / length if length > 0.0 else 1.0), miss
-        for _ in range(BACKTRACKS):
+        for _ in range(BACKTRACKS if miss > CLOSED else 1):
             there = vector + share * change[: len(vector)]
             later = period + share * float(change[-1]) if free else period
             ahead = flow.follow(there, later) if later > SHORTER * guess else None
@@ -122,7 +122,7 @@ def _solver(
     flow: Flow, vector: np.ndarray, period: float, motion: Trajectory, *, free: bool
 ) -> Callable[[np.ndarray], np.ndarray | None]:
     """Newton's step from a distance: of few numbers by the whole derivative, else in the space that the distance spans."""
-    same, n = happenings(motion), len(vector)
+    n = len(vector)
     begun, ended = (flow.rate(vector, 0.0), flow.rate(vector, period)) if free else (None, None)
 
     def bordered(change: np.ndarray, moved: np.ndarray) -> np.ndarray:
@@ -131,12 +131,12 @@ def _solver(
         return np.append(moved - change[:n] + ended * change[n], begun @ change[:n])
 
     def applied(change: np.ndarray) -> np.ndarray:
-        moved = flow.change(vector, change[:n], period, same) if change[:n].any() else np.zeros(n)
+        moved = flow.change(vector, change[:n], motion) if change[:n].any() else np.zeros(n)
         return bordered(change, moved)
 
     if n > DENSE:
         return lambda right: _krylov_step(applied, np.append(right, 0.0) if free else right)
-    slopes = flow.derivative(vector, period, same)
+    slopes = flow.derivative(vector, motion)
     whole = np.eye(n + int(free))
     matrix = np.array([bordered(each, slopes @ each[:n]) for each in whole]).T
 
@@ -180,7 +180,7 @@ def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None)
             closed = newton(flow, vector, part, free=repeats is None)
             if closed is not None and abs(closed[1] - part) < SAME * part:
                 return _orbit(flow, *closed, repeats)
-    values, complete = _multipliers(flow, vector, period, motion, free=repeats is None)
+    values, complete = _multipliers(flow, vector, motion, free=repeats is None)
     if values is None:
         return None
     name = CountedName(arrivals, 1) if arrivals else RubbingName(0, 1)
@@ -193,17 +193,14 @@ def _touches(motion: Trajectory) -> bool:
     return bool((motion.segment_phases != Phase.FLIGHT).any() or motion.is_impact.any())
 
 
-def _multipliers(
-    flow: Flow, vector: np.ndarray, period: float, motion: Trajectory, *, free: bool
-) -> tuple[np.ndarray | None, bool]:
+def _multipliers(flow: Flow, vector: np.ndarray, motion: Trajectory, *, free: bool) -> tuple[np.ndarray | None, bool]:
     """Non-trivial multipliers, the largest first, and whether these are all."""
-    same = happenings(motion)
     if len(vector) <= DENSE:
-        slopes = flow.derivative(vector, period, same)
+        slopes = flow.derivative(vector, motion)
         complete = True
     else:
         random = np.random.default_rng(0).normal(size=len(vector))
-        _, matrix = krylov(lambda change: flow.change(vector, change, period, same), random, DIRECTIONS)
+        _, matrix = krylov(lambda change: flow.change(vector, change, motion), random, DIRECTIONS)
         slopes, complete = matrix[:-1], False
     if not np.isfinite(slopes).all():
         return None, False

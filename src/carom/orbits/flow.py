@@ -1,8 +1,8 @@
 """The flow of any machine over a time, as a map of real numbers: where a simulated motion ends, and how that depends on its start.
 
-A state is its coordinates and their rates, real parts before imaginary parts, and the speeds of races that turn.  Derivatives are central
-differences of the certified flow along which the same happens in the same order; they hold for every law of contact, several bearings that
-touch at a time, and limits.  Their error is some 1e-8 of the derivative.
+A state is its coordinates and their rates, real parts before imaginary parts, and the speeds of races that turn.  Derivatives through flights and
+impacts on rigid walls are exact, by the saltation matrix of each impact.  All others (lasting contact, compliant bearings, several
+bearings struck in one instant, limits) are central differences of the certified flow, of which the motion between tells whether they are one.
 """
 
 from __future__ import annotations
@@ -16,14 +16,18 @@ import numpy as np
 from carom.base.outcome import CaromError, Outcome, Phase
 from carom.core.limits import LOWER, UPPER
 from carom.core.rub import rest_on_wall
+from carom.core.variation import carry_through_impacts
 from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.happenings import Happening, happenings
 
-STEPS = (3e-6, 1e-6, 1e-7)
-"""Steps of the central differences, relative to one plus the size of the state: the first at which the same happens on both sides."""
+STEPS = (3e-6, 1e-6, 1e-7, 1e-8)
+"""Steps of the central differences, relative to one plus the size of the state: the first that is short enough."""
+BEND = 3e-3
+"""Largest difference of the derivatives to both sides, relative to the larger of the derivative and one; the error of their mean is some square of it."""
+ALONE = 1e-9
+"""Distance, relative to one plus the size of the amplitudes, of the state after an impact from that of an impact on one bearing alone."""
 MOST_EVENTS = 40_000
 """Events of a period."""
 TURN, QUARTER = 2.0 * math.pi, 0.5 * math.pi
@@ -120,26 +124,45 @@ class Flow:
         motion = self.follow(vector, duration)
         return np.full(len(vector), np.nan) if motion is None else self.vector(motion.final)
 
-    def change(self, vector: np.ndarray, direction: np.ndarray, duration: float, same: list[Happening]) -> np.ndarray:
-        """Derivative of the end along a direction: with the step at which on both sides the same happens, or else with the least."""
-        size = 1.0 + float(np.abs(vector).max())
-        found = np.full(len(vector), np.nan)
+    def change(self, vector: np.ndarray, direction: np.ndarray, motion: Trajectory) -> np.ndarray:
+        """Derivative of the end of a motion by its start along a direction, by differences; ``nan`` where it has none."""
+        size, longest = 1.0 + float(np.abs(vector).max()), float(np.abs(direction).max())
+        end = self.vector(motion.final)
         for step in STEPS:
-            side = step * size / float(np.abs(direction).max()) * direction
-            motions = [self.follow(vector + sign * side, duration) for sign in (1.0, -1.0)]
-            first, last = motions
-            if first is None or last is None:
-                continue
-            found = self.vector(first.final) - self.vector(last.final)
-            found = found * (float(np.abs(direction).max()) / (2.0 * step * size))
-            if all(_alike(happenings(each), same) for each in (first, last)):
-                break
-        return found
+            share = step * size / longest
+            first, last = (self.end(vector + sign * share * direction, motion.time) - end for sign in (1.0, -1.0))
+            if float(np.abs(first + last).max()) <= BEND * max(float(np.abs(first - last).max()), 2.0 * step * size):
+                found: np.ndarray = (first - last) / (2.0 * share)
+                return found
+        return np.full(len(vector), np.nan)
 
-    def derivative(self, vector: np.ndarray, duration: float, same: list[Happening]) -> np.ndarray:
-        """Derivative of the end by the start, shape (n, n)."""
-        columns = [self.change(vector, direction, duration, same) for direction in np.eye(len(vector))]
-        return np.array(columns).T
+    def derivative(self, vector: np.ndarray, motion: Trajectory) -> np.ndarray:
+        """Derivative of the end of a motion by its start, shape (n, n)."""
+        exact = self._through_impacts(vector, motion)
+        if exact is not None:
+            return exact
+        return np.array([self.change(vector, direction, motion) for direction in np.eye(len(vector))]).T
+
+    def _through_impacts(self, vector: np.ndarray, motion: Trajectory) -> np.ndarray | None:
+        """The exact derivative of a motion of flights and impacts on rigid walls, each on one of them; ``None`` of another."""
+        system = motion.rotor.system
+        if system.is_anisotropic or system.races is not None or system.shaft is not None or saturates(motion):
+            return None
+        if (motion.segment_phases != Phase.FLIGHT).any():
+            return None
+        planes, after = np.where(motion.is_impact, motion.event_planes, -1), motion.segment_amplitudes[1:]
+        start = self.amplitudes(vector)
+        directions = np.array([self.amplitudes(vector + each) - start for each in np.eye(len(vector))])
+        apart = carry_through_impacts(system.arrays, planes, motion.arrivals, after, motion.durations, directions)
+        if apart > ALONE * (1.0 + float(np.abs(after).max(initial=0.0))):
+            return None
+        rest = self.vector(State.of(*system.state(np.zeros(system.modes, complex))))
+        return np.array([self.vector(State.of(*system.state(each))) - rest for each in directions]).T
+
+    def amplitudes(self, vector: np.ndarray) -> np.ndarray:
+        """Mode amplitudes of a state."""
+        state = self.state(vector)
+        return self.rotor.system.amplitudes(state.position, state.velocity, self.begins)
 
     def rate(self, vector: np.ndarray, duration: float) -> np.ndarray:
         """Rate of change of the end with the time that is followed."""
@@ -154,10 +177,6 @@ class Flow:
         ends = [self.vector(State.of(*system.state(each), system.race_speeds(each))) for each in amplitudes]
         rate: np.ndarray = (ends[1] - ends[0]) / float(np.ptp(times))
         return rate
-
-
-def _alike(first: list[Happening], second: list[Happening]) -> bool:
-    return [each[:2] for each in first] == [each[:2] for each in second]
 
 
 def saturates(motion: Trajectory) -> bool:

@@ -65,7 +65,7 @@ class Grown:
             happened = happenings(motion)
             if not happened and not struck + landed and len(found) > 50:
                 raise CaromError("the motion stops hitting the wall: it has no exponents of impacts")
-            slopes = self.flow.derivative(self.vector, motion.time, happened)
+            slopes = self.flow.derivative(self.vector, motion)
             if not np.isfinite(slopes).all():
                 raise CaromError("the derivative of the motion is not known: it goes beyond the model beside it")
             self.directions, triangle = np.linalg.qr(slopes @ self.directions)
