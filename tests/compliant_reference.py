@@ -1,4 +1,4 @@
-"""Reference for walls that give way: linear rotors of any size, followed by a general integrator from event to event.
+"""Reference for compliant walls: linear rotors of any size, followed by a general integrator from event to event.
 
 Nothing here shares a formula or a line with the package.  In the co-rotating frame
 

@@ -33,7 +33,7 @@ RIGID = {"three": THREE, "one": ONE, "six": SIX, "landing": LANDING, "plastic": 
 
 
 def soft(law, pull, gamma, omega, rho, mu, surface_speed):
-    """A planar rotor in a wall that gives way, and the same for the reference."""
+    """A planar rotor in a compliant wall, and the same for the reference."""
     planar = from_matrices(
         mass=[[1.0]],
         damping=[[gamma]],

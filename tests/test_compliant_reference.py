@@ -1,4 +1,4 @@
-"""The reference for walls that give way, against closed forms, polar coordinates in high precision, and itself in others."""
+"""The reference for compliant walls, against closed forms, polar coordinates in high precision, and itself in others."""
 
 import math
 from itertools import pairwise

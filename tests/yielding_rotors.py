@@ -1,4 +1,4 @@
-"""Rotors in walls that give way, and their equations written down a second time, in the co-rotating frame.
+"""Rotors in compliant walls, and their equations written down a second time, in the co-rotating frame.
 
 Nothing here shares a formula with the package: forces are physical ones on the coordinates, and a general integrator follows the
 motion from one change of contact to the next.
@@ -19,7 +19,7 @@ SURFACE_SPEED = 57.14
 
 @dataclass(frozen=True)
 class Yielding:
-    """A planar rotor ``Ü + (γ + 2i) U̇ + (ω² − 1 + iγ) U = ρe^{iφ}`` in a wall that gives way."""
+    """A planar rotor ``Ü + (γ + 2i) U̇ + (ω² − 1 + iγ) U = ρe^{iφ}`` in a compliant wall."""
 
     law: KelvinVoigt | HuntCrossley
     gamma: float = 0.1

@@ -1,4 +1,4 @@
-"""Rotors with walls that give way, and what their contacts do, by the reference of :mod:`compliant_reference`.
+"""Rotors with compliant walls, and what their contacts do, by the reference of :mod:`compliant_reference`.
 
 The reference gives the phases and the states between them; here impulses and works are integrated beside the equations.
 """

@@ -1,4 +1,4 @@
-"""The reference for walls that give way against heyoka, which integrates the planar rotor in the fixed frame by Taylor series."""
+"""The reference for compliant walls against heyoka, which integrates the planar rotor in the fixed frame by Taylor series."""
 
 import cmath
 

@@ -1,4 +1,4 @@
-"""Motions on walls that give way against an integrator that shares nothing with the package."""
+"""Motions on compliant walls against an integrator that shares nothing with the package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Attractors and basins of a rotor in a wall that gives way, against its orbits and rubs."""
+"""Attractors and basins of a rotor in a compliant wall, against its orbits and rubs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Orbits born where levitation meets a wall that gives way, against a piecewise linear system written down here.
+"""Orbits born where levitation meets a compliant wall, against a piecewise linear system written down here.
 
 Next to the boundary equilibrium, with the gap ``g`` as the unit of length, flight and contact with a spring and a damper are both linear:
 ``u'' + (γ + 2i)u' + (ω² − 1 + iγ)u = −(κδ + cδ')(1 + iμ)n`` with ``δ = Re n̄u − 1`` while that pushes.  Nothing else has a scale there.

@@ -240,7 +240,7 @@ def test_angles_count_from_the_axis_from_which_the_unbalance_counts(machine):
         (
             ("--start", "0.5,0,0,0"),
             (
-                f"Start: 0.35 mm from the centre at 0°, 64.5 mm/s at 90° in the fixed frame; {ANGLES} as it lies at the start, in the sense "
+                f"Start: 0.35 mm from the middle at 0°, moving at 64.5 mm/s towards 90° in the fixed frame; {ANGLES} as it lies at the start, in the sense "
                 "of rotation (the unbalance lies at 12°)"
             ),
         ),

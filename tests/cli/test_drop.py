@@ -16,7 +16,7 @@ def test_a_drop_in_words(carom):
     code, out, err = carom(*SHORT)
     words = " ".join(out.split())
     assert (code, err) == (0, "")
-    assert "Levitation is lost 0.0986 mm from the centre at -91.3°" in words
+    assert "Release: rotor centre 0.0986 mm from the middle at -91.3°" in words
     assert "Followed for 20 ms, and not settled by then (time reached)." in words
     assert "peak force 1,320 N, 5.99 ms after the release" in words
     assert "pressure of balls: 2.34 GPa, limit 4.2 GPa: kept" in words
@@ -46,7 +46,7 @@ def test_what_it_is_released_from(carom):
     assert said["race_speed_si"] == pytest.approx(500.0 * 3.141592653589793 / 30.0)
     assert said["unbalance_angle"] == pytest.approx(0.0, abs=1e-15)
     assert said["regained_after_si"] == pytest.approx(6e-3)
-    assert "the race turns with 500 rpm; levitation is back after 6 ms" in said["words"]
+    assert "the race turns at 500 rpm; levitation returns after 6 ms" in said["words"]
     case = cm.load(MACHINE)
     whirl = cm.motions.Whirl("0.2 mm", "-80 Hz", "30 deg")
     motion = cm.simulate(case, cm.drop(whirl, phase="90 deg", race_speed="500 rpm", regained_after="6 ms"))

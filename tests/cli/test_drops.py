@@ -88,7 +88,7 @@ def test_a_drop_in_words_is_seen_from_the_fixed_frame(carom):
     code, out, err = carom(*DROP)
     words = " ".join(out.split())
     assert (code, err) == (0, "")
-    assert "Levitation is lost 0.0986 mm from the centre at -91.3°" in words
+    assert "Release: rotor centre 0.0986 mm from the middle at -91.3°" in words
     assert "under 9.81 m/s² at -90°; angles are those of the fixed frame" in words
     assert "The rotor ends in rest on the touchdown bearing" in words
     assert "At the end, in the fixed frame: 1 c_r (0.25 mm) from the centre at -" in words

@@ -62,7 +62,7 @@ def test_the_other_kinds_load_and_explain_their_entries(tmp_path, kind, entries)
     for block in re.findall(r"^# \[+\w+\]+.*?(?=\n\n|\Z)", text, flags=re.MULTILINE | re.DOTALL):
         used = text.replace(block, re.sub("^# ", "", block, flags=re.MULTILINE))
         path.write_text(used.replace("restitution =", "# ") if "[touchdown]" in block else used, encoding="utf-8")
-        if "[drive]" not in block:  # it goes beside a bearing that gives way only
+        if "[drive]" not in block:  # it goes beside a compliant bearing only
             cm.load(path)
 
 

@@ -22,7 +22,7 @@ RIGID, SPRING, BALLS = Rigid(0.96), KelvinVoigt(3e3, 1.5), HuntCrossley(500.0, 0
 
 
 def planar(law, omega=1.2, gamma=0.08, gap=0.0):
-    """The planar rotor in a wall that gives way, with levitation at a distance from it."""
+    """The planar rotor in a compliant wall, with levitation at a distance from it."""
     return Yielding(law, gamma=gamma, omega=omega, rho=(1.0 + gap) * abs(complex(omega**2 - 1.0, gamma))).model
 
 

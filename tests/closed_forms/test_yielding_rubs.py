@@ -1,4 +1,4 @@
-"""Rubs in walls that give way, against their equations of motion written down a second time."""
+"""Rubs in compliant walls, against their equations of motion written down a second time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Steady motions on walls that give way, put into the equations of motion of a reference that shares nothing with them."""
+"""Steady motions on compliant walls, put into the equations of motion of a reference that shares nothing with them."""
 
 import cmath
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Contact with walls that give way: series and steps against the equations in polar coordinates with many digits."""
+"""Contact with compliant walls: series and steps against the equations in polar coordinates with many digits."""
 
 from __future__ import annotations
 

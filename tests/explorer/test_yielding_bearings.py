@@ -1,4 +1,4 @@
-"""The page of a machine whose touchdown bearing gives way: controls, pictures, what is copied, and what is left out."""
+"""The page of a machine whose touchdown bearing is compliant: controls, pictures, what is copied, and what is left out."""
 
 from __future__ import annotations
 

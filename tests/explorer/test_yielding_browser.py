@@ -1,4 +1,4 @@
-"""The page of a touchdown bearing that gives way, in a real browser."""
+"""The page of a compliant touchdown bearing, in a real browser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Walls that give way: nothing prefers a direction, and stiff ones are the rigid wall."""
+"""Compliant walls: nothing prefers a direction, and stiff ones are the rigid wall."""
 
 from __future__ import annotations
 

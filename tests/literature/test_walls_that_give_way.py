@@ -1,4 +1,4 @@
-"""Walls that give way: restitution that formulas in use promise, and an overhung rotor in a ring."""
+"""Compliant walls: restitution that formulas in use promise, and an overhung rotor in a ring."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The planar rotor in a touchdown bearing that gives way: units, restitution, mount, names."""
+"""The planar rotor in a compliant touchdown bearing: units, restitution, mount, names."""
 
 from __future__ import annotations
 

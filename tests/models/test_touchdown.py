@@ -103,7 +103,7 @@ def test_the_outcomes_of_a_wall_that_yields_are_those_of_any_other():
     assert motion.outcome in (Outcome.LEVITATED, Outcome.FORWARD_RUB, Outcome.BOUNCING)
 
 
-# ------------------------------------------------------------------------------------------------ walls that give way
+# ------------------------------------------------------------------------------------------------ compliant walls
 
 SPRING, BALLS = KelvinVoigt(3e4, 7.0), HuntCrossley(5e4, 0.3, 1.5)
 IN_SI = Scales(mass=3.0, clearance=0.2e-3, speed=400.0)

@@ -1,4 +1,4 @@
-"""Contacts with walls that give way: closed forms of a free mass, and the reference."""
+"""Contacts with compliant walls: closed forms of a free mass, and the reference."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def test_depth_and_pressure_are_told_in_the_units_of_people(tmp_path):
 @pytest.mark.parametrize(
     ("limits", "words"),
     [
-        ('[limits]\ndepth = "20 um"', "depth = 2e-05: a limit needs a table [touchdown] of a bearing that gives way"),
+        ('[limits]\ndepth = "20 um"', "depth = 2e-05: a limit needs a table [touchdown] of a compliant bearing"),
         ("[limits]\npressure = 4e9", "pressure = 4000000000.0: a limit needs balls in the table [touchdown]"),
         ('[limits]\ndepth = "20 GPa"', "depth = 20 GPa: must be a length in m"),
     ],

@@ -1,4 +1,4 @@
-"""Restitution and what a wall that gives way dissipates, against high precision and other forms of the same equations."""
+"""Restitution and what a compliant wall dissipates, against high precision and other forms of the same equations."""
 
 import mpmath
 import pytest

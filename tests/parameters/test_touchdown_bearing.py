@@ -114,7 +114,7 @@ def test_what_a_law_does_not_have(tmp_path, table, words):
 
 
 def test_a_restitution_of_the_machine_beside_the_law_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"restitution = 0\.9: must be left out: the touchdown bearing gives way"):
+    with pytest.raises(InputError, match=r"restitution = 0\.9: must be left out: the touchdown bearing is compliant"):
         load(tmp_path, SOFT + "damping = 500\n", machine=MACHINE + "restitution = 0.9\n")
     with pytest.raises(InputError, match=r"restitution = 0\.9: must be left out"):
         load(tmp_path, SOFT + "damping = 500\n", ["restitution=0.9"])

@@ -67,7 +67,7 @@ class Ending(Result):
 
     @cached_property
     def hardest_impulse(self) -> float:
-        """Largest normal impulse until then, in ``m c_r Ω``; in a wall that gives way that of a contact.
+        """Largest normal impulse until then, in ``m c_r Ω``; in a compliant wall that of a contact.
 
         The motion is simulated again to find it; one that is irregular for long may then take another course.
         """

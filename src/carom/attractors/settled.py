@@ -27,7 +27,7 @@ SAME = 1e-6
 """Distance, relative to one plus the size of the state, below which states are the same; speed below which a rotor is at rest."""
 SAMPLES = 1000
 LOOKED_AT = 4096
-"""Most segments at the end of a motion that does not repeat in which contacts with walls that give way are looked at."""
+"""Most segments at the end of a motion that does not repeat in which contacts with compliant walls are looked at."""
 TURNS = 10.0
 """Turns of the shaft over which a motion without a period is evaluated."""
 
@@ -157,7 +157,7 @@ def _last_times(settled: SettledMotion) -> np.ndarray:
 def forces_on(settled: SettledMotion) -> tuple[float, float]:
     """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane, in units of the rotor.
 
-    A contact with a wall that gives way has both.
+    A contact with a compliant wall has both.
     """
     motion = settled.motion
     if settled.outcome is Outcome.LEVITATED:
@@ -185,7 +185,7 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
 
 
 def _with_touches(motion: Trajectory, impulse: float, force: float) -> tuple[float, float]:
-    """Largest impulse and force, with those of the contacts with walls that give way; samples miss brief ones."""
+    """Largest impulse and force, with those of the contacts with compliant walls; samples miss brief ones."""
     for plane in np.flatnonzero(motion.rotor.system.arrays["stiffness"] > 0.0).tolist():
         touches, width = motion.seen_at(plane).touches, float(motion.rotor.system.widths[plane])
         impulse = max(impulse, float(touches.normal_impulse.max(initial=0.0)) / width)

@@ -141,7 +141,7 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
 
 
 def _impacts(rotor: Rotor, attractor: Attractor) -> np.ndarray:
-    """Radial speeds of the impacts on an attractor, or of arrivals at a wall that gives way; for a periodic one those of one period."""
+    """Radial speeds of the impacts on an attractor, or of arrivals at a compliant wall; for a periodic one those of one period."""
     if attractor.name.outcome not in REPEATING:
         return np.empty(0)
     motion = simulate(rotor, attractor.state, SHOWN_TIME, max_events=50 * SHOWN_IMPACTS)

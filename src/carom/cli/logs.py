@@ -65,7 +65,7 @@ def write_csv(motion: Trajectory, path: str) -> None:
 
 
 def _log(motion: Trajectory) -> xarray.Dataset:
-    """Impacts, or contacts with walls that give way, of all stages and at all touchdown bearings, in order of time from the beginning."""
+    """Impacts, or contacts with compliant walls, of all stages and at all touchdown bearings, in order of time from the beginning."""
     import xarray
 
     logs = []

@@ -172,7 +172,7 @@ class _Row(NamedTuple):
 
 
 def _event_rows(say: Wording, seen: Trajectory) -> list[_Row]:
-    """Contacts at one bearing: impacts and lasting contacts, or those with a wall that gives way."""
+    """Contacts at one bearing: impacts and lasting contacts, or those with a compliant wall."""
     log, bearing = seen.log, seen.plane + 1
     slips: list[tuple[str, ...]]
     if isinstance(log, TouchLog):

@@ -42,7 +42,7 @@ _WHIRL = "must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as '0.1 mm,-80 Hz,30 d
 def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> State:
     """Read ``RE,IM,VRE,VIM``: position and velocity in the co-rotating frame, in ``c_r`` and ``c_r Ω`` or with units.
 
-    A start may lie in a wall that gives way.
+    A start may lie in a compliant wall.
     """
     parts = split_text("--start", text, (4,), _START)
     x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])

@@ -16,7 +16,7 @@
 ``local``           cycles that shrink into a boundary equilibrium
 ``piecewise``       motion next to a point of a wall that levitation touches
 ``wall_meetings``   what is born there, for any number of modes and both kinds of walls
-``yielding_walls``  slipping whirl on walls that give way
+``yielding_walls``  slipping whirl on compliant walls
 ``hertz``           pressure between the balls and the race of a touchdown bearing
 ``exact_results``   what general code may ask of any rotor
 ==================  ===================================================

@@ -144,7 +144,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
 
     Synchronous rub: the contact force ``−N(1 + iμ)e^{iθ}`` (slip is forward, ``s + 1 > 0``) acts through the static
     receptance of the planes (:mod:`carom.closed_forms.statics`).  Rubs at one plane and at two planes at once are all
-    found; at three and more they are searched, and ``complete`` is false.  In a wall that gives way the rotor is as deep as
+    found; at three and more they are searched, and ``complete`` is false.  In a compliant wall the rotor is as deep as
     the force presses it: ``|y| = 1 + δ`` with the force of the law at rest, and ``normal_force`` pushes where it is above zero.
     For the planar rotor
     ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``: none or two.
@@ -209,7 +209,7 @@ def _rub(model: Rotor, planes: tuple[int, ...], forces: np.ndarray, touching: np
     contact[chosen] = Phase.FORWARD_SLIP
     eigenvalues = sliding_rates(system, amplitudes, contact)
     position, _ = system.state(amplitudes)
-    # At several planes bounces are not judged; a wall that gives way has none at rest.
+    # At several planes bounces are not judged; a compliant wall has none at rest.
     lands = len(planes) > 1 or bool(arrays["restitution"][planes[0]] < 1.0)
     margin = min(forces.min(), *(1.0 - np.abs(np.delete(places, chosen))), np.inf)
     stable = _dies_out(eigenvalues) and bool(forces.min() > 0.0) and lands

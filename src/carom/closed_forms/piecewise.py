@@ -6,7 +6,7 @@ amplitudes ``c`` of the free modes, ``ċ = Mc``, the row ``W`` of the plane and 
 
 *Rigid wall.*  An arrival at ``δ = 0`` with ``δ̇ > 0`` changes ``c`` by ``−Bqnδ̇`` with ``q = (1 + d)(1 + iμ)``.
 
-*Wall that gives way linearly.*  While the force ``N = κδ + ηδ̇`` per felt mass pushes, ``ċ = Mc − (1 + iμ)Bn N``.  Where contact begins
+*Wall with a linear spring.*  While the force ``N = κδ + ηδ̇`` per felt mass pushes, ``ċ = Mc − (1 + iμ)Bn N``.  Where contact begins
 the rates jump by ``ηδ̇``; where it ends nothing does.
 
 All of it is homogeneous in ``c`` and ``g``: only the sign of ``g`` matters, and motions are proportional to its size.  A wall whose force grows with a
@@ -93,7 +93,7 @@ class Pieces:
 
     @cached_property
     def compliance(self) -> float:
-        """Gap per normal force at rest in contact: ``Re h``, how far the force and its friction move the plane, and what the wall gives way."""
+        """Gap per normal force at rest in contact: ``Re h``, how far the force and its friction move the plane, and how far the wall is indented."""
         moved = float(self.depth @ np.linalg.solve(self.flight, self.push))
         return moved if self.rigid else moved + 1.0 / self.stiffness
 

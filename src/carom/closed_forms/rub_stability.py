@@ -8,7 +8,7 @@ With the planes ``p`` of a set in forward slip, ``ċ = Mc − Σ B_p (1 + iμ_p)
 
 and small motions keep ``Re(ȳ_p δy_p) = Re(ȳ_p δẏ_p) = 0``.
 
-A plane in a wall that gives way is free to move along its normal ``n = y/|y|``.  Its force ``−(1 + iμ) N n`` follows from the law, with
+A plane in a compliant wall is free to move along its normal ``n = y/|y|``.  Its force ``−(1 + iμ) N n`` follows from the law, with
 ``δN = N_δ Re(n̄δy) + N_δ̇ Re(n̄δẏ)`` and ``δn = i n Im(n̄δy)/|y|``, and adds to the accelerations ``a`` of the others.
 """
 
@@ -83,7 +83,7 @@ def _on_walls(
 
 
 def _in_wall(system: System, plane: int, amplitudes: np.ndarray, changes: np.ndarray) -> tuple[complex, np.ndarray]:
-    """Contact force of a plane at rest in a wall that gives way, and how changes (M, N) of the amplitudes change it, shape (M,)."""
+    """Contact force of a plane at rest in a compliant wall, and how changes (M, N) of the amplitudes change it, shape (M,)."""
     contact, arrays = system.contacts[plane], system.arrays
     y = complex(contact.row @ amplitudes) + contact.offset
     normal, radius, wall = y / abs(y), abs(y), contact.wall

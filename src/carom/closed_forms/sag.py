@@ -88,7 +88,7 @@ class Levitation(Result):
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances die out; not where the magnetic bearings would have to give more than their limits."""
+        """Whether small vibrations decay; not where the magnetic bearings would have to give more than their limits."""
         system = self.rotor.system
         kept = not saturates(system, np.zeros(system.modes), system.outer)
         return kept and bool(self.eigenvalues.real.max() < 0.0)

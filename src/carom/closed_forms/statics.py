@@ -14,7 +14,7 @@ the conditions ``|y₁D|² = |y₂D|²`` and ``|y₂D|² = |D|²`` are quadratic
 resultant is a polynomial of degree eight in ``N₁``, whose roots are all there are.  *More planes* are searched by Newton's
 method from many starts, which proves nothing about their number; only those with pushing forces are kept.
 
-*Walls that give way* hold a plane at ``y_p = (1 + δ_p) n_p`` with ``|n_p| = 1`` and the force ``N_p = κ_p δ_p^e``.  With a linear spring
+*Compliant walls* hold a plane at ``y_p = (1 + δ_p) n_p`` with ``|n_p| = 1`` and the force ``N_p = κ_p δ_p^e``.  With a linear spring
 ``δ_p = N_p/κ_p``, and all of the above holds for ``n_p`` with ``h_pp + 1/κ_p`` in place of ``h_pp``.  Otherwise, at one plane, with
 ``h' = κh``,
 
@@ -108,7 +108,7 @@ def _slips(system: System, planes: tuple[int, ...], forces: np.ndarray) -> bool:
 
 
 def exponent_of(wall: Wall) -> float:
-    """Power of the depth with which the static force of a wall that gives way grows; 1 for others."""
+    """Power of the depth with which the static force of a compliant wall grows; 1 for others."""
     return wall.law_number if wall.stiffness and wall.law_number else 1.0
 
 

@@ -74,7 +74,7 @@ class SmallCycle(Result):
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances of it die out."""
+        """Whether small vibrations about it decay."""
         return bool(np.abs(self.multipliers).max(initial=0.0) < 1.0)
 
 
@@ -93,7 +93,7 @@ class WallMeeting(Result):
         Normal force of the rub, in ``m c_r Ω²``, per gap: its sign says on which side the rub exists.  Zero in a
         wall whose force grows with a higher power of the depth, into which levitation goes on.
     rub_eigenvalues : ndarray of complex, shape (2N,)
-        Exponents of small motions in contact with a wall that gives way; empty for a rigid wall.
+        Exponents of small motions in contact with a compliant wall; empty for a rigid wall.
     cycles : tuple of SmallCycle
         By growing period, virtual ones included; of rigid walls only.
     complete : bool
@@ -128,7 +128,7 @@ class WallMeeting(Result):
 
     @property
     def rub_stable(self) -> bool | None:
-        """Whether the rub that begins there is stable, in a wall that gives way; ``None`` for a rigid one."""
+        """Whether the rub that begins there is stable, in a compliant wall; ``None`` for a rigid one."""
         return bool(self.rub_eigenvalues.real.max() < 0.0) if len(self.rub_eigenvalues) else None
 
 

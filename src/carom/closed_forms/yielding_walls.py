@@ -1,4 +1,4 @@
-r"""Steady motions of a rotor that is pressed on a wall that gives way: synchronous rubs, slipping backward whirl.
+r"""Steady motions of a rotor that is pressed on a compliant wall: synchronous rubs, slipping backward whirl.
 
 At a constant indentation ``δ`` the rate ``δ̇`` vanishes, and the dashpot of a Kelvin–Voigt wall or the dissipation of a
 Hunt–Crossley wall does nothing: both push with ``N = κδⁿ`` per felt mass (``n = 1`` for Kelvin–Voigt).  Lengths are clearances.

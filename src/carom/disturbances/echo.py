@@ -156,14 +156,14 @@ def echo_of_drop(
     Of a rotor in several touchdown bearings ``planes`` are displacement and rate at each: its coordinates are no places.
     """
     begun = _moving_in_planes(planes, scales) if len(planes) > 1 else _moving(state, scales)
-    back = f"; levitation is back after {told(regained, 'time', scales)}" if regained is not None else ""
+    back = f"; levitation returns after {told(regained, 'time', scales)}" if regained is not None else ""
     if race_speed is not None:
         shown = MACHINE_FIELDS["speed"]
         turning = number(shown.in_usual_unit(race_speed * scales.speed), 6)
-        back = f"; the race turns with {turning} {shown.usual_unit}{back}"
+        back = f"; the race turns at {turning} {shown.usual_unit}{back}"
     words = (
-        f"Levitation is lost {begun.words}, under {gravity.words}; angles are those of the fixed frame, in the sense of "
-        f"rotation (at the release the unbalance lies at {told_angle(phase)}){back}"
+        f"Release: {'' if len(planes) > 1 else 'rotor centre '}{begun.words}, under {gravity.words}; angles count from the fixed x axis in the "
+        f"sense of rotation (unbalance at the release: {told_angle(phase)}){back}"
     )
     sizes = {**begun.sizes, "unbalance_angle": (phase, "")}
     given = {"regained_after": (regained, "time"), "race_speed": (race_speed, "speed")}
@@ -196,8 +196,10 @@ def _moving_in_planes(planes: Sequence[tuple[complex, complex]], scales: Scales 
 def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
     """A displacement and its rate in the frame that turns with the shaft; the velocity is told in the fixed frame."""
     speed = rate + 1j * place
-    at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
-    moves = f"{told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
+    at = f"{told(abs(place), 'length', scales)} from the middle at {told_angle(cmath.phase(place))}"
+    moves = (
+        f"moving at {told(abs(speed), 'velocity', scales)} towards {told_angle(cmath.phase(speed))} in the fixed frame"
+    )
     return Echo(
         "start",
         f"{at}, {moves}",

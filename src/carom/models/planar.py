@@ -84,9 +84,7 @@ class Planar(Definition):
         if self.parameters.scales is None:
             raise InputError("rotor", shown(self.parameters), "a planar rotor with mass, clearance and speed")
         if self.bearing.is_plain and self.drive is None:
-            allowed = (
-                "a bearing that gives way, has a race, a mount or an offset; a rigid wall needs no data of its own"
-            )
+            allowed = "a compliant bearing, has a race, a mount or an offset; a rigid wall needs no data of its own"
             raise InputError("bearing", self.bearing.words, allowed)
         if self.air_gap is not None and self.bearing.centre:
             allowed = "0 where the air gap is known, which counts from the place of levitation"
@@ -227,7 +225,7 @@ class Planar(Definition):
     def value(self, name: str) -> float:
         """Value of a named parameter, in the unit of its field."""
         if name in self._left_out:
-            raise InputError(name, None, "a touchdown bearing that gives way has no such number for all speeds")
+            raise InputError(name, None, "a compliant touchdown bearing has no such number for all speeds")
         if self.bearing and name.startswith(PREFIX) and name in self.varied:
             return float(getattr(self.bearing, name.removeprefix(PREFIX)))
         return self.parameters.value(name)
@@ -239,7 +237,7 @@ class Planar(Definition):
         for name in self._left_out:
             if name in changes:
                 raise InputError(
-                    name, changes[name], "a touchdown bearing that gives way has its own entries in [touchdown]"
+                    name, changes[name], "a compliant touchdown bearing has its own entries in [touchdown]"
                 )
         of_bearing = {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}
         bearing = self.bearing.replace(**{name.removeprefix(PREFIX): value for name, value in of_bearing.items()})

@@ -95,17 +95,6 @@ class System(ModeArrays):
         return self.conjugate_modes is not None
 
     @property
-    def why_not_periodic(self) -> tuple[str, str] | None:
-        """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
-        if self.races is not None:
-            return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
-        if self.is_anisotropic and self.why_not_stationary is None:
-            return ANISOTROPIC, ISOTROPIC_ALONE
-        if self.limits and self.why_not_stationary is None:
-            return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
-        return self.why_not_stationary
-
-    @property
     def why_not_stationary(self) -> tuple[str, str] | None:
         """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
         if self.shaft is not None:

@@ -16,7 +16,7 @@ from carom.models.race import Race
 from carom.parameters import TouchdownBearing
 
 FARTHEST = 2.0
-"""Distance from the centre, in clearances, up to which a rotor is followed in a wall that gives way.
+"""Distance from the centre, in clearances, up to which a rotor is followed in a compliant wall.
 
 The wall is a spring however deep the rotor is in it, and a magnet is linear however near the rotor comes; neither holds far beyond the
 clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out strikes the magnet.
@@ -47,7 +47,7 @@ class Touchdown:
     bearing : carom.parameters.TouchdownBearing, optional
         Its data in SI units where it states its balls: they give a pressure, and change no motion.
     farthest : float, optional
-        Distance from the centre, in clearances, up to which the rotor is followed in a wall that gives way: beyond it, motions end as
+        Distance from the centre, in clearances, up to which the rotor is followed in a compliant wall: beyond it, motions end as
         beyond the model.  By default 2.
 
     Raises

@@ -13,7 +13,7 @@
 ``recurrence``        whether a motion that has recurred repeats or leaves, for rotors of several modes
 ``resting``           whether a rotor lies on its touchdown bearing
 ``contacts``          load on the bearing: the log of impacts, stretches of lasting contact
-``touches``           contacts with walls that give way: impulses, peaks, depths, works
+``touches``           contacts with compliant walls: impulses, peaks, depths, works
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest
 ``load_sums``         loads, added up piece by piece
 ``courses``           a drop sampled over all stages, to be drawn

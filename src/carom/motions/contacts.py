@@ -201,8 +201,8 @@ class ContactHistory(Table):
 
     In flight, and where a plane has parted from its wall, forces, slip and powers are zero.  Phases are those of
     :class:`~carom.base.outcome.Phase`.  The slip velocity of the contact point is ``v = s + r(1 + θ̇)`` at the radius ``r``, which is one on a
-    rigid wall, less the speed of the race's surface if that turns; the power of friction is ``F v`` and that of the drive ``−F s``.  In a wall
-    that gives way the gap is negative: the depth.
+    rigid wall, less the speed of the race's surface if that turns; the power of friction is ``F v`` and that of the drive ``−F s``.  In a compliant
+    wall the gap is negative: the depth.
     """
 
     time: np.ndarray = column("time", "time")
@@ -254,7 +254,7 @@ def presses(phases: np.ndarray) -> np.ndarray:
 
 
 def yields(system: System, plane: int) -> bool:
-    """Whether the wall at a plane gives way."""
+    """Whether the wall at a plane is compliant."""
     return system.contacts[plane].wall.stiffness > 0.0
 
 

@@ -52,7 +52,7 @@ class Course:
     held : ndarray of bool
         Whether the wall presses.
     blows : Blows or None
-        ``None`` if the wall gives way.
+        ``None`` if the wall is compliant.
     stages : tuple of float
         Times at which later stages begin.
     down : float

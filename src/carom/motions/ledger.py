@@ -36,7 +36,7 @@ class EnergyLedger(Table):
     energy of all masses is ``ŻᴴMŻ/2``, that of the springs ``ZᴴKZ/2`` with the Hermitian part of ``K``; the rest of
     ``K``, such as cross-coupled stiffness, does the circulatory work.  Contact works at all planes.
 
-    A wall that gives way stores the energy of its spring while it presses on the rotor.  Where plane and wall part at some depth, as the
+    A compliant wall stores the energy of its spring while it presses on the rotor.  Where plane and wall part at some depth, as the
     wall comes back more slowly, the rotor does not get that energy any more: it counts as lost at this moment.  Where they meet again
     before the plane has left the wall, the spring is as deep as the plane, and what it then holds, which is less, is taken back.
 
@@ -96,7 +96,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     as weight, what bearings at their limits do not give, and that of the contact forces.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
     ``v = s + r(1 + θ̇) − q``, and the drive gives ``−F s``: the centre moves along the wall with ``r(1 + θ̇)``, and a race that turns, whose
     surface moves with ``q``, takes ``−F q``.  A shaft whose speed ``σ`` changes takes ``sσF`` itself, its drive gives ``Tσ`` in contact, and its
-    unbalance pushes with ``F(σ² − iσ̇)e^{i(ϑ−t)}`` (:mod:`carom.core.shaft`), also in the instant of an impact.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which
+    unbalance pushes with ``F(σ² − iσ̇)e^{i(ϑ−t)}`` (:mod:`carom.core.shaft`), also in the instant of an impact.  The normal force ``N`` of a compliant wall takes ``Nδ̇`` at the depth ``δ = r − 1``, which
     goes into its spring and its damper.
 
     Raises
@@ -223,7 +223,7 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
 
 
 def _walls(trajectory: Trajectory) -> np.ndarray:
-    """Walls that give way: energy of their springs, and what they have taken, at the times of the ledger."""
+    """Compliant walls: energy of their springs, and what they have taken, at the times of the ledger."""
     held, lost = np.zeros((2, len(trajectory.segment_starts) + 1))
     works = contact_works(trajectory)
     for plane in range(trajectory.segment_phases.shape[1]):

@@ -74,8 +74,8 @@ def drop_loads(motion: Trajectory) -> DropLoads:
     """Evaluate a drop, or any other touchdown, over all its stages and at all contact planes.
 
     A contact that goes on from one stage into the next counts once.  Friction does the work ``F v`` on the contact point, which slips with
-    ``v = s + 1 + θ̇``; in an impact the work is that of the impulse on the mean of the slip velocities before and after.  Loads on a wall that
-    gives way are those of :attr:`Trajectory.touches`.
+    ``v = s + 1 + θ̇``; in an impact the work is that of the impulse on the mean of the slip velocities before and after.  Loads on a compliant
+    wall are those of :attr:`Trajectory.touches`.
 
     Parameters
     ----------

@@ -77,7 +77,7 @@ class TouchdownLoads(Result):
     ----------
     plane : int
     gives_way : bool
-        Whether its wall gives way.
+        Whether its wall is compliant.
     outcome : Outcome
         Where the motion settled, or why it was stopped.
     contacts : int
@@ -100,7 +100,7 @@ class TouchdownLoads(Result):
     heat : float
         Work lost to friction, in impacts and in lasting contact, ``m c_r² Ω²``.
     restitution_loss : float
-        Work lost along the normal, in impacts or in a wall that gives way, ``m c_r² Ω²``.
+        Work lost along the normal, in impacts or in a compliant wall, ``m c_r² Ω²``.
     contact_time : float
         Duration of lasting contact, ``1/Ω``.
     lasting_power : float

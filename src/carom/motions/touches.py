@@ -1,4 +1,4 @@
-"""Contacts with walls that give way, each from entering the wall until leaving it: impulses, peaks, depths and works."""
+"""Contacts with compliant walls, each from entering the wall until leaving it: impulses, peaks, depths and works."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TouchLog(Table):
-    """Contacts of a plane with a wall that gives way, in chronological order; all arrays have shape (n,).
+    """Contacts of a plane with a compliant wall, in chronological order; all arrays have shape (n,).
 
     A contact lasts from entering the wall until leaving it, through sliding, rolling and the times in between in which the plane has
     parted from a wall that comes back more slowly.  The friction ``F`` does the work ``F v`` on the contact point, which slips with

@@ -164,19 +164,19 @@ class Trajectory(Result):
 
     @cached_property
     def contacts(self) -> ContactLog:
-        """Log of the impacts at the contact plane; a wall that gives way has none, but :attr:`touches`."""
+        """Log of the impacts at the contact plane; a compliant wall has none, but :attr:`touches`."""
         return ContactLog.of(self, self.blows(self.is_impact).at(self.plane))
 
     @cached_property
     def touches(self) -> TouchLog:
-        """Contacts at the contact plane, if the wall there gives way."""
+        """Contacts at the contact plane, if the wall there is compliant."""
         from carom.motions.touches import touches_of
 
         return touches_of(self)
 
     @property
     def log(self) -> ContactLog | TouchLog:
-        """:attr:`touches` if the wall at the contact plane gives way, else :attr:`contacts`."""
+        """:attr:`touches` if the wall at the contact plane is compliant, else :attr:`contacts`."""
         return self.touches if yields(self.rotor.system, self.plane) else self.contacts
 
     def blows(self, events: np.ndarray) -> Blows:

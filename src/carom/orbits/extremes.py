@@ -18,7 +18,7 @@ class Extremes(NamedTuple):
     Attributes
     ----------
     radius, depth : float
-        Distance from the centre, and how far this is into a wall that gives way, in its clearance.
+        Distance from the centre, and how far this is into a compliant wall, in its clearance.
     force : float
         Normal force while contact lasts, in ``m c_r Ω²`` of the rotor; 0 where it never does.
     """

@@ -112,7 +112,7 @@ def impact_kinds(motion: Trajectory) -> np.ndarray:
 
 
 def arrives(motion: Trajectory) -> np.ndarray:
-    """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with walls that give way; bool, shape (n,)."""
+    """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with compliant walls; bool, shape (n,)."""
     before, after = flying(motion.segment_phases, motion.event_planes)
     yields = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
     arrivals: np.ndarray = motion.is_impact | (before & ~after & yields)

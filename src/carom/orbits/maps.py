@@ -89,14 +89,12 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
     Raises
     ------
     InputError
-        The rotor does not move toward the wall, its wall gives way, or it has several coordinates, of which the section is no state.
+        The rotor does not move toward the wall, its wall is compliant, or it has several coordinates, of which the section is no state.
     """
     rotor = rotor_of(machine)
     rotor.refuse_forces()
     if rotor.system.arrays["stiffness"].any():
-        raise InputError(
-            "machine", "a wall that gives way", "rigid walls: contact with a wall that gives way is no impact"
-        )
+        raise InputError("machine", "a compliant wall", "rigid walls: contact with a compliant wall is no impact")
     if len(rotor.system.rest) > 1:
         raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:

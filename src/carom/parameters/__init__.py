@@ -19,10 +19,10 @@
 ``gravity``               :class:`Gravity`: where the rotor falls
 ``control_limit``         :class:`ControlLimit`: the largest control force of magnetic bearings
 ``drive``                 :class:`Drive`: what turns with the shaft, and the torque of its drive
-``touchdown_bearing``     :class:`TouchdownBearing`: a touchdown bearing that gives way
+``touchdown_bearing``     :class:`TouchdownBearing`: a compliant touchdown bearing
 ``settings``              what a setting, or an axis of a sweep, may change
 ``indentation``           whether a rigid wall is a valid model under a load
-``restitution``           restitution and what a wall that gives way dissipates
+``restitution``           restitution and what a compliant wall dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
 ``told``                  sizes and numbers as people write them: mm/s, g, degrees

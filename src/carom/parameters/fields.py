@@ -174,7 +174,7 @@ WALL_FIELDS: Mapping[str, Field] = by_name(
     _pure("wall_damping", "c", "damping of the wall", 0.0, 1e9, "3.3", "wall damping/(mass speed)"),
     _pure("wall_dissipation", "χ", "dissipation of the wall", 0.0, 1e9, "0.05", "dissipation clearance speed"),
 )
-"""Parameters of walls that give way."""
+"""Parameters of compliant walls."""
 
 PARAMETERS: Mapping[str, Field] = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
 """All parameters of the planar rotor."""

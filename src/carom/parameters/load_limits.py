@@ -38,13 +38,13 @@ class LoadLimits(Table):
     impulse : float or str, optional
         Normal impulse of an impact, N s.
     force : float or str, optional
-        Normal force, N: the peak in a bearing that gives way, and on a rigid wall that of lasting contact.
+        Normal force, N: the peak in a compliant bearing, and on a rigid wall that of lasting contact.
     power : float or str, optional
         Friction power in lasting contact, W.
     heat : float or str, optional
         Friction work of the whole touchdown, J.
     depth : float or str, optional
-        Depth in a bearing that gives way, m.
+        Depth in a compliant bearing, m.
     pressure : float or str, optional
         Largest pressure between a ball and the inner race, Pa; the bearing has to state its balls.
     impacts : int or str, optional
@@ -88,6 +88,6 @@ class LoadLimits(Table):
             A depth in a rigid wall is limited, or the pressure of balls that are not stated.
         """
         if self.depth is not None and (bearing is None or not bearing.yields):
-            raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a bearing that gives way")
+            raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a compliant bearing")
         if self.pressure is not None and (bearing is None or bearing.balls is None):
             raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")

@@ -27,7 +27,7 @@ from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, Touchdo
 
 _SETTING = "--set"
 UNUSED = 0.0
-"""Restitution of a machine whose touchdown bearing gives way."""
+"""Restitution of a machine whose touchdown bearing is compliant."""
 _UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
 
@@ -106,7 +106,7 @@ class Case(Tabular):
     touchdown : TouchdownBearing, optional
         By default, or with the law of a rigid wall, the touchdown bearing is rigid; otherwise the restitution of the machine is not used.
     drive : Drive, optional
-        Beside a touchdown bearing that gives way; by default the speed never changes.
+        Beside a compliant touchdown bearing; by default the speed never changes.
 
     Raises
     ------
@@ -175,7 +175,7 @@ class Case(Tabular):
         return [(name, text) for name, text in rows.items() if text]
 
     def _of_machine(self) -> list[tuple[str, str]]:
-        """The machine, without its restitution if its touchdown bearing gives way."""
+        """The machine, without its restitution if its touchdown bearing is compliant."""
         numbers = self.parameters
         if self.machine is None:
             return [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
@@ -185,7 +185,7 @@ class Case(Tabular):
     def _required(self) -> str:
         scales, stated = self.parameters.scales, self.requirement
         required = stated.own(scales)
-        usual = " (chosen by carom, none is stated)" if stated.kick is None else ""
+        usual = " (default: impact speed of a free fall across the clearance)" if stated.kick is None else ""
         parts = [f"kicks up to {told(required.kick, 'velocity', scales)}{usual}"]
         if required.shock:
             peak, duration = required.shock.peak, required.shock.duration
@@ -325,7 +325,7 @@ def _with_restitution(
 ) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Entries of a machine and its touchdown bearing: the restitution of a rigid wall, wherever it is stated, is that of the machine.
 
-    Of one that gives way that of the machine is not used; one that is given is refused.
+    With a compliant touchdown bearing the restitution of the machine is not used; one that is given is refused.
     """
     if touchdown.get("law", "rigid") == "rigid":
         own = {name: given for name, given in touchdown.items() if name == "restitution"}
@@ -338,7 +338,7 @@ def _with_restitution(
 
 
 def _unused_restitution(given: Any) -> InputError:
-    allowed = "must be left out: the touchdown bearing gives way, and its law has entries of its own in [touchdown]"
+    allowed = "must be left out: the touchdown bearing is compliant, and its law has entries of its own in [touchdown]"
     return InputError("restitution", shown(given), allowed)
 
 

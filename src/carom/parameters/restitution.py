@@ -1,4 +1,4 @@
-r"""Exact relations between restitution and what a wall that gives way dissipates, of a free mass that it throws back.
+r"""Exact relations between restitution and what a compliant wall dissipates, of a free mass that it throws back.
 
 A mass ``m`` meets the wall at the speed ``v``; nothing else acts on it.  ``δ`` is its indentation, positive in contact,
 and the restitution ``d`` is the share of ``v`` with which it leaves.  The wall pushes and never pulls.

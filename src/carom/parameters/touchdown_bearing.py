@@ -1,4 +1,4 @@
-"""A touchdown bearing that gives way: the table ``[touchdown]`` of a machine file."""
+"""A compliant touchdown bearing: the table ``[touchdown]`` of a machine file."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
 )
 """Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
 OF_LAW = ("stiffness", "damping", "dissipation", "restitution", "restitution_speed", "exponent")
-"""Entries that belong to the law of a wall that gives way; the others are of race, mount and place, or of the balls."""
+"""Entries that belong to the law of a compliant wall; the others are of race, mount and place, or of the balls."""
 PREFIX = "touchdown_"
 """Before the names of these entries where they stand beside those of the machine, as in ``--set touchdown_stiffness=1e8 N/m``."""
 _POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
@@ -202,7 +202,7 @@ class TouchdownBearing(Table):
 
     @property
     def yields(self) -> bool:
-        """Whether the bearing gives way."""
+        """Whether the bearing is compliant."""
         return self.law != "rigid"
 
     @property

@@ -76,7 +76,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
 
 
 def _gap_of(course: Course) -> Floats:
-    """Distance from the wall, in micrometres or clearances; negative in a wall that gives way."""
+    """Distance from the wall, in micrometres or clearances; negative in a compliant wall."""
     gap: Floats = (clearance(course.scales) - np.abs(course.place)) * _finer(course.scales)
     return gap
 

@@ -24,7 +24,7 @@ BOX_THEOREM = "kicks of a box of machines"
 NOT_CLAIMED = (
     "that what is open does not return, or that it does; why it is open is told by the search",
     "that the impacts stated happen: they are bounds from above",
-    "anything beyond the largest size, of starts other than levitation, or of walls that give way",
+    "anything beyond the largest size, of starts other than levitation, or of compliant walls",
 )
 BOX_NOT_CLAIMED = (
     *NOT_CLAIMED,

@@ -169,7 +169,7 @@ class Bounces:
         return free.upper().max(arb(0)) * areas + abs(fast_rate).upper() / 2 * squares + here
 
     def holds(self) -> bool:
-        """Whether no bounce leaves the box as long as ``V < c``, slip stays forward, and bounces die out."""
+        """Whether no bounce leaves the box as long as ``V < c``, slip stays forward, and bounces decay."""
         n, box, least = self.rub.numbers, self.box, self._least
         return bool(
             self.rub.torque(self.reach) > 0

@@ -1,6 +1,6 @@
 """Levitation and synchronous rubs: existence, place and stability; kicks that never reach the wall.
 
-*Levitation* ``|U*|² = ρ²/((1 − ω²)² + γ²)``, and its small disturbances die out exactly for ``γ > 0``.
+*Levitation* ``|U*|² = ρ²/((1 − ω²)² + γ²)``, and its small vibrations decay exactly for ``γ > 0``.
 
 *Synchronous rub* (``θ̇ = 0``, forward slip ``s + 1 > 0``): with ``κ = 1 − ω²`` the normal forces are the roots of
 ``(1 + μ²)N² − 2(κ − μγ)N + κ² + γ² − ρ² = 0``, with a quarter of the discriminant
@@ -91,7 +91,7 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
     attracts = rotor.claim(
         name,
         "attracts sliding",
-        "It is a motion of the machine, and small disturbances along the wall die out.",
+        "It is a motion of the machine, and small vibrations along the wall decay.",
         min(side, damping, pushes),
         "it is a saddle along the wall" if side < 0 else "it is not pressed on the wall, or sliding is not damped",
     )

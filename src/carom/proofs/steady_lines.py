@@ -79,7 +79,7 @@ _KINDS: tuple[tuple[str, str, str, Callable[[Numbers], bool | None]], ...] = (
     (
         "rub 1",
         "attracts sliding",
-        "the rub of the larger normal force is a motion of the machine, and small disturbances along the wall die out",
+        "the rub of the larger normal force is a motion of the machine, and small vibrations along the wall decay",
         _attracts,
     ),
     ("rub 2", "pressed", _RUB.format("smaller"), partial(_is_pressed, side=-1)),

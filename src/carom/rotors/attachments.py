@@ -64,7 +64,7 @@ class TouchdownPlane:
     clearance : float or str, optional
         Radial clearance there, m; by default that of the machine.
     farthest : float, optional
-        Distance from the centre, in clearances, up to which the rotor is followed in a wall that gives way; 2 by default.
+        Distance from the centre, in clearances, up to which the rotor is followed in a compliant wall; 2 by default.
 
     Raises
     ------

@@ -10,7 +10,7 @@ from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.whirls import Whirl
 
 HARDLY = 0.02
-"""Displacement, as a share of the largest of the shaft, below which sensors hardly see a whirl, or a magnet hardly moves it."""
+"""Displacement, as a share of the largest of the shaft, at its sensors or its actuator, below which a whirl has a node there."""
 
 
 @dataclass(frozen=True)

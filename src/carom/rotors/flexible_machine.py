@@ -29,7 +29,7 @@ ACCURACY = 0.02
 """Error of contact forces by reduction that is accepted by default; it is that of one
 straight contact, and motions with bending of their own may differ by more (decision 087)."""
 FALL = 9.81
-"""Acceleration, m/s², of a fall through the clearance, whose energy says how far a touchdown bearing gives way."""
+"""Acceleration, m/s², of a fall through the clearance, whose energy gives the depth in a touchdown bearing."""
 _KINDS = {
     "bearings": MagneticBearing,
     "touchdowns": TouchdownPlane,

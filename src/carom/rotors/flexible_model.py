@@ -108,7 +108,7 @@ class FlexibleDefinition(LinearEquations):
         return made
 
     def _with_number(self, name: str, given: Any) -> FlexibleDefinition:
-        """The rotor with another dimensionless number, which its machine gets as what it means in SI units."""
+        """Copy with one dimensionless parameter changed; the SI values follow."""
         reduced: ReducedMachine = self.reduced
         if name in reduced.machine.varied:
             allowed = "left as it is: where it is 0 another value gives a controller more states; set it in the machine, as --set does"

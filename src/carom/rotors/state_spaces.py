@@ -64,7 +64,7 @@ class StateSpace:
         return np.array(inner).reshape(np.shape(exponents)) + self.D
 
     def then(self, other: StateSpace) -> StateSpace:
-        """Return the system whose output is that of another one, which this one drives."""
+        """Series connection: `self` followed by `other`."""
         corner = np.zeros((self.states, other.states))
         return StateSpace(
             A=np.block([[self.A, corner], [np.outer(other.B, self.C), other.A]]),

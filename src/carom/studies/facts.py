@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from carom.base.results import record
 
-Evidence = Literal["proven", "closed form", "searched", "sampled", "stated", "chosen by carom"]
+Evidence = Literal["proven", "closed form", "searched", "sampled", "stated", "default"]
 Topic = Literal[
     "Verdict",
     "Recommendation",
@@ -44,7 +44,7 @@ class Fact:
         What it is about, in a word or two.
     evidence : str or None
         How sure it is: proven; by a closed form; searched with complete lists of motions at many values; sampled by simulated
-        disturbances; stated by the user; chosen by carom.  ``None`` where the text says it.
+        disturbances; stated by the user; a default.  ``None`` where the text says it.
     values : mapping
         Its numbers, as plain data for JSON.
     detail : bool

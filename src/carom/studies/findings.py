@@ -72,7 +72,7 @@ def _levitation(study: StudyData) -> str:
     limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
     text = f"The rotor {where}, zone {study.zone} (zone limits {limits} of the clearance)."
     if not levitation.stable:
-        return f"{text} But nothing damps it: a disturbance does not die out."
+        return f"{text} But it has no damping: vibrations do not decay."
     decay = -float(levitation.eigenvalues.real.max())
     text += f" Small vibrations decay, with a time constant of {say.time(1.0 / decay)}."
     if machine is not None and machine.air_gap is not None:

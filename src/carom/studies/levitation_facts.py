@@ -101,8 +101,8 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
     doubtful = [each for each in found.collocations if each.opposed or each.hardly]
     for each in doubtful:
         name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"
-        what = "sensors hardly see" if abs(each.sensor) <= abs(each.magnet) else "magnet hardly moves"
-        text = f"Bearing {each.bearing}: its {what} {name}, for a node lies there."
+        what = "at its sensors" if abs(each.sensor) <= abs(each.magnet) else "at its actuator"
+        text = f"Bearing {each.bearing}: {name} has a node {what}: the bearing cannot damp it."
         if each.opposed:
             text = f"A node of {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
         yield Fact("Magnetic bearings", text, "Non-collocation")

@@ -125,9 +125,7 @@ def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
     """Sense and frequency, and whether it goes on."""
     turns = number(whirl.lasted / (2.0 * math.pi), 3)
     if whirl.direction is None:
-        return (
-            f"none: it turned by {number(abs(math.degrees(whirl.turned)), 2)}° in the last {turns} turns of the shaft"
-        )
+        return "none"
     rate = f"{number(abs(whirl.angular_speed), 4)} Ω"
     if whirl.frequency_si is not None:
         rate = f"{number(whirl.frequency_si, 4)} Hz ({number(abs(whirl.angular_speed), 3)} times the shaft)"

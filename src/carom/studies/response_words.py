@@ -70,10 +70,10 @@ def critical_words(critical: Critical, operating: tuple[float, float], place: st
         return f"{rpm(critical.speed)}; without damping the amplification factor is infinite."
     at = f"{rpm(critical.speed)}, {micrometres(critical.amplitude)} 0-to-peak at {place} {critical.bearing}"
     if factor is None:
-        return f"{at}; the peak is too flat for an amplification factor, so no separation is required."
+        return f"{at}; critically damped peak: API 617 requires no separation margin."
     told = f"amplification factor {number(factor, 3)}"
     if factor < CRITICALLY_DAMPED:
-        return f"{at}; {told}: critically damped, so no separation is required."
+        return f"{at}; {told}: critically damped: API 617 requires no separation margin."
     low, high = operating
     run = rpm(low if margin.side == "below" else high)
     where = f"{number(100.0 * margin.actual, 3)} % {margin.side} {run}" if margin.side != "inside" else f"at {run}"

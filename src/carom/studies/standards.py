@@ -51,7 +51,7 @@ def vibration_limit(speeds: np.ndarray) -> np.ndarray:
 def required_margin(factor: float | None, side: Side) -> float:
     """Separation that API 617 requires of a critical speed on one side of the operating speeds, as a share of them.
 
-    The amplification factor is ``None`` if the peak is too flat to have one.  For a critical speed inside the operating
+    The amplification factor is ``None`` if the peak is critically damped.  For a critical speed inside the operating
     speeds the separation of one above them is returned, which it does not keep.
     """
     if factor is None or factor < CRITICALLY_DAMPED:

@@ -107,7 +107,7 @@ def _required_words(study: StudyData) -> str:
     requirement, source = study.case.requirement, study.case.requirement.source
     how = _CHOSEN[source]
     if source == "default" and study.wording.scales is None:
-        how = "chosen by carom"
+        how = "default"
     elif source != "default" and requirement.kick is None:
         how = f"{how}; of the kick the {_CHOSEN['default']}"
     return f"{listed(study.wording.required(study.required))} ({how})"
@@ -183,7 +183,7 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
         why = f"its {whirl} {what} the wall of the touchdown bearing"
         return "no-contact-free-motion", "Cannot run without contact", why
     if not levitation.stable:
-        why = "its levitation is not damped, so that a disturbance does not die out"
+        why = "its levitation has no damping, so vibrations do not decay"
         if study.rotor.system.limits:
             why = "its levitation asks for more than its magnetic bearings can give, or is not damped"
         return "no-contact-free-motion", f"Does not stay in levitation, {zone}", why

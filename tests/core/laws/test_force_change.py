@@ -1,4 +1,4 @@
-"""Changes of the force of each law that a wall gives way by, against differences of the force."""
+"""Derivatives of the force of each compliant law, against differences of the force."""
 
 from __future__ import annotations
 

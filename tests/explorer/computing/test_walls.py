@@ -1,4 +1,4 @@
-"""How hard a rotor strikes: impulses at a rigid wall, peak forces and depths in one that gives way."""
+"""How hard a rotor strikes: impulses at a rigid wall, peak forces and depths in a compliant one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How hard a rotor strikes: impulses at a rigid wall, forces and depths in one that gives way."""
+"""How hard a rotor strikes: impulses at a rigid wall, forces and depths in a compliant one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from carom.studies import Wording
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Impacts of a motion, or its arrivals at a wall that gives way, in chronological order.
+    """Impacts of a motion, or its arrivals at a compliant wall, in chronological order.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Hits:
 
 
 def hits_of(motion: Trajectory) -> Hits:
-    """Impacts of a motion, or its arrivals at a wall that gives way."""
+    """Impacts of a motion, or its arrivals at a compliant wall."""
     if not yields(motion.rotor.system, motion.plane):
         log = motion.contacts
         blow = log.normal_impulse

@@ -99,7 +99,7 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
 
 
 def judged_share(found: KickMap, rotor: Rotor) -> tuple[Share, str]:
-    """Share that comes back of what must be survived, where all of that is in the picture, otherwise of all in it; and of what."""
+    """Recovery rate within the required range (or within the plotted range, if smaller), and what it is a share of."""
     required = None if found.plane.required is None else found.plane.own(found.plane.required, rotor.scales)
     if required is not None and required <= found.largest * (1.0 + 1e-9):
         # A little above, for rounding where the picture ends with it.

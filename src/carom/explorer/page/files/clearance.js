@@ -115,7 +115,7 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
   };
   shown.show = (message) => {
     shown.message = message;
-    // The rotor goes into a wall that gives way: the picture has room to 1.13 clearances, and for more the clearance is drawn smaller.
+    // The rotor goes into a compliant wall: the picture has room to 1.13 clearances, and for more the clearance is drawn smaller.
     widest = message.refused ? 1 : message.x.reduce((most, x, place) => Math.max(most, Math.hypot(x, message.y[place]) / 1.13), 1);
     if (message.refused) { shown.running = false; shown.draw(); }
   };
