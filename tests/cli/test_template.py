@@ -8,9 +8,7 @@ import pytest
 
 import carom as cm
 from carom.cli.app import BAD_INPUT, main
-from carom.parameters.drive import DRIVE_FIELDS
-from carom.parameters.gravity import GRAVITY_FIELDS
-from carom.parameters.load_limits import LIMIT_FIELDS
+from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS
 from carom.parameters.terms import ENTRIES
 from carom.rotors.part_tables import PARTS, ROTOR_ENTRIES
 from carom.rotors.rigid_body import RIGID_FIELDS

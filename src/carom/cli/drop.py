@@ -151,7 +151,7 @@ def _print_map(screen: Console, found: DropMap) -> None:
     """Print how the drops end, what they ask of the bearing, and how many exceed its limits."""
     from carom.basins.drops import MEASURES
     from carom.cli.fitting import fitted, plain_table
-    from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
+    from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
     from carom.parameters.told import number
 
     index, exists = found.dataset["motion"].values, found.exists

@@ -1,24 +1,18 @@
 """Parameters of a rotor: input in SI units or as text, dimensionless numbers for the computation.
 
-========================  =================================================================
+========================  ========================================================================================================================
 ``fields``                names, symbols, units and ranges of all numbers
 ``common_units``          units of machine files as pint converts them
 ``terms``                 terms that stand for the numbers of a machine, with their formulas
-``tables``                tables that files of all machines share, each declared once
+``tables``                tables that files of all machines share, each entry declared once: :class:`Gravity`, :class:`Drive`, :class:`LoadLimits`
 ``quantities``            text with units -> float in SI units
 ``exact``                 text with units -> exact numbers, for proofs
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
-``scaling``               :class:`Scales` and their units
-``conversions``           dimensionless numbers from and to SI units
-``numbers``               :class:`Parameters`, and :class:`Numbers`: the same plain, unchecked
-``named``                 :class:`Named`: numbers by name that can be varied
+``scaling``               :class:`Scales` and their units; dimensionless numbers from and to SI units
+``numbers``               :class:`Parameters`, :class:`Numbers`: the same plain, unchecked; :class:`Named`: what they share with rotors
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
-``load_limits``           :class:`LoadLimits` of a touchdown bearing
-``gravity``               :class:`Gravity`: where the rotor falls
-``control_limit``         :class:`ControlLimit`: the largest control force of magnetic bearings
-``drive``                 :class:`Drive`: what turns with the shaft, and the torque of its drive
 ``touchdown_bearing``     :class:`TouchdownBearing`: a compliant touchdown bearing
 ``settings``              what a setting, or an axis of a sweep, may change
 ``indentation``           whether a rigid wall is a valid model under a load
@@ -27,11 +21,9 @@
 ``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
 ``told``                  sizes and numbers as people write them: mm/s, g, degrees
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
-========================  =================================================================
+========================  ========================================================================================================================
 """
 
-from carom.parameters.control_limit import ControlLimit
-from carom.parameters.drive import DRIVE_FIELDS, Drive
 from carom.parameters.fields import (
     DIMENSIONLESS_FIELDS,
     MACHINE_FIELDS,
@@ -41,10 +33,8 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
-from carom.parameters.gravity import GRAVITY_FIELDS, Gravity
 from carom.parameters.in_terms import InTerms, in_terms_of
-from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
-from carom.parameters.machine import Machine
+from carom.parameters.machine import ControlLimit, Machine
 from carom.parameters.machine_file import Case, Zones
 from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
@@ -60,6 +50,7 @@ from carom.parameters.requirement import (
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.settings import SETTINGS, field_to_set
 from carom.parameters.sizes import Size, own_size, own_time, own_unbalance, read_size, read_unbalance
+from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_vary
 from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 

@@ -9,12 +9,12 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localc
 from typing import Annotated, Any, Literal, NamedTuple
 
 from carom.base.arguments import checked, whole
-from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
 from carom.parameters.resolution import DECIMALS
+from carom.parameters.scaling import CONVERSIONS
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
 from carom.parameters.told import RAISED
 

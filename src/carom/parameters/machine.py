@@ -7,24 +7,49 @@ import math
 import re
 import warnings
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import pydantic
 
-from carom.base.arguments import checked
+from carom.base.arguments import NotNegative, Positive, checked
 from carom.base.outcome import CaromWarning, InputError, shown
 from carom.base.tabular import Tabular
-from carom.parameters.control_limit import ControlLimit
-from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.numbers import Parameters
 from carom.parameters.resolution import Resolved, resolve, solved
-from carom.parameters.scaling import Scales
+from carom.parameters.scaling import CONVERSIONS, Scales
 from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
 from carom.parameters.told import number, told_entry
 
 LEAST_RADIUS = 5.0
 """Rotor radius in clearances below which a machine file probably has a wrong unit; touchdown bearings have 20 to 1000."""
+
+
+@checked
+@dataclass(frozen=True)
+class ControlLimit:
+    """The largest control force ``ki i`` of all magnetic bearings of the planar rotor together, along each of two perpendicular axes.
+
+    The controller asks for ``(k + pull) z + c ż`` with the stiffness and the damping of the levitation, and gets no more than this force along
+    an axis.  The magnets pull the rotor away from the centre, whatever the current, by ``pull`` times its displacement.
+
+    Attributes
+    ----------
+    force : float
+        N.
+    pull : float
+        Size of the negative stiffness of all bearings, N/m.
+    """
+
+    force: Positive
+    pull: NotNegative = 0.0
+
+    @property
+    def words(self) -> str:
+        """Both in the units of people."""
+        pull = f" against a negative stiffness of {number(self.pull)} N/m" if self.pull else ""
+        return f"a control force of at most {number(self.force)} N along each axis{pull}"
 
 
 class Machine(Tabular, pydantic.BaseModel):

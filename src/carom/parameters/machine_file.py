@@ -9,17 +9,14 @@ from typing import Any, NamedTuple, cast
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
 from carom.base.tabular import Tabular
-from carom.parameters.drive import Drive
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, name_errors, unknown_names
-from carom.parameters.gravity import Gravity
-from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors, unknown_names
 from carom.parameters.machine import Machine, warn_of_proportions
-from carom.parameters.named import Named, own_numbers
-from carom.parameters.numbers import Parameters
-from carom.parameters.quantities import read_quantity
+from carom.parameters.numbers import Named, Parameters, own_numbers
+from carom.parameters.quantities import Written, read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
 from carom.parameters.settings import GRAVITY_NAME, check_settings
+from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits
 from carom.parameters.terms import ENTRIES
 from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables
@@ -52,7 +49,9 @@ class Zones:
 
     def __post_init__(self) -> None:
         given: Any = self.limits
-        numbers = [each for each in given if type(each) in (int, float)] if isinstance(given, list | tuple) else []
+        numbers = (
+            [each for each in given if type(each) in (int, float, Written)] if isinstance(given, list | tuple) else []
+        )
         if len(numbers) != 3 or len(given) != 3 or not 0 < numbers[0] < numbers[1] < numbers[2] <= 1:
             words = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5], in [zones]"
             raise InputError("limits", shown(given), words)
@@ -107,6 +106,8 @@ class Case(Tabular):
         By default, or with the law of a rigid wall, the touchdown bearing is rigid; otherwise the restitution of the machine is not used.
     drive : Drive, optional
         Beside a compliant touchdown bearing; by default the speed never changes.
+    stated : mapping of str, optional
+        The numbers of a dimensionless file as they were written.
 
     Raises
     ------
@@ -125,6 +126,7 @@ class Case(Tabular):
     gravity: Gravity | None = None
     touchdown: TouchdownBearing | None = None
     drive: Drive | None = None
+    stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
         if not isinstance(self.parameters, Named):
@@ -148,6 +150,14 @@ class Case(Tabular):
     def heading(self) -> str:
         """What it is, and its name."""
         return f"Case {self.name}"
+
+    @property
+    def written(self) -> Mapping[str, Any]:
+        """The numbers of ``[machine]`` or ``[dimensionless]`` as they were written, with their units; of one that follows from others the double that it is."""
+        machine = self.machine
+        if machine is None:
+            return self.stated
+        return {name: machine.given.get(name, {}).get(name, getattr(machine, name)) for name in MACHINE_FIELDS}
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine in the units of people, and what is stated beside it."""
@@ -228,7 +238,8 @@ class Case(Tabular):
             if name in DIMENSIONLESS_FIELDS
         }
         if self.machine is None:
-            return replace(self, parameters=self.parameters.replace(**changes | numbers))
+            stated = {**self.stated, **changes}
+            return replace(self, parameters=self.parameters.replace(**changes | numbers), stated=stated)
         machine = self.machine.replace(**changes)
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
@@ -279,7 +290,8 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     problems.raise_all()
     machine = base if isinstance(base, Machine) else None
     numbers = base if machine is None else machine.parameters
-    case = Case(name, numbers, machine, **beside._asdict(), requirement=requirement, touchdown=touchdown)
+    stated = tables.values if machine is None else {}
+    case = Case(name, numbers, machine, **beside._asdict(), requirement=requirement, touchdown=touchdown, stated=stated)
     case = case.replace(**texts)
     warn_of_proportions(case.machine)
     return case

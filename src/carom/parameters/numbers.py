@@ -7,14 +7,13 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, Protocol, Self, runtime_checkable
 
 from carom.base.arguments import checked, having
 from carom.base.outcome import InputError, shown
-from carom.parameters.conversions import CONVERSIONS, root
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
 from carom.parameters.quantities import read_quantity
-from carom.parameters.scaling import Scales, plain_number
+from carom.parameters.scaling import CONVERSIONS, Scales, plain_number, root
 from carom.parameters.terms import no_such_parameter
 from carom.parameters.told import told_entry
 
@@ -261,3 +260,34 @@ def _add(name: str) -> None:
 
 for _name in DIMENSIONLESS_FIELDS:
     _add(_name)
+
+
+@runtime_checkable
+class Named(Protocol):
+    """Numbers by name: those of the planar rotor, or of any model."""
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that convert results to SI units, if known."""
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Parameters that can be varied."""
+
+    def value(self, name: str) -> float:
+        """Value of a parameter."""
+
+    def replace(self, **changes: Any) -> Self:
+        """Return the same with other values."""
+
+
+def own_numbers(numbers: Named) -> dict[str, float]:
+    """Return the dimensionless numbers by name; those that differ between the planes of a rotor for each plane."""
+    found: dict[str, float] = {}
+    for name in DIMENSIONLESS_FIELDS:
+        try:
+            found[name] = numbers.value(name)
+        except InputError:
+            at_planes = [each for each in numbers.varied if each.startswith(f"{name}_")]
+            found |= {each: numbers.value(each) for each in at_planes}
+    return found

@@ -59,6 +59,13 @@ _PARSER_ERRORS = (
 )
 
 
+class Written(float):
+    """A number of a file without quotes: the double, and the text that stands there."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text.replace("_", "")
+
+
 def read_quantity(field: Field, given: object) -> float:
     """Read a number, or text with a unit, as a float in the SI unit of a field.
 

@@ -6,12 +6,11 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, cast, get_args
+from typing import Any, Literal
 
-from carom.base.arguments import checked
+from carom.base.arguments import Positive, Whole, checked
 from carom.base.outcome import InputError, Problems, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_names
-from carom.parameters.quantities import read_quantity
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, unknown_names
 from carom.parameters.scaling import Scales
 from carom.parameters.sizes import read_size, read_unbalance
 
@@ -28,9 +27,9 @@ SURVIVE_ENTRIES: Mapping[str, tuple[str, str]] = {
     "blade_loss_node": ("node of a flexible machine at which the unbalance changes", "2"),
 }
 """Entries of a ``[survive]`` table, in words and with an example; each may be left out."""
-_NUMBER = Field("", "", "", "a number", "", 1e-300, 1e300, "0.4")
 
 
+@checked
 @dataclass(frozen=True)
 class Shock:
     """A half-sine shock of the base.
@@ -48,11 +47,8 @@ class Shock:
         One of them is not a finite number above 0.
     """
 
-    peak: float
-    duration: float
-
-    def __post_init__(self) -> None:
-        _check(self, "peak", "duration")
+    peak: Positive
+    duration: Positive
 
 
 @dataclass(frozen=True)
@@ -77,6 +73,7 @@ class Required:
     blade_loss_node: int | None = None
 
 
+@checked
 @dataclass(frozen=True)
 class Requirement:
     """What a machine must survive; ``None`` where nothing is stated.
@@ -112,20 +109,13 @@ class Requirement:
     '0.1657 m/s'
     """
 
-    kick: float | None = None
+    kick: Positive | None = None
     shock: Shock | None = None
-    blade_loss: float | None = None
+    blade_loss: Positive | None = None
     source: Source = "option"
-    blade_loss_node: int | None = None
+    blade_loss_node: Whole | None = None
 
     def __post_init__(self) -> None:
-        _check(self, *(name for name in ("kick", "blade_loss") if getattr(self, name) is not None))
-        if not isinstance(self.shock, Shock | None):
-            raise InputError("shock", shown(self.shock), f"must be a carom.parameters.Shock, or None; {_TEXT}")
-        if shown(self.source) not in get_args(Source):
-            raise InputError("source", shown(self.source), f"must be one of: {', '.join(get_args(Source))}")
-        if self.blade_loss_node is not None and not _is_node(self.blade_loss_node):
-            raise InputError("blade_loss_node", shown(self.blade_loss_node), "must be the number of a node, from 0 on")
         if (self.kick, self.shock, self.blade_loss, self.blade_loss_node) == (None,) * 4:
             object.__setattr__(self, "source", "default")
 
@@ -172,15 +162,14 @@ class Requirement:
     def to_toml(self, has_scales: bool = True) -> str:
         """Return the text of a table that is read as this requirement; nothing if nothing is stated."""
         velocity, acceleration, time, unbalance = (" m/s", " m/s^2", " s", " kg m") if has_scales else ("",) * 4
-        lines = []
-        if self.kick is not None:
-            lines.append(f'kick = "{self.kick!r}{velocity}"')
-        if self.shock is not None:
-            lines.append(f'shock = "{self.shock.peak!r}{acceleration}, {self.shock.duration!r}{time}"')
-        if self.blade_loss is not None:
-            lines.append(f'blade_loss = "{self.blade_loss!r}{unbalance}"')
-        if self.blade_loss_node is not None:
-            lines.append(f"blade_loss_node = {self.blade_loss_node}")
+        shock = self.shock and f'"{self.shock.peak!r}{acceleration}, {self.shock.duration!r}{time}"'
+        entries = {
+            "kick": self.kick and f'"{self.kick!r}{velocity}"',
+            "shock": shock,
+            "blade_loss": self.blade_loss and f'"{self.blade_loss!r}{unbalance}"',
+            "blade_loss_node": self.blade_loss_node,
+        }
+        lines = [f"{name} = {text}" for name, text in entries.items() if text is not None]
         return "\n".join(["[survive]", *lines]) + "\n" if lines else ""
 
     @classmethod
@@ -226,8 +215,7 @@ class Requirement:
         """
         problems = Problems()
         problems.errors += unknown_names(table, SURVIVE_ENTRIES, "[survive]")
-        names = {name: f"[survive] {name}" for name in SURVIVE_ENTRIES}
-        found = problems.attempt(_read, table, names, scales, "file")
+        found = problems.attempt(_read, table, {name: f"[survive] {name}" for name in SURVIVE_ENTRIES}, scales, "file")
         problems.raise_all()
         return found or cls()
 
@@ -249,22 +237,6 @@ def usual_kick(scales: Scales | None) -> float:
 
 def _fall_speed(scales: Scales) -> float:
     return math.sqrt(4.0 * GRAVITY * scales.clearance)
-
-
-_TEXT = "text with units is for Requirement.of(machine, …)"
-
-
-def _check(values: object, *names: str) -> None:
-    """Check numbers of a frozen dataclass and store them as floats."""
-    problems = Problems()
-    for name in names:
-        given = getattr(values, name)
-        field = dataclasses.replace(_NUMBER, name=name)
-        if isinstance(given, str):
-            problems.errors.append(InputError(name, shown(given), f"must be a number; {_TEXT}"))
-        else:
-            object.__setattr__(values, name, problems.attempt(read_quantity, field, given))
-    problems.raise_all()
 
 
 def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales | None, source: Source) -> Requirement:
@@ -292,27 +264,23 @@ def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:
 
 
 def _read_loss(name: str, given: object, scales: Scales | None) -> float:
-    size = read_unbalance(name, given if scales is None or isinstance(given, str) else shown(given), scales)
-    if not size.value > 0.0:
-        raise InputError(name, shown(given), "must be above 0")
-    return size.value
+    return _size(name, given, "unbalance", scales)
 
 
 def _read_node(name: str, given: object, scales: Scales | None) -> int:
-    number = int(given) if isinstance(given, str) and given.strip().isdecimal() else given
-    if not _is_node(number):
+    number: Any = int(given) if isinstance(given, str) and given.strip().isdecimal() else given
+    if not isinstance(number, int) or isinstance(number, bool) or number < 0:
         raise InputError(name, shown(given), "must be the number of a node, from 0 on")
-    return int(cast("int", number))
-
-
-def _is_node(given: object) -> bool:
-    return isinstance(given, int) and not isinstance(given, bool) and given >= 0
+    return number
 
 
 def _size(name: str, given: object, kind: str, scales: Scales | None) -> float:
     """Read a size above 0, in SI units where the scales are known; there it needs a unit."""
     text = given if scales is None or isinstance(given, str) else shown(given)
-    size = read_size(name, text, kind, scales, bare=False)
+    if kind == "unbalance":
+        size = read_unbalance(name, text, scales)
+    else:
+        size = read_size(name, text, kind, scales, bare=False)
     if not size.value > 0.0:
         raise InputError(name, shown(given), "must be above 0")
     return size.value

@@ -9,10 +9,9 @@ from decimal import Context, Decimal, localcontext
 from typing import Any
 
 from carom.base.outcome import InputError, Problems, shown
-from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors
 from carom.parameters.quantities import read_decimal, read_quantity
-from carom.parameters.scaling import Scales
+from carom.parameters.scaling import CONVERSIONS, Scales
 from carom.parameters.terms import (
     BEARING_FIELDS,
     DEFAULTS,

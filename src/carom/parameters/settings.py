@@ -9,7 +9,7 @@ from typing import Any
 from carom.base.arguments import checked
 from carom.base.outcome import Problems
 from carom.parameters.fields import Field, unknown_name, unknown_names
-from carom.parameters.gravity import GRAVITY_FIELDS
+from carom.parameters.tables import GRAVITY_FIELDS
 from carom.parameters.terms import SETTABLE, check_names
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS
 

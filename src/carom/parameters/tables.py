@@ -2,14 +2,66 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
+import math
 from collections.abc import Mapping
+from functools import cache
 from typing import Any, ClassVar, Self
 
-from carom.base.arguments import checked
+from carom.base.arguments import Count, Infinity, checked
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, unknown_names
 from carom.parameters.quantities import read_quantity
+from carom.parameters.scaling import Scales
+from carom.parameters.told import number, told_angle
+
+DOWN = -0.5 * math.pi
+"""Down the y axis, as an angle from the x axis."""
+_KINDS = {
+    "": "a number",
+    "rad": "an angle",
+    "m": "a length",
+    "kg": "a mass",
+    "kg m^2": "a moment of inertia",
+    "m/s": "a speed",
+    "m/s^2": "an acceleration",
+    "N": "a force",
+    "N s": "an impulse",
+    "N m": "a torque",
+    "W": "a power",
+    "J": "an energy",
+    "Pa": "a pressure",
+    "N/m": "a stiffness",
+    "N s/m": "a damping",
+    "s/m": "a dissipation",
+    "N m s": "a drag",
+}
+"""What is counted in an SI unit."""
+
+
+def entry(
+    symbol: str,
+    words: str,
+    unit: str,
+    lowest: float,
+    highest: float,
+    example: str,
+    zero: bool = False,
+    default: float | None = None,
+    **more: Any,
+) -> Any:
+    """An attribute of a table that is a number: its field, but for the name, and its value where it is left out."""
+    kind = "a whole number" if more.get("whole") else _KINDS[unit]
+    field = Field("", symbol, words, kind, unit, lowest, highest, example, zero, **more)
+    return dataclasses.field(default=default, metadata={"field": field})
+
+
+@cache
+def entries_of(table: type[Any]) -> dict[str, Field]:
+    """The numbers of a table, by their names."""
+    declared = {each.name: each.metadata["field"] for each in dataclasses.fields(table) if "field" in each.metadata}
+    return {name: dataclasses.replace(field, name=name) for name, field in declared.items()}
 
 
 def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
@@ -35,8 +87,6 @@ class Table:
     ----------
     heading : str
         Name of the table.
-    entries : mapping of str to Field
-        Its numbers.
     texts : tuple of str
         Entries that are no numbers.
     means_something_empty : bool
@@ -44,22 +94,21 @@ class Table:
     """
 
     heading: ClassVar[str]
-    entries: ClassVar[Mapping[str, Field]]
     texts: ClassVar[tuple[str, ...]] = ()
     means_something_empty: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        read_entries(self, self.entries)
+        read_entries(self, entries_of(type(self)))
 
     @property
     def given(self) -> dict[str, Any]:
         """The numbers that are stated, in SI units."""
-        own = {each.name: getattr(self, each.name) for each in dataclasses.fields(self) if each.name in self.entries}
+        own = {name: getattr(self, name) for name in entries_of(type(self))}
         return {name: value for name, value in own.items() if value is not None}
 
     def unit(self, name: str) -> str:
         """SI unit of an entry."""
-        return self.entries[name].unit
+        return entries_of(type(self))[name].unit
 
     def to_toml(self) -> str:
         """Return the text of a table that is read as this value; nothing if nothing is stated."""
@@ -77,7 +126,7 @@ class Table:
         InputError
             An unknown name, a value that is not allowed, or a table without a machine in SI units.
         """
-        problems, known = Problems(), dict.fromkeys(cls.texts) | dict(cls.entries)
+        problems, known = Problems(), dict.fromkeys(cls.texts) | dict[str, Any](entries_of(cls))
         problems.errors += unknown_names(table, known, f"[{cls.heading}]")
         if not has_scales and (table or cls.means_something_empty):
             problems.errors.append(cls.without_scales(shown(dict(table))))
@@ -90,3 +139,144 @@ class Table:
         """The error of the table beside dimensionless parameters."""
         allowed = "not allowed beside [dimensionless]: it is in SI units, which need a [machine] table with mass, clearance and speed"
         return InputError(cls.heading, shown(given), allowed)
+
+
+@dataclasses.dataclass(frozen=True)
+class Gravity(Table):
+    """Gravity in the plane in which the rotor moves, as that of a horizontal shaft.
+
+    Parameters
+    ----------
+    acceleration : float or str, optional
+        Part of the acceleration of free fall that lies in that plane, m/s²; 9.81 by default.
+    direction : float or str, optional
+        Where it points, as an angle in the fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind, or the acceleration is below zero.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> cm.parameters.Gravity("1.62 m/s^2", "-60 deg").acceleration
+    1.62
+    """
+
+    acceleration: float = entry("g", "acceleration of free fall", "m/s^2", 1e-9, 1e9, '"9.81 m/s^2"', True, 9.81)
+    direction: float = entry("", "direction of the fall, from the x axis", "rad", -1e6, 1e6, '"-90 deg"', False, DOWN)
+
+    heading: ClassVar = "gravity"
+
+    def pull(self, scales: Scales) -> complex:
+        """Return the acceleration in the fixed frame, in ``c_r Ω²``."""
+        return cmath.rect(self.acceleration / scales.acceleration, self.direction)
+
+    @property
+    def words(self) -> str:
+        """Both in the units of people."""
+        return f"{number(self.acceleration)} m/s\N{SUPERSCRIPT TWO} at {told_angle(self.direction)}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Drive(Table):
+    """What turns with the shaft, and its drive: with it friction in contact changes the speed.
+
+    Parameters
+    ----------
+    polar_inertia : float or str
+        Moment of inertia about the axis of rotation, kg m².
+    torque : float or str, optional
+        Torque of the drive while the rotor touches, N m; 0, a drive that is off, by default.  In flight the speed stays as it is.
+
+    Raises
+    ------
+    InputError
+        A value is missing, not of this kind or out of range.
+    """
+
+    polar_inertia: float | None = entry("J", "polar inertia of the rotor", "kg m^2", 1e-15, 1e9, '"0.02 kg m^2"')
+    torque: float = entry("", "torque of the drive in contact", "N m", -1e12, 1e12, '"0 N m"', True, 0.0)
+
+    heading: ClassVar = "drive"
+
+    def __post_init__(self) -> None:
+        if self.polar_inertia is None:
+            raise InputError("polar_inertia", None, "a table [drive] needs it, such as polar_inertia = '0.02 kg m^2'")
+        super().__post_init__()
+
+    @property
+    def words(self) -> str:
+        """Both in the units of people."""
+        return f"polar inertia {number(self.polar_inertia or 0.0)} kg m², torque in contact {number(self.torque)} N m"
+
+
+@dataclasses.dataclass(frozen=True)
+class LoadLimits(Table):
+    """Largest loads of a touchdown that are stated for a touchdown bearing; ``None`` where nothing is stated.
+
+    Every value is a number in the SI unit below, or text with a unit such as ``"2 kN"``.
+
+    Parameters
+    ----------
+    impulse : float or str, optional
+        Normal impulse of an impact, N s.
+    force : float or str, optional
+        Normal force, N: the peak in a compliant bearing, and on a rigid wall that of lasting contact.
+    power : float or str, optional
+        Friction power in lasting contact, W.
+    heat : float or str, optional
+        Friction work of the whole touchdown, J.
+    depth : float or str, optional
+        Depth in a compliant bearing, m.
+    pressure : float or str, optional
+        Largest pressure between a ball and the inner race, Pa; the bearing has to state its balls.
+    impacts : int or str, optional
+        Number of impacts of the whole touchdown.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind, or below zero.
+    """
+
+    impulse: float | None = entry("", "normal impulse of an impact", "N s", 1e-12, 1e12, '"5 N s"', True)
+    force: float | None = entry("", "normal force", "N", 1e-12, 1e15, '"2 kN"', True)
+    power: float | None = entry("", "friction power in lasting contact", "W", 1e-12, 1e15, '"10 kW"', True)
+    heat: float | None = entry("", "friction work of a touchdown", "J", 1e-12, 1e15, '"500 J"', True)
+    impacts: float | None = entry("", "impacts of a touchdown", "", 1, 1e9, "20", True, whole=True)
+    depth: float | None = entry(
+        "", "depth in the bearing", "m", 1e-12, 1.0, '"20 um"', True, usual="µm", usual_size=1e-6
+    )
+    pressure: float | None = entry(
+        "", "pressure of balls", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual="GPa", usual_size=1e9
+    )
+
+    heading: ClassVar = "limits"
+    means_something_empty: ClassVar = False
+
+    @staticmethod
+    @checked
+    def told(name: str, value: float | Infinity, digits: Count = 3) -> str:
+        """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
+        if name not in LIMIT_FIELDS:
+            raise InputError("name", name, "a load that can be limited")
+        field = LIMIT_FIELDS[name]
+        return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
+
+    def check_fit(self, bearing: Any) -> None:
+        """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have.
+
+        Raises
+        ------
+        InputError
+            A depth in a rigid wall is limited, or the pressure of balls that are not stated.
+        """
+        if self.depth is not None and (bearing is None or not bearing.yields):
+            raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a compliant bearing")
+        if self.pressure is not None and (bearing is None or bearing.balls is None):
+            raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")
+
+
+GRAVITY_FIELDS, DRIVE_FIELDS, LIMIT_FIELDS = map(entries_of, (Gravity, Drive, LoadLimits))

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import PHYSICAL_PARTNER, Field
 from carom.parameters.requirement import GRAVITY
-from carom.parameters.scaling import UNITS, Scales
+from carom.parameters.scaling import CONVERSIONS, UNITS, Scales
 from carom.parameters.terms import SETTABLE
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

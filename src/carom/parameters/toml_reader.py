@@ -12,6 +12,7 @@ from typing import Any
 
 from carom.base.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
+from carom.parameters.quantities import Written
 
 _WHAT = "machine file"
 _OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
@@ -142,7 +143,7 @@ def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
         words = f"must be valid TOML of at most {_MOST_LEVELS} levels; line {line} is nested too deeply"
         raise InputError(what, shown(name), words)
     try:
-        return tomllib.loads(text)
+        return tomllib.loads(text, parse_float=Written)
     except tomllib.TOMLDecodeError as problem:
         advice = str(problem)
         place = _PLACE.search(advice)

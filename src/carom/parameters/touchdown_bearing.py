@@ -4,47 +4,21 @@ from __future__ import annotations
 
 import cmath
 import dataclasses
-import math
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from carom.base.outcome import InputError, shown, together
-from carom.parameters.fields import Field, by_name, length_field
-from carom.parameters.tables import Table
+from carom.parameters.tables import DOWN, Table, entries_of, entry
 from carom.parameters.told import number
 
 LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
 """Laws of contact that a machine file may name."""
-BALL_FIELDS: Mapping[str, Field] = by_name(
-    Field("balls", "Z", "balls that share the force", "a whole number", "", 3, 1000, "12", whole=True),
-    length_field("ball_diameter", "D", "diameter of a ball", 1e-5, 10.0, '"6.35 mm"'),
-    length_field("race_diameter", "d_i", "diameter of the inner race at the bottom of its groove", 1e-4, 100.0, '"42 mm"'),
-    Field("conformity", "f", "radius of the groove over the ball diameter", "a number", "", 0.501, 1.0, "0.52"),
-    Field("ball_modulus", "", "elastic modulus of the balls", "a modulus", "Pa", 1e6, 1e13, '"208 GPa"'),
-    Field("race_modulus", "", "elastic modulus of the inner race", "a modulus", "Pa", 1e6, 1e13, '"208 GPa"'),
-)  # fmt: skip
-"""Entries of a ``[touchdown]`` table that say how its balls are pressed on; they change no motion."""
-TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
-    Field("stiffness", "k_t", "stiffness of the touchdown bearing", "a stiffness", "N/m", 1e-6, 1e18, '"1e8 N/m"'),
-    Field("damping", "c_t", "damping of the touchdown bearing", "a damping", "N s/m", 1e-12, 1e12, '"500 N s/m"', True),
-    Field("dissipation", "chi", "dissipation of the touchdown bearing", "a dissipation", "s/m", 0.0, 1e6, '"0.3 s/m"'),
-    Field("restitution", "d", "restitution at the touchdown bearing", "a number", "", 1e-6, 1.0, "0.8"),
-    Field("restitution_speed", "", "speed of the impact of that restitution", "a speed", "m/s", 1e-9, 1e4, '"0.1 m/s"'),
-    Field("exponent", "n", "exponent of the force over the depth", "a number", "", 1.0, 2.0, "1.5"),
-    Field("race_inertia", "J_r", "inertia of the race", "a moment of inertia", "kg m^2", 1e-15, 1e9, '"2e-4 kg m^2"'),
-    Field("race_drag", "", "drag torque of the race per speed", "a drag", "N m s", 1e-15, 1e9, '"1e-4 N m s"', True),
-    Field("mount_mass", "", "mass of the mount", "a mass", "kg", 1e-9, 1e9, '"2 kg"'),
-    Field("mount_stiffness", "", "stiffness of the mount", "a stiffness", "N/m", 1e-6, 1e18, '"2e7 N/m"'),
-    Field("mount_damping", "", "damping of the mount", "a damping", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True),
-    Field("offset", "", "distance of the bearing's centre", "a length", "m", 1e-12, 1e3, '"0.05 mm"', True),
-    Field("offset_direction", "", "direction of the bearing's centre", "an angle", "rad", -1e6, 1e6, '"-90 deg"'),
-    *BALL_FIELDS.values(),
-)
-"""Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
 OF_LAW = ("stiffness", "damping", "dissipation", "restitution", "restitution_speed", "exponent")
-"""Entries that belong to the law of a compliant wall; the others are of race, mount and place, or of the balls."""
+"""Entries that belong to the law of a compliant touchdown bearing; the others are of race, mount and place, or of the balls."""
+OF_BALLS = ("balls", "ball_diameter", "race_diameter", "conformity", "ball_modulus", "race_modulus")
+"""Entries that say how its balls are pressed on; they change no motion."""
+MM = {"usual": "mm", "usual_size": 1e-3}
 PREFIX = "touchdown_"
 """Before the names of these entries where they stand beside those of the machine, as in ``--set touchdown_stiffness=1e8 N/m``."""
 _POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
@@ -100,28 +74,29 @@ class TouchdownBearing(Table):
     """
 
     law: str = "rigid"
-    stiffness: float | None = None
-    damping: float | None = None
-    dissipation: float | None = None
-    restitution: float | None = None
-    restitution_speed: float | None = None
-    exponent: float = 1.0
-    race_inertia: float | None = None
-    race_drag: float | None = None
-    mount_mass: float | None = None
-    mount_stiffness: float | None = None
-    mount_damping: float | None = None
-    offset: float | None = None
-    offset_direction: float | None = None
-    balls: float | None = None
-    ball_diameter: float | None = None
-    race_diameter: float | None = None
-    conformity: float | None = None
-    ball_modulus: float | None = None
-    race_modulus: float | None = None
+    stiffness: float | None = entry("k_t", "stiffness of the touchdown bearing", "N/m", 1e-6, 1e18, '"1e8 N/m"')
+    damping: float | None = entry("c_t", "damping of the touchdown bearing", "N s/m", 1e-12, 1e12, '"500 N s/m"', True)
+    dissipation: float | None = entry("chi", "dissipation of the touchdown bearing", "s/m", 0.0, 1e6, '"0.3 s/m"')
+    restitution: float | None = entry("d", "restitution at the touchdown bearing", "", 1e-6, 1.0, "0.8")
+    restitution_speed: float | None = entry(
+        "", "speed of the impact of that restitution", "m/s", 1e-9, 1e4, '"0.1 m/s"'
+    )
+    exponent: float = entry("n", "exponent of the force over the depth", "", 1.0, 2.0, "1.5", default=1.0)
+    race_inertia: float | None = entry("J_r", "inertia of the race", "kg m^2", 1e-15, 1e9, '"2e-4 kg m^2"')
+    race_drag: float | None = entry("", "drag torque of the race per speed", "N m s", 1e-15, 1e9, '"1e-4 N m s"', True)
+    mount_mass: float | None = entry("", "mass of the mount", "kg", 1e-9, 1e9, '"2 kg"')
+    mount_stiffness: float | None = entry("", "stiffness of the mount", "N/m", 1e-6, 1e18, '"2e7 N/m"')
+    mount_damping: float | None = entry("", "damping of the mount", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True)
+    offset: float | None = entry("", "distance of the bearing's centre", "m", 1e-12, 1e3, '"0.05 mm"', True)
+    offset_direction: float | None = entry("", "direction of the bearing's centre", "rad", -1e6, 1e6, '"-90 deg"')
+    balls: float | None = entry("Z", "balls that share the force", "", 3, 1000, "12", whole=True)
+    ball_diameter: float | None = entry("D", "diameter of a ball", "m", 1e-5, 10.0, '"6.35 mm"', **MM)
+    race_diameter: float | None = entry("d_i", "diameter of the inner race's groove", "m", 1e-4, 100.0, '"42 mm"', **MM)
+    conformity: float | None = entry("f", "radius of the groove over the ball diameter", "", 0.501, 1.0, "0.52")
+    ball_modulus: float | None = entry("", "elastic modulus of the balls", "Pa", 1e6, 1e13, '"208 GPa"')
+    race_modulus: float | None = entry("", "elastic modulus of the inner race", "Pa", 1e6, 1e13, '"208 GPa"')
 
     heading: ClassVar = "touchdown"
-    entries: ClassVar = TOUCHDOWN_FIELDS
     texts: ClassVar = ("law",)
 
     def __post_init__(self) -> None:
@@ -213,7 +188,7 @@ class TouchdownBearing(Table):
     @property
     def centre(self) -> complex:
         """Its centre in the fixed frame, seen from the place at which levitation holds the rotor, m."""
-        direction = -0.5 * math.pi if self.offset_direction is None else self.offset_direction
+        direction = DOWN if self.offset_direction is None else self.offset_direction
         return cmath.rect(self.offset or 0.0, direction)
 
     @property
@@ -238,6 +213,11 @@ class TouchdownBearing(Table):
     def replace(self, **changes: Any) -> TouchdownBearing:
         """Return the bearing with other entries."""
         return dataclasses.replace(self, **changes)
+
+
+TOUCHDOWN_FIELDS = entries_of(TouchdownBearing)
+"""Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
+BALL_FIELDS = {name: field for name, field in TOUCHDOWN_FIELDS.items() if name in OF_BALLS}
 
 
 def _without_power(given: Any) -> Any:

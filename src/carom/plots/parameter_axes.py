@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from matplotlib.axes import Axes
 
-from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import MACHINE_FIELDS, PHYSICAL_PARTNER, Field
+from carom.parameters.scaling import CONVERSIONS
 from carom.parameters.told import number as plain
 from carom.plots.words import number, parameter_label
 

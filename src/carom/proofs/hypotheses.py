@@ -7,24 +7,23 @@ They are rational if these are, up to a power of π where an angular speed is co
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
-from pathlib import Path
 from typing import Any, Literal, cast
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
 from carom.loading import load
 from carom.models import Subject, exact_rotor_of
-from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, MACHINE_FIELDS, PARAMETERS, TERMS, Machine
+from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, MACHINE_FIELDS, PARAMETERS, TERMS
 from carom.parameters.exact import ExactNumber, read_exact
 from carom.parameters.fields import name_errors, unknown_name
+from carom.parameters.machine_file import split_settings
+from carom.parameters.quantities import Written
 from carom.parameters.terms import DEFAULTS, check_names
-from carom.parameters.toml_reader import read_machine_tables
 
 Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
 """A number as it may be given: a float stands for itself, a tuple for an interval."""
@@ -192,52 +191,34 @@ def hypotheses_of(
 
 
 def _from_file(path: str | os.PathLike[str], settings: list[str], needs: list[str]) -> Hypotheses:
-    """Numbers of a file, with what is needed of its other entries."""
+    """Numbers of a file as they are written, with what is needed of its other entries; of those that follow from other terms, the nearest doubles."""
     problems = Problems()
-    tables = read_machine_tables(path, problems)
-    texts = {}
-    for setting in settings:
-        name, equals, text = (part.strip() for part in setting.partition("="))
-        if not equals or not name or name in texts:
-            problems.errors.append(
-                InputError("--set", shown(setting), "must be name=value, each name once, such as gamma=1/10")
-            )
-        texts[name] = text
-    pull = texts.pop("gravity", None)
+    texts = split_settings(settings, problems)
+    pull = [f"gravity={texts.pop('gravity')}"] if "gravity" in texts else []
     problems.attempt(check_names, texts)
     problems.raise_all()
-    if tables.gravity is not None or pull is not None or tables.touchdown or tables.drive is not None:
-        # What is proven is of rotors without weight, in a rigid wall that stands still, at a constant speed.
-        exact_rotor_of(load(path, () if pull is None else [f"gravity={pull}"]))
-    content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
-    table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
-    if table == "machine":
-        read = _of_machine_file(path, content[table], texts)
-        given = {**DEFAULTS, **content[table], **texts}
-        helpers = {name: written_exactly(given[name]) for name in needs if name in HELPER_FIELDS and name in given}
-        return replace(read, helpers=helpers)
-    read = Hypotheses(table, {name: written_exactly(value) for name, value in content[table].items()}, {})
-    return read.replace(**texts)
-
-
-def _of_machine_file(
-    path: str | os.PathLike[str], entries: Mapping[str, Given], texts: Mapping[str, str]
-) -> Hypotheses:
-    """Numbers of a machine as they are written; of those that follow from other terms, the nearest doubles."""
-    values = {name: value for name, value in {**DEFAULTS, **entries}.items() if name in MACHINE_FIELDS}
     terms = [name for name in texts if name not in PARAMETERS]
-    if terms or not entries.keys() <= MACHINE_FIELDS.keys():
-        settings = [f"{name}={text}" for name, text in texts.items()] if terms else []
-        case = load(path, settings)
-        exact_rotor_of(case)  # which refuses limits of magnetic bearings
-        machine = cast("Machine", case.machine)
-        values |= {name: getattr(machine, name) for name, source in machine.given.items() if name not in source}
-    read = Hypotheses("machine", {name: written_exactly(value) for name, value in values.items()}, {})
-    return read.replace(**{name: text for name, text in texts.items() if name not in terms})
+    case = load(path, [f"{name}={text}" for name, text in texts.items()] + pull if terms else pull)
+    exact_rotor_of(
+        case
+    )  # what is proven is of planar rotors without weight and limits, in a rigid wall that stands still, at a constant speed
+    values = {name: written_exactly(value) for name, value in case.written.items()}
+    given = {name: text for name, text in texts.items() if name not in terms}
+    if case.machine is None:
+        return Hypotheses("dimensionless", values, {}).replace(**given)
+    entries = {
+        **DEFAULTS,
+        **{name: text for each in case.machine.given.values() for name, text in each.items()},
+        **texts,
+    }
+    helpers = {name: written_exactly(entries[name]) for name in needs if name in HELPER_FIELDS and name in entries}
+    return Hypotheses("machine", values, {}, helpers).replace(**given)
 
 
 def written_exactly(value: Given) -> str:
     """A number as text that :func:`~carom.parameters.exact.read_exact` reads back exactly."""
     if isinstance(value, tuple):
         return f"[{', '.join(written_exactly(end) for end in value)}]"
+    if isinstance(value, Written):
+        return value.text
     return f"double {float(value)!r}" if isinstance(value, float) else str(value)

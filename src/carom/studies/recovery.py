@@ -25,7 +25,7 @@ from carom.models import Axis, Edge, Rotor, Span, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.models.spans import paired, spans_where
 from carom.motions.budget import BudgetSpentError
-from carom.parameters.conversions import CONVERSIONS
+from carom.parameters.scaling import CONVERSIONS
 from carom.parameters.told import told_along
 from carom.studies.ranges import Motion, MotionRange, motion_ranges
 from carom.studies.trials import Check, Trial

@@ -18,7 +18,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.parameters.named import own_numbers
+from carom.parameters.numbers import own_numbers
 from carom.studies.endings import motion_words
 from carom.studies.kinds import LABELS
 from carom.studies.proven import is_proven

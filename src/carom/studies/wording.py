@@ -11,7 +11,7 @@ from carom.base.arguments import checked
 from carom.models import Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.indentation import gives_way
-from carom.parameters.named import own_numbers
+from carom.parameters.numbers import own_numbers
 from carom.parameters.told import number, own_entry, told, told_entry
 
 SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
