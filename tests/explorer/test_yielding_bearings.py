@@ -15,7 +15,7 @@ import carom
 from carom.base.outcome import InputError
 from carom.cli import main
 from carom.explorer.computing.controls import controls_of, values_of, with_settings
-from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python
 from carom.explorer.computing.judgement import find_hardest
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import map_kicks
@@ -115,7 +115,7 @@ def test_options_and_file_lead_to_the_same_machine(origin, kind, changes, tmp_pa
     given = origin(kind)
     case = with_settings(given.case, changes)
     assert carom.load(given.path, shlex.split(as_options(given, changes))[1::2]) == case
-    (tmp_path / "machine.toml").write_text(as_toml(case), encoding="utf-8")
+    (tmp_path / "machine.toml").write_text(case.to_toml(), encoding="utf-8")
     again = carom.load(tmp_path / "machine.toml")
     assert (again.machine, again.touchdown, again.drive) == (case.machine, case.touchdown, case.drive)
     assert again.limits == case.limits

@@ -287,7 +287,7 @@ def test_a_file_that_is_not_there(tmp_path):
 
 
 def test_a_directory(tmp_path):
-    assert "this is a directory" in error_of(tmp_path).allowed
+    assert "cannot be read (is a directory)" in error_of(tmp_path).allowed
 
 
 def test_a_file_without_permission(write, monkeypatch):
@@ -299,7 +299,7 @@ def test_a_file_without_permission(write, monkeypatch):
 
     monkeypatch.setattr(Path, "open", refuse)
 
-    assert "no permission" in error_of(path).allowed
+    assert "cannot be read (permission denied)" in error_of(path).allowed
 
 
 def test_a_path_that_leads_nowhere(tmp_path):

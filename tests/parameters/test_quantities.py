@@ -377,24 +377,13 @@ def test_unknown_names_suggest_the_nearest(written, meant):
 
 
 @pytest.mark.parametrize(
-    ("written", "advice"),
-    [
-        ("contact-damping", "that is stated in a table [touchdown]"),
-        ("gravity", "that is stated in a table [gravity]"),
-        ("integral_gain", "that is stated in a table [[magnetic_bearing]] beside [rotor]"),
-        ("polar_inertia", "that is stated in a table [rotor]"),
-        ("mount_mass", "that is stated in a table [touchdown]"),
-        ("bearing_force", "allowed: "),
-        ("voltage_limit", "allowed: "),
-        ("unbalance_mass", "allowed: "),
-    ],
+    "written", ["contact-damping", "integral_gain", "polar_inertia", "mount_mass", "bearing_force"]
 )
-def test_no_name_is_suggested_that_means_something_else(written, advice):
+def test_no_name_is_suggested_that_means_something_else(written):
     error = unknown_name(written, 3, SETTABLE, "[machine]")
 
     assert "did you mean" not in error.allowed
-    assert error.allowed.startswith(f"unknown name in [machine]; {advice}")
-    assert "allowed: gamma, omega" in error.allowed
+    assert error.allowed.startswith("unknown name in [machine]; allowed: gamma, omega")
 
 
 def test_several_unknown_names_list_those_allowed_once():

@@ -222,28 +222,18 @@ _MISSPELT = 0.66
 """Likeness from which a name counts as misspelt: one wrong letter of three."""
 _OTHER_WORDS = 0.2
 """Taken off the likeness of names with more or fewer words: a word more mostly says something else."""
-_ELSEWHERE = {
-    "gravity weight": "a table [gravity]",
-    "integral integrator delay filter bandwidth": "a table [[magnetic_bearing]] beside [rotor]",
-    "inertia gyroscopic": "a table [rotor]",
-    "touchdown contact wall mount": "a table [touchdown]",
-}
-"""Words of names, and where what they mean is stated."""
 
 
 @checked
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str, listed: bool = True) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 
-    ``where`` says where the name stood, for example ``"[machine]"``.  Where none means the same, but the name is one of something
-    that another table states, that is said.  Of the known names, those allowed there, the symbol or the
+    ``where`` says where the name stood, for example ``"[machine]"``.  Of the known names, those allowed there, the symbol or the
     partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds all of them to the message.
     """
     best = nearest_name(name, known)
-    table = None if best else _stated_elsewhere(name)
-    advice = [f"did you mean {best}?"] if best else [f"that is stated in {table};"] if table else []
-    names = [f"allowed: {', '.join(known)}"] if listed else []
-    remedy = " ".join(advice + names).removesuffix(";")
+    advice = [f"did you mean {best}?"] if best else []
+    remedy = " ".join(advice + ([f"allowed: {', '.join(known)}"] if listed else []))
     return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
 
 
@@ -299,9 +289,3 @@ def _likeness(one: str, other: str) -> float:
     if len(words) == len(others):
         return min(difflib.SequenceMatcher(None, *pair).ratio() for pair in zip(words, others, strict=True))
     return difflib.SequenceMatcher(None, "".join(words), "".join(others)).ratio() - _OTHER_WORDS
-
-
-def _stated_elsewhere(name: str) -> str | None:
-    """The table in which that is stated which a name seems to mean."""
-    words = set(name[:_LONGEST_NAME].lower().replace("-", "_").replace(" ", "_").split("_"))
-    return next((table for each, table in _ELSEWHERE.items() if words & set(each.split())), None)

@@ -9,14 +9,14 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localc
 from typing import Annotated, Any, Literal, NamedTuple
 
 from carom.base.arguments import checked, whole
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
 from carom.parameters.resolution import DECIMALS
-from carom.parameters.scaling import CONVERSIONS
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
-from carom.parameters.told import RAISED
+from carom.parameters.told import RAISED, own_entry
+from carom.parameters.told import number as short
 
 Side = Literal["up", "down", "nearest"]
 _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}
@@ -132,7 +132,7 @@ def _stated(case: Case, name: str, value: Decimal) -> _Stated:
     machine = case.machine
     given: Mapping[str, Any] = {}
     if machine is not None:
-        name, value = _field(machine, name, value)
+        name, value = own_entry(name, value, machine.scales)
         given = machine.given.get(name, {})
     entry = next((entry for entry in given if entry in TERMS), name)
     if machine is not None and entry in TERMS:
@@ -159,13 +159,6 @@ def _value(case: Case, name: str) -> float:
     )
 
 
-def _field(machine: Machine, name: str, value: Decimal) -> tuple[str, Decimal]:
-    """The field of a machine that a parameter stands for, and its value in SI units."""
-    if name not in PHYSICAL_PARTNER:
-        return name, value
-    return PHYSICAL_PARTNER[name], CONVERSIONS[name].value(value, machine.scales)
-
-
 def _needed(machine: Machine, need: str) -> Decimal:
     """What a formula needs besides the field, as :mod:`carom.parameters.resolution` takes it."""
     if need == "rated_speed":
@@ -181,11 +174,11 @@ def _beside(case: Case, entry: str) -> Iterator[str]:
         return
     gamma, omega = (numbers.value(name) for name in ("gamma", "omega"))
     if field in numbers.varied and field in ("damping", "stiffness") and entry != field:
-        yield f"{field} {_short(numbers.value(field))} {MACHINE_FIELDS[field].unit}"
+        yield f"{field} {short(numbers.value(field), _SECONDARY_DIGITS)} {MACHINE_FIELDS[field].unit}"
     if field == "damping" and entry != "damping_ratio":
-        yield f"damping ratio {_short(gamma / (2.0 * omega))}"
+        yield f"damping ratio {short(gamma / (2.0 * omega), _SECONDARY_DIGITS)}"
     if numbers.scales and field == "stiffness" and entry != "natural_frequency":
-        yield f"natural frequency {_short(omega * numbers.scales.speed / math.tau)} Hz"
+        yield f"natural frequency {short(omega * numbers.scales.speed / math.tau, _SECONDARY_DIGITS)} Hz"
 
 
 def _rounded(exact: Decimal, digits: int, rounding: str) -> Decimal:
@@ -195,10 +188,6 @@ def _rounded(exact: Decimal, digits: int, rounding: str) -> Decimal:
 def _last_digit(number: Decimal, digits: int) -> int:
     """Power of ten of the last significant digit."""
     return number.adjusted() - digits + 1
-
-
-def _short(value: float) -> str:
-    return _for_people(_rounded(Decimal(value), _SECONDARY_DIGITS, ROUND_HALF_EVEN))
 
 
 def _plain(number: Decimal) -> str:

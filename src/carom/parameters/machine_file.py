@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, cast
@@ -191,6 +192,23 @@ class Case(Tabular):
             return [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
         left_out = ENTRIES["restitution"].words if self.touchdown and self.touchdown.yields else None
         return [row for row in self.machine.rows() if row[0] != left_out]
+
+    def to_toml(self) -> str:
+        """Return the text of a machine file that is read as this case, bit for bit; empty if it is a rotor of matrices or parts."""
+        numbers, machine = self.parameters, self.machine
+        if machine is not None:
+            text = machine.to_toml()
+            if self.touchdown and self.touchdown.yields:  # whose law has its own restitution
+                text = re.sub("(?m)^restitution = .*\n", "", text)
+        elif isinstance(numbers, Parameters) and numbers.scales is None:
+            lines = [f"{name} = {value!r}" for name, value in numbers.as_dict().items()]
+            text = "\n".join(["[dimensionless]", *lines]) + "\n"
+        else:
+            return ""
+        zones = f"[zones]\nlimits = {list(self.zones.limits)}\n"
+        tables = [table.to_toml() for table in (self.limits, self.touchdown, self.drive, self.gravity) if table]
+        required = self.requirement.to_toml(has_scales=machine is not None)
+        return "\n".join(filter(None, [text, zones, required, *tables]))
 
     def _required(self) -> str:
         scales, stated = self.parameters.scales, self.requirement

@@ -82,53 +82,36 @@ class _Work:
 
     def resolved(self) -> Resolved:
         """Find all numbers, field by field."""
-        for name in BEARING_FIELDS:
-            self._helper(name)
-        for name in _FIELDS:
-            self.problems.attempt(self._field, name)
-            if self.problems.errors:
-                self.problems.raise_all()  # what follows needs this field
+        for name in (*BEARING_FIELDS, *_FIELDS):
+            self.problems.attempt(self._find, name)
+            self.problems.raise_all()  # what follows needs this field
         self._check_use()
         self.problems.raise_all()
         ordered = [*MACHINE_FIELDS, *(name for name in BEARING_FIELDS if name in self.values)]
         return Resolved({name: self.values[name] for name in ordered}, self.given)
-
-    def _helper(self, name: str) -> None:
-        if name in self.entries:
-            self._take(name, float(self.numbers[name]), {name: self.entries[name]})
-        elif self.base is not None and name in self.base.values:
-            self._take(name, self.base.values[name], self.base.given.get(name, {}))
-        elif name in DEFAULTS:
-            self._take(name, DEFAULTS[name], {})
 
     def _take(self, name: str, value: float, given: Mapping[str, Any]) -> None:
         self.values[name] = value
         if given:
             self.given[name] = dict(given)
 
-    def _field(self, name: str) -> None:
-        """Find one field of the machine."""
-        way = self.ways.get(name)
-        if way is None and self.base is None:
-            self._take(name, DEFAULTS[name], {})
-        elif way is None and self.base is not None:
-            self._keep(name, self.base)
-        elif way is not None:
-            if way in TERMS:
-                self._derive(name, way, self.numbers[way], self.entries[way])
-            else:
-                value = self._solved(name, way) if way in DIMENSIONLESS_FIELDS else float(self.numbers[way])
-                self._take(name, value, {way: self.entries[way]})
-
-    def _keep(self, name: str, base: Resolved) -> None:
-        """Keep a field, or derive it again if its formula needs something that is set."""
-        source = base.source(name)
-        helpers = [need for need in TERMS[source].needs if need in HELPER_FIELDS] if source and source in TERMS else []
-        if source and not set(helpers).isdisjoint(self.entries):
-            written = base.given[name][source]
-            self._derive(name, source, read_decimal(ENTRIES[source], written), written)
+    def _find(self, name: str) -> None:
+        """Find one number; of one that is not set the value stays, unless its formula needs something that is set."""
+        way, base = self.ways.get(name), self.base
+        if way is not None:
+            number, written = self.numbers[way], self.entries[way]
+        elif base is not None and name in base.values:
+            way = base.source(name)
+            if way not in TERMS or self.entries.keys().isdisjoint(HELPER_FIELDS.keys() & set(TERMS[way].needs)):
+                return self._take(name, base.values[name], base.given.get(name, {}))
+            written = base.given[name][way]
+            number = read_decimal(ENTRIES[way], written)
         else:
-            self._take(name, base.values[name], base.given.get(name, {}))
+            return self._take(name, DEFAULTS[name], {}) if name in DEFAULTS else None
+        if way in TERMS:
+            return self._derive(name, way, number, written)
+        value = self._solved(name, way) if way in DIMENSIONLESS_FIELDS else float(number)
+        return self._take(name, value, {way: written})
 
     def _derive(self, name: str, way: str, number: Decimal, written: Any) -> None:
         term, needed, given = TERMS[way], list[Decimal](), {way: written}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Any
 
 from carom.parameters.fields import PHYSICAL_PARTNER, Field
 from carom.parameters.requirement import GRAVITY
@@ -123,11 +124,11 @@ def told_range(parameter: str | Field, values: Iterable[float]) -> str:
     return told_between(told_entry(parameter, min(ends)), told_entry(parameter, max(ends)))
 
 
-def own_entry(name: str, value: float, scales: Scales | None) -> tuple[str, float]:
+def own_entry(name: str, value: Any, scales: Scales | None) -> tuple[str, Any]:
     """A parameter with a value; with scales what a machine has in place of a dimensionless one, in SI units."""
     if scales is None or name not in PHYSICAL_PARTNER:
         return name, value
-    return PHYSICAL_PARTNER[name], float(CONVERSIONS[name].value(value, scales))
+    return PHYSICAL_PARTNER[name], CONVERSIONS[name].value(value, scales)
 
 
 def told_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:

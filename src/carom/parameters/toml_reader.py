@@ -81,16 +81,9 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
         problems.raise_all()
     optional = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
-    parts = {
-        name: list(filter(_is_table, content.get(name, ())))
-        for name in lists
-        if isinstance(content.get(name, ()), list | tuple)
-    }
+    listed = {name: content[name] if isinstance(content.get(name), list) else [] for name in lists}
+    parts = {name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()}
     return MachineTables(kinds[0], content[kinds[0]], **optional, parts=parts, folder=Path(name).parent)
-
-
-def _is_table(value: object) -> bool:
-    return isinstance(value, dict)
 
 
 def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:
@@ -99,18 +92,10 @@ def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str
     Errors call the file ``what``, such as ``"machine file"``.  For a file that is empty or far too long they say what it must hold,
     ``remedy``.
     """
-    name = _path_text(path, what)
-    return name, _parse(name, _read(name, what, remedy), what, remedy)
-
-
-def _path_text(path: str | os.PathLike[str], what: str) -> str:
-    try:
-        text = os.fspath(path)
-    except TypeError:
-        text = None
-    if not isinstance(text, str) or not text:
+    name = os.fspath(path) if isinstance(path, str | os.PathLike) else ""
+    if not isinstance(name, str) or not name:
         raise InputError(what, shown(path), "must be the path of a TOML file")
-    return text
+    return name, _parse(name, _read(name, what, remedy), what, remedy)
 
 
 def _read(name: str, what: str, remedy: str) -> str:
@@ -119,12 +104,8 @@ def _read(name: str, what: str, remedy: str) -> str:
             data = stream.read(_LARGEST_BYTES + 1)
     except FileNotFoundError:
         raise InputError(what, shown(name), "there is no such file; give the path of a TOML file") from None
-    except IsADirectoryError:
-        raise InputError(what, shown(name), "this is a directory; give the path of a TOML file") from None
-    except PermissionError:
-        raise InputError(what, shown(name), "you have no permission to read it; allow it or copy the file") from None
     except (OSError, ValueError) as problem:
-        reason = getattr(problem, "strerror", None) or problem
+        reason = str(getattr(problem, "strerror", None) or problem).lower()
         raise InputError(what, shown(name), f"cannot be read ({reason}); give the path of a TOML file") from None
     if len(data) > _LARGEST_BYTES:
         raise InputError(what, shown(name), f"{remedy}, in less than {_LARGEST_BYTES} bytes")

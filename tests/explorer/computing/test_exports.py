@@ -17,7 +17,7 @@ from carom.bifurcations import Diagram
 from carom.cli import main
 from carom.explorer.computing import exports
 from carom.explorer.computing.controls import controls_of, with_settings
-from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.models import jeffcott, rotor_of
@@ -60,7 +60,7 @@ def test_options_and_file_lead_to_the_same_machine(given, changes, tmp_path):
     assert words[::2] == ["--set"] * (len(words) // 2)
     assert carom.load(given.path, words[1::2]).parameters == case.parameters
     path = tmp_path / "machine.toml"
-    path.write_text(as_toml(case), encoding="utf-8")
+    path.write_text(case.to_toml(), encoding="utf-8")
     again = carom.load(path)
     assert again.machine == case.machine
     assert again.zones == case.zones
@@ -71,7 +71,7 @@ def test_options_and_file_lead_to_the_same_machine(given, changes, tmp_path):
 @pytest.mark.parametrize("path", [KEOGH, PAPER])
 def test_the_file_says_what_must_be_survived(path, tmp_path):
     case = replace(carom.load(path), requirement=Requirement(0.3, Shock(50.0, 0.02), 0.01, "file"))
-    (tmp_path / "machine.toml").write_text(as_toml(case), encoding="utf-8")
+    (tmp_path / "machine.toml").write_text(case.to_toml(), encoding="utf-8")
     assert carom.load(tmp_path / "machine.toml").requirement == case.requirement
 
 

@@ -19,7 +19,7 @@ from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import Rest
 from carom.models import Rotor, rotor_of
 from carom.motions import State
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.parameters import MACHINE_FIELDS, Case
 from carom.parameters.terms import set_by
 
 
@@ -92,7 +92,7 @@ class Origin:
 
 def mark_of(case: Case) -> str:
     """Text that differs from machine to machine, by name and all numbers: what is set on a page is not meant for another one."""
-    text = as_toml(case) or json.dumps(rotor_of(case).attributes(), sort_keys=True)
+    text = case.to_toml() or json.dumps(rotor_of(case).attributes(), sort_keys=True)
     return hashlib.sha256(f"{case.name}\n{text}".encode()).hexdigest()[:10]
 
 
@@ -103,25 +103,6 @@ def _name(setting: str) -> str:
 def as_options(origin: Origin, changes: Mapping[str, str]) -> str:
     """The options ``--set`` that lead from the file to the machine on the page."""
     return " ".join(f"--set {shlex.quote(setting)}" for setting in origin.all_settings(changes))
-
-
-def as_toml(case: Case) -> str:
-    """A machine file that is read as the machine on the page, bit for bit; empty of one whose numbers are matrices."""
-    zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
-    if case.machine is not None:
-        machine = case.machine.to_toml()
-        if case.touchdown and case.touchdown.yields:  # which has a restitution of its own
-            machine = "".join(line for line in machine.splitlines(True) if not line.startswith("restitution = "))
-        others = "".join(f"\n{table.to_toml()}" for table in (case.touchdown, case.drive, case.gravity) if table)
-        return f"{machine}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}{others}"
-    rotor = rotor_of(case)
-    if rotor.planar is None or rotor.scales:
-        return ""
-    lines = [
-        f"{name} = {getattr(rotor.planar, name)!r}  # {field.symbol}: {field.words}"
-        for name, field in DIMENSIONLESS_FIELDS.items()
-    ]
-    return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
 
 
 def as_command(origin: Origin, changes: Mapping[str, str], rotor: Rotor, kick: Kick) -> str:

@@ -13,7 +13,7 @@ from carom.base.results import fields_of
 from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
-from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml, mark_of
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, mark_of
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import RANGES, TRIED, heavy, map_kicks, opening_range, telling_pair
@@ -168,7 +168,7 @@ class Questions:
             "figures": self.figures,
             "bearings": self.bearings,
             "frame": self.frame,
-            "toml": bool(as_toml(self.origin.case)),
+            "toml": bool(self.origin.case.to_toml()),
             "sweep": "" if self.slow else self.along,
         }
 
@@ -190,7 +190,7 @@ class Questions:
     def exports(self, shown: Shown) -> Message:
         """What can be copied, by the name of its button."""
         case, rotor, plane = shown.subject.case, shown.subject.rotor, self._plane(shown)
-        found = {"toml": as_toml(case), "options": as_options(self.origin, shown.settings)}
+        found = {"toml": case.to_toml(), "options": as_options(self.origin, shown.settings)}
         try:
             rest = rest_of(rotor)
         except CaromError:  # there is no disturbance that a command or a program could follow
