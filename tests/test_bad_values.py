@@ -135,7 +135,6 @@ AT_USE = {
     "plan of nothing": ("machine", lambda motion: Sample(VelocityKick(0.5), 3).starts("x")),
     "period": ("longest_period", lambda motion: cm.find_orbits(PAPER, math.inf)),
     "trials": ("count", lambda motion: cm.attractors.exact_interval(3, 2)),
-    "derivative": ("x", lambda motion: cm.models.jeffcott(PAPER).rates("x")),
     "jacobian": ("jacobian", lambda motion: cm.orbits.multipliers(np.zeros(3))),
     "place": ("position", lambda motion: cm.orbits.Section.from_state(0.0, 1.0)),
     "figure": ("path_stem", lambda motion: cm.plots.save(cm.plots.radius(motion), "")),

@@ -24,10 +24,10 @@ class Turning:
 
     def __init__(self, rotor, weight=0.0):
         self.weight = weight
-        matrices = rotor.matrices
+        matrices, equations = rotor.matrices, rotor.equations
         self.mass, self.damping, self.stiffness = matrices.mass, matrices.damping, matrices.stiffness
-        self.forcing, self.shaft, self.touchdowns = rotor.forcing, rotor.shaft, rotor.touchdowns
-        self.planes, self.count = rotor.planes, len(rotor.forcing)
+        self.forcing, self.shaft, self.touchdowns = equations.forcing, equations.shaft, equations.touchdowns
+        self.planes, self.count = equations.planes, len(equations.forcing)
         self.phases = [AWAY] * len(self.planes)
         self.senses = [1] * len(self.planes)
         self.seen, self.contacts, self.impacts = set(), 0, 0

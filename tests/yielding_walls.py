@@ -90,14 +90,16 @@ def contacts_of(model: Rotor, position: np.ndarray, velocity: np.ndarray, until:
 
 def _by_reference(model: Rotor) -> reference.Rotor:
     planes = []
-    for touchdown, mass in zip(model.touchdowns, model.system.arrays.masses, strict=True):
+    for touchdown, mass in zip(model.equations.touchdowns, model.system.arrays.masses, strict=True):
         law = touchdown.law
         if isinstance(law, KelvinVoigt):
             wall = reference.KelvinVoigt(law.stiffness / mass, law.damping / mass)
         else:
             wall = reference.HuntCrossley(law.stiffness / mass, law.dissipation, law.exponent)
         planes.append(reference.Plane(touchdown.plane, wall, touchdown.friction, touchdown.surface_speed))
-    return reference.Rotor(model.mass, model.damping, model.stiffness, model.forcing, planes)
+    return reference.Rotor(
+        model.equations.mass, model.equations.damping, model.equations.stiffness, model.equations.forcing, planes
+    )
 
 
 def _spring(law, depth: float) -> float:

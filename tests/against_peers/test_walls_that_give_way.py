@@ -36,7 +36,7 @@ def drawn_law(random):
 def machine(random, base):
     """A rotor with drawn walls, friction and surface speeds, and the same for the reference."""
     model, planes = base.model, []
-    for number, (touchdown, felt) in enumerate(zip(model.touchdowns, base.felt, strict=True)):
+    for number, (touchdown, felt) in enumerate(zip(model.equations.touchdowns, base.felt, strict=True)):
         law, friction = drawn_law(random), random.choice([0.0, 0.1, 0.5, 2.0])
         surface = 1.0 + random.choice([10.0 ** random.uniform(-3.0, -0.3), 10.0 ** random.uniform(0.0, 1.5)])
         if isinstance(law, KelvinVoigt):
@@ -46,10 +46,12 @@ def machine(random, base):
             own = HuntCrossley(law.stiffness * felt, law.dissipation, law.exponent)
             other = reference.HuntCrossley(law.stiffness, law.dissipation, law.exponent)
         changed = dataclasses.replace(touchdown, law=own, friction=friction, surface_speed=surface)
-        touchdowns = [*model.touchdowns[:number], changed, *model.touchdowns[number + 1 :]]
+        touchdowns = [*model.equations.touchdowns[:number], changed, *model.equations.touchdowns[number + 1 :]]
         model = model.replace(touchdowns=touchdowns)
         planes.append(reference.Plane(touchdown.plane, other, friction, surface))
-    return model, reference.Rotor(model.mass, model.damping, model.stiffness, model.forcing, planes)
+    return model, reference.Rotor(
+        model.equations.mass, model.equations.damping, model.equations.stiffness, model.equations.forcing, planes
+    )
 
 
 def events_of(motion):
@@ -63,7 +65,7 @@ def one_sense(events, model):
     """The same without changes of the sense of slip where there is no friction, which are none in the package."""
     kept, last = [], {}
     for time, plane, phase in events:
-        if phase == reference.BACKWARD and model.touchdowns[plane].friction == 0.0:
+        if phase == reference.BACKWARD and model.equations.touchdowns[plane].friction == 0.0:
             phase = reference.FORWARD
         if last.get(plane) != phase:
             kept.append((time, int(plane), phase))
@@ -82,8 +84,8 @@ def test_motions_are_those_of_the_reference(base):
         random = np.random.default_rng([seed, n, len(base.planes)])
         model, other = machine(random, base)
         place, speed = random.normal(size=(2, n, 2)) @ [1.0, 1.0j]
-        place *= 0.7 / np.abs(model.planes @ place).max()
-        speed *= random.uniform(1.0, 6.0) / np.abs(model.planes @ speed).max()
+        place *= 0.7 / np.abs(model.equations.planes @ place).max()
+        speed *= random.uniform(1.0, 6.0) / np.abs(model.equations.planes @ speed).max()
         start = cm.State(place, speed) if n > 1 else cm.State(complex(place[0]), complex(speed[0]))
         motion = cm.simulate(model, start, 1.2)
         expected = reference.follow(other, place, speed, 1.2)

@@ -35,8 +35,10 @@ def test_attractors_along_a_parameter_are_those_of_each_model():
 @pytest.mark.jit_only
 def test_radial_speeds_are_those_of_the_plane_where_it_bounces():
     alone = single().model
-    nearer = [dataclasses.replace(each, plane=[0.3 * number for number in each.plane]) for each in alone.touchdowns]
-    beside = alone.replace(touchdowns=[*nearer, *alone.touchdowns])
+    nearer = [
+        dataclasses.replace(each, plane=[0.3 * number for number in each.plane]) for each in alone.equations.touchdowns
+    ]
+    beside = alone.replace(touchdowns=[*nearer, *alone.equations.touchdowns])
     start = [complex(part[0]) for part in beside.system.kicked(np.array(0.9))]
     struck = simulate(beside, State(*start), 60.0)
     assert struck.is_impact.any()

@@ -68,8 +68,8 @@ def test_modes_that_decay_serve_where_there_is_no_energy(kind):
         gyroscopic=gyroscopic,
         stiffness=circulatory,
         forcing=forcing,
-        touchdowns=made.touchdowns,
-        translation=made.translation,
+        touchdowns=made.equations.touchdowns,
+        translation=made.equations.translation,
     )
     assert rotor.system.decay > 0.0
     assert rotor.system.rest_radius < farthest(*of_size(rotor, kind, 1.0)) <= 1.0
@@ -80,7 +80,7 @@ def test_nothing_is_said_where_neither_an_energy_is_known_nor_all_modes_decay():
     rotor = tilting().model
     mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
     given = {"mass": mass, "damping": damping, "gyroscopic": gyroscopic, "stiffness": stiffness, "forcing": forcing}
-    others = {"touchdowns": rotor.touchdowns, "translation": rotor.translation}
+    others = {"touchdowns": rotor.equations.touchdowns, "translation": rotor.equations.translation}
 
     def made(**changes):
         return cm.models.from_matrices(**{**given, **others, **changes})

@@ -21,15 +21,23 @@ from carom.motions.ensembles import settle
 def misses(model, at):
     """Largest residual of the equations of motion at rest, and of the walls, in 40 digits."""
     with mpmath.workdps(40):
-        count = len(model.planes)
-        stiffness, planes = (mpmath.matrix(part.tolist()) for part in (model.stiffness, model.planes))
+        count = len(model.equations.planes)
+        stiffness, planes = (
+            mpmath.matrix(part.tolist()) for part in (model.equations.stiffness, model.equations.planes)
+        )
         rest = mpmath.matrix(np.atleast_1d(at.position).tolist())
         places = planes * rest
-        force = mpmath.matrix(model.forcing.tolist()) - stiffness * rest
-        size = 1 + mpmath.norm(stiffness, 1) * mpmath.norm(rest) + mpmath.norm(mpmath.matrix(model.forcing.tolist()))
+        force = mpmath.matrix(model.equations.forcing.tolist()) - stiffness * rest
+        size = (
+            1
+            + mpmath.norm(stiffness, 1) * mpmath.norm(rest)
+            + mpmath.norm(mpmath.matrix(model.equations.forcing.tolist()))
+        )
         for q in range(count):
             push = (
-                mpmath.mpf(float(at.normal_forces[q])) * mpmath.mpc(1, float(model.touchdowns[q].friction)) * places[q]
+                mpmath.mpf(float(at.normal_forces[q]))
+                * mpmath.mpc(1, float(model.equations.touchdowns[q].friction))
+                * places[q]
             )
             force -= planes[q, :].H * push
             size += mpmath.norm(planes[q, :].H * push)
@@ -56,9 +64,9 @@ def test_none_is_missed_at_one_and_two_planes():
     for seed in range(sized(12, 12, 1000)):
         model = random_rotor(seed)
         random = np.random.default_rng(seed)
-        static = model.planes @ np.linalg.solve(model.stiffness, model.planes.conj().T)
+        static = model.equations.planes @ np.linalg.solve(model.equations.stiffness, model.equations.planes.conj().T)
         h = static * (1.0 + 1j * model.system.arrays.friction)
-        rest = model.planes @ np.linalg.solve(model.stiffness, model.forcing)
+        rest = model.equations.planes @ np.linalg.solve(model.equations.stiffness, model.equations.forcing)
         every = find_equilibria(model)
         for count in (1, 2):
             for planes in combinations(range(len(h)), count):
@@ -121,10 +129,10 @@ def test_motions_come_to_rest_in_a_stable_rub_and_in_no_other():
     for seed in range(sized(6, 2, 150)):
         random = np.random.default_rng(seed)
         model = random_rotor(seed, n=1 + seed % 2, planes=2, unbalance=3.0, damping=0.2, friction=0.1)
-        n = len(model.mass)
+        n = len(model.equations.mass)
         every = [at for at in find_equilibria(model) if at.planes and at.status == "admissible"]
         starts = random.normal(size=(10, n)) + 1j * random.normal(size=(10, n))
-        starts *= (0.9 * random.random(10) / np.abs(starts @ model.planes.T).max(axis=1))[:, None]
+        starts *= (0.9 * random.random(10) / np.abs(starts @ model.equations.planes.T).max(axis=1))[:, None]
         rates = random.normal(size=(10, n)) + 1j * random.normal(size=(10, n))
         near = np.array([np.atleast_1d(at.position) for at in every]).reshape(-1, n)
         nudge = 1e-4 * random.normal(size=near.shape)

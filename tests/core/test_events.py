@@ -31,7 +31,8 @@ from reference import first_crossing, plane_flight, unit
 from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.flow import displacement, velocity
-from carom.core.layout import DEGREE, LEVELS, record, rotor_record, workspace
+from carom.core.layout import DEGREE, LEVELS, rotor_record, workspace
+from carom.core.records import record
 from carom.core.table import SHORTENING, flight_table
 from carom.models import jeffcott
 

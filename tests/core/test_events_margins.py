@@ -31,7 +31,8 @@ from reference import plane_flight, unit
 from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.block import load_polynomial, sign_changes
-from carom.core.layout import record, rotor_record
+from carom.core.layout import rotor_record
+from carom.core.records import record
 from carom.core.table import flight_table
 from carom.models import jeffcott
 

@@ -14,7 +14,8 @@ from machines import PAPER
 from carom.base.outcome import Phase
 from carom.core import contact_series, rub, taylor
 from carom.core.flow import displacement, fly_all, velocity
-from carom.core.layout import ORDER, record, rotor_record, rub_workspace
+from carom.core.layout import ORDER, rotor_record, rub_workspace
+from carom.core.records import record
 from carom.core.rounding import push_rounding, speed_rounding
 from carom.models import jeffcott
 

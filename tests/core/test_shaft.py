@@ -47,7 +47,10 @@ def rates(amplitudes):
     """Rates of the amplitudes in flight, from the matrices."""
     position, speed = SYSTEM.state(amplitudes)
     drive = amplitudes[PLACE] * amplitudes[PLACE + 1].real ** 2
-    a = np.linalg.solve(ROTOR.mass, ROTOR.forcing * drive - ROTOR.damping @ speed - ROTOR.stiffness @ position)
+    a = np.linalg.solve(
+        ROTOR.equations.mass,
+        ROTOR.equations.forcing * drive - ROTOR.equations.damping @ speed - ROTOR.equations.stiffness @ position,
+    )
     found = SYSTEM.to_modes @ np.concatenate([speed, a])
     found[PLACE] = 1j * (amplitudes[PLACE + 1].real - 1.0) * amplitudes[PLACE]
     return found
@@ -86,7 +89,9 @@ def test_a_friction_impulse_changes_the_speed_and_moves_the_planes_by_the_lever(
     after = before.copy()
     change_speed(SYSTEM.arrays, 1, -0.3, after)
     faster = (after - before)[PLACE + 1].real
-    felt = 1.0 / (ROTOR.planes[1] @ np.linalg.solve(ROTOR.mass, ROTOR.planes[1].conj())).real
+    felt = (
+        1.0 / (ROTOR.equations.planes[1] @ np.linalg.solve(ROTOR.equations.mass, ROTOR.equations.planes[1].conj())).real
+    )
     assert faster == pytest.approx(-0.3 * felt * 1.0 / 2.0, rel=1e-13)
     for plane in range(2):
         place = displacement(SYSTEM.arrays, plane, before)
@@ -103,7 +108,9 @@ def on_walls(angles, slips, speed=0.7, inside=()):
     radii = SYSTEM.arrays["surface_speed"] - 1.0
     places = np.exp(1j * np.array(angles)) * [0.5 if plane in inside else 1.0 for plane in (0, 1)]
     rates = 1j * (np.array(slips) - radii * speed - 1.0) * places
-    found = SYSTEM.amplitudes(np.linalg.solve(ROTOR.planes, places), np.linalg.solve(ROTOR.planes, rates))
+    found = SYSTEM.amplitudes(
+        np.linalg.solve(ROTOR.equations.planes, places), np.linalg.solve(ROTOR.equations.planes, rates)
+    )
     found[PLACE : PLACE + 2] = amplitudes[PLACE : PLACE + 2]
     return found
 
@@ -164,11 +171,11 @@ def test_what_keeps_a_plane_on_its_wall_and_its_rate():
 @pytest.mark.deep
 def test_a_motion_strikes_slides_and_is_in_contact_with_a_wall_that_gives_way():
     """Short enough for kernels that are not compiled."""
-    soft = dataclasses.replace(
-        ROTOR, touchdowns=[dataclasses.replace(each, law=KelvinVoigt(50.0, 1.0)) for each in ROTOR.touchdowns[:1]]
+    soft = ROTOR.replace(
+        touchdowns=[dataclasses.replace(each, law=KelvinVoigt(50.0, 1.0)) for each in ROTOR.equations.touchdowns[:1]]
     )
     for rotor, until in ((ROTOR, 2.5), (soft, 1.6)):
-        system, planes = rotor.system, len(rotor.touchdowns)
+        system, planes = rotor.system, len(rotor.equations.touchdowns)
         state, contact = system.amplitudes(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j])), np.full(planes, AWAY)
         reference = Turning(rotor)
         y = reference.follow(reference.start(*system.state(state)), until)

@@ -214,7 +214,11 @@ def test_a_rotor_of_several_coordinates():
     # Its unbalance is not that of all masses off centre by the same, as the change is: the frame does not turn.
     np.testing.assert_allclose(state.position, model.system.rest, rtol=1e-12)
     change = 0.2 * model.value("rho") * cmath.exp(1j * (0.7 + model.unbalance_phase))
-    np.testing.assert_allclose(after.forcing, model.forcing + change * model.mass @ model.translation, rtol=1e-12)
+    np.testing.assert_allclose(
+        after.equations.forcing,
+        model.equations.forcing + change * model.equations.mass @ model.equations.translation,
+        rtol=1e-12,
+    )
     assert cm.simulate(after, state, until=5.0).time == 5.0
 
 

@@ -120,19 +120,19 @@ def test_random_rotors_and_shocks():
     for seed in range(sized(4, 1, 60)):
         model = random_rotor(seed, n=3, planes=2, damping=0.2, friction=0.1)
         fixed, random = model.matrices, np.random.default_rng(seed)
-        if np.abs(model.planes @ model.system.rest).max() >= 1.0:
-            model = model.replace(forcing=0.0 * model.forcing)
+        if np.abs(model.equations.planes @ model.system.rest).max() >= 1.0:
+            model = model.replace(forcing=0.0 * model.equations.forcing)
             fixed = model.matrices
-        if len({each.wall(1.0) for each in model.touchdowns}) > 1:
+        if len({each.wall(1.0) for each in model.equations.touchdowns}) > 1:
             model = model.replace(restitution=0.6, radius_ratio=8.0)
         rotor = FixedFrame(
             *(part.real for part in (fixed.mass, fixed.damping, fixed.stiffness, fixed.gyroscopic)),
             fixed.forcing,
-            model.planes.real,
+            model.equations.planes.real,
             0.1,
             0.6,
             8.0,
-            model.translation.real,
+            model.equations.translation.real,
         )
         peak, duration, direction = random.uniform(0.5, 4.0), random.uniform(0.3, 2.0), random.uniform(0.0, 6.0)
         place, speed, impacts = shaken(rotor, peak, duration, direction).after()

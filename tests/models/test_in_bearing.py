@@ -55,7 +55,7 @@ def test_restitution_is_that_of_the_file_to_nine_digits(restitution):
 def test_the_law_stays_what_it_is_in_si_units():
     model = of(law="hunt-crossley", stiffness=1e9, dissipation=0.4, exponent=1.5, race_inertia=2e-4, race_drag=1e-4)
     for other in (model, model.replace(gamma=0.2)):
-        touchdown = other.touchdowns[0]
+        touchdown = other.equations.touchdowns[0]
         assert touchdown.law.stiffness * SCALES.force / SCALES.length**1.5 == pytest.approx(1e9, rel=1e-14)
         assert touchdown.law.dissipation / SCALES.velocity == pytest.approx(0.4, rel=1e-14)
         assert touchdown.race.inertia * SCALES.mass * SCALES.length**2 == pytest.approx(2e-4, rel=1e-14)
@@ -82,7 +82,7 @@ def test_parameters_by_name():
     assert model.value("touchdown_stiffness") == STIFFNESS
     changed = model.replace(touchdown_stiffness=2.0 * STIFFNESS, mu=0.3)
     assert changed.definition.bearing_at(0).stiffness == 2.0 * STIFFNESS
-    assert changed.touchdowns[0].friction == 0.3
+    assert changed.equations.touchdowns[0].friction == 0.3
     with pytest.raises(InputError, match=r"d = 0\.9"):
         model.replace(d=0.9)
     with pytest.raises(InputError, match="d = nothing given"):

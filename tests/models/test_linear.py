@@ -34,22 +34,25 @@ def planar(parameters, beside=None):
 @pytest.mark.parametrize("rotor", [single(), tilting(), bending()], ids=["single", "tilting", "bending"])
 def test_flights_are_those_of_the_matrices(rotor):
     model = rotor.model
-    n = len(model.mass)
+    n = len(model.equations.mass)
     companion = np.block(
         [
             [np.zeros((n, n)), np.eye(n)],
-            [-np.linalg.solve(model.mass, model.stiffness), -np.linalg.solve(model.mass, model.damping)],
+            [
+                -np.linalg.solve(model.equations.mass, model.equations.stiffness),
+                -np.linalg.solve(model.equations.mass, model.equations.damping),
+            ],
         ]
     )
-    rest = np.linalg.solve(model.stiffness, model.forcing)
+    rest = np.linalg.solve(model.equations.stiffness, model.equations.forcing)
     random = np.random.default_rng(0)
     state = random.normal(size=2 * n) + 1j * random.normal(size=2 * n)
     position, velocity = (part if n > 1 else part[0] for part in (state[:n], state[n:]))
     flown = model.system.fly(model.system.amplitudes(position, velocity), np.array(1.7))
     expected = expm(1.7 * companion) @ (state - np.append(rest, np.zeros(n))) + np.append(rest, np.zeros(n))
     assert np.allclose(np.ravel(model.system.state(flown)), expected, rtol=0, atol=1e-11)
-    shown = np.array([model.system.at_plane(flown, plane)[0] for plane in range(len(model.planes))])
-    assert np.allclose(shown, model.planes @ expected[:n], rtol=0, atol=1e-11)
+    shown = np.array([model.system.at_plane(flown, plane)[0] for plane in range(len(model.equations.planes))])
+    assert np.allclose(shown, model.equations.planes @ expected[:n], rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("split", [0.0, 1e-14, 1e-9, 1e-5, 1e-2, 1.0])
@@ -75,10 +78,11 @@ def test_three_modes_in_one_are_refused():
 
 def exact(model, time, state):
     """State after a free flight, less the equilibrium, by the matrix exponential in 50 digits."""
-    n = len(model.mass)
+    n = len(model.equations.mass)
     with mpmath.workdps(50):
         mass, stiffness, damping = (
-            mpmath.matrix(matrix.tolist()) for matrix in (model.mass, model.stiffness, model.damping)
+            mpmath.matrix(matrix.tolist())
+            for matrix in (model.equations.mass, model.equations.stiffness, model.equations.damping)
         )
         inverse, generator = mass**-1, mpmath.zeros(2 * n)
         for i in range(n):

@@ -39,7 +39,7 @@ def rotor(**changes) -> Rotor:
 
 
 def assert_alike(got: Rotor, expected: Rotor) -> None:
-    assert got.touchdowns == expected.touchdowns
+    assert got.equations.touchdowns == expected.equations.touchdowns
     for name in ("mass", "damping", "stiffness", "forcing"):
         np.testing.assert_allclose(getattr(got, name), getattr(expected, name), rtol=1e-14, atol=1e-15, err_msg=name)
     assert got.scales == expected.scales
@@ -90,7 +90,7 @@ def test_planes_together_and_one_by_one():
     given = rotor()
 
     def at_planes(name, **changes):
-        return [getattr(each.wall(1.0), name) for each in given.replace(**changes).touchdowns]
+        return [getattr(each.wall(1.0), name) for each in given.replace(**changes).equations.touchdowns]
 
     assert at_planes("friction", friction=0.3) == at_planes("friction", mu=0.3) == [0.3, 0.3]
     assert at_planes("friction", mu_2=0.3) == [0.1, 0.3]
@@ -109,7 +109,7 @@ def test_several_at_once():
     got = given.replace(gamma=0.3, speed=100.0, mu=0.25, touchdowns=planes)
     assert got.value("gamma") == pytest.approx(0.3, rel=1e-14), "physical parameters are set first"
     assert got.value("omega") == pytest.approx(given.value("omega") * 1.842, rel=1e-14)
-    assert (got.scales.speed, got.value("friction"), got.planes[0, 1]) == (100.0, 0.25, 0.1)
+    assert (got.scales.speed, got.value("friction"), got.equations.planes[0, 1]) == (100.0, 0.25, 0.1)
 
 
 @pytest.mark.parametrize(
@@ -141,41 +141,3 @@ def test_modes_change_with_the_speed():
     model = bending().model
     faster = model.replace(scales=SCALES).replace(speed=2.0 * SCALES.speed)
     assert not np.allclose(np.sort(faster.system.exponents.real), np.sort(model.system.exponents.real))
-
-
-@pytest.mark.parametrize("name", [*planar(PAPER.replace(scales=SCALES)).varied])
-def test_rates_of_one_coordinate_are_those_of_the_planar_rotor(name):
-    machine = jeffcott(PAPER.replace(scales=SCALES))
-    found, expected = planar(machine.parameters).rates(name), machine.rates(name)
-    assert found is not None
-    for got, want in zip(found, expected, strict=True):
-        np.testing.assert_allclose(got, want, rtol=1e-13, atol=1e-15)
-
-
-@pytest.mark.parametrize("name", rotor().varied)
-def test_rates_are_the_slopes_of_the_equations_of_motion(name):
-    along, here = (
-        axis(rotor(), name),
-        rotor(touchdowns=touchdowns([[1.0, 0.5], [1.0, -0.4]], [0.1, 0.1], [0.9, 0.9], [30, 30])),
-    )
-    step = 1e-5 * along.value(here)
-    before, after = (along.move(here, along.value(here) + side) for side in (-step, step))
-    found = here.rates(name)
-    assert found is not None
-
-    def slope(of) -> np.ndarray:
-        return (of(after) - of(before)) / (2.0 * step)
-
-    # Central differences leave 1e-10 of third derivatives, and 1e-11 of rounding.
-    near = {"rtol": 1e-8, "atol": 1e-9}
-    by_coordinate = slope(lambda one: -np.linalg.solve(one.mass, np.hstack([one.stiffness, one.damping])))
-    np.testing.assert_allclose(found.accelerations, by_coordinate, **near)
-    np.testing.assert_allclose(found.force, slope(lambda one: np.linalg.solve(one.mass, one.forcing)), **near)
-    by_law = slope(
-        lambda one: np.array([one.system.arrays[name] for name in ("friction", "restitution", "surface_speed")])
-    )
-    np.testing.assert_allclose([found.friction, found.restitution, found.surface_speed], by_law, **near)
-
-
-def test_no_rates_where_there_is_nothing_to_multiply():
-    assert rotor(damping=np.zeros((2, 2)), gyroscopic=None).rates("gamma") is None

@@ -239,13 +239,13 @@ def test_such_bearings_stay_when_levitation_is_lost():
     rotor = rotor_of(conjugate=ACROSS)
     rotor = from_corotating_matrices(
         **{name: getattr(rotor, name) for name in ("mass", "damping", "stiffness", "forcing", "touchdowns")},
-        translation=rotor.translation,
+        translation=rotor.equations.translation,
         unlevitated=np.stack([DAMPING, 0.5 * STIFFNESS]),
         conjugate=ACROSS,
     )
     left = rotor.without_levitation()
     assert left.matrices.stiffness == pytest.approx(0.5 * STIFFNESS, abs=1e-14)
-    assert left.conjugate.tolist() == ACROSS.tolist()
+    assert left.equations.conjugate.tolist() == ACROSS.tolist()
 
 
 @pytest.mark.parametrize("rotor", [rotor_of(), heavy(rotor_of())])

@@ -45,7 +45,7 @@ def test_a_new_kind_of_rotor_is_taken_by_the_verbs():
     rotor = Rotor(Overhung())
     assert cm.find_equilibria(rotor)[0].position == pytest.approx(0.2 / (1.6 - 1.0 + 0.2 + 0.2j), rel=1e-12)
     assert cm.simulate(rotor, cm.kick(0.05)).outcome.label == "levitated"
-    assert cm.models.axis(rotor, "friction").move(rotor, 0.3).touchdowns[0].friction == 0.3
+    assert cm.models.axis(rotor, "friction").move(rotor, 0.3).equations.touchdowns[0].friction == 0.3
     pulled = rotor.under(Force(-1j, np.array([-0.05j])))
     assert pulled.replace(friction=0.3).forces == pulled.forces
     again = cm.models.rotor_from(pulled.attributes())

@@ -159,7 +159,7 @@ def test_a_race_without_drag_ends_with_the_surface_of_a_rotor_that_stays_in_cont
 def test_a_rotor_with_a_race_is_written_and_read():
     rotor = rotor_with(SOFT, Race(2.0, 1.5, 0.3, 0.8))
     again = rotor_from(rotor.attributes())
-    assert again.touchdowns == rotor.touchdowns
+    assert again.equations.touchdowns == rotor.equations.touchdowns
     assert cm.simulate(again, START, 3.0).final == cm.simulate(rotor, START, 3.0).final
 
 

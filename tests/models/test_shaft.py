@@ -41,7 +41,9 @@ def assert_same(motion, reference, until, y, rotor=None):
     assert motion.final.shaft[0] == pytest.approx(speed, abs=1e-11)
     assert np.exp(1j * motion.final.shaft[1]) == pytest.approx(np.exp(1j * ahead), abs=1e-11)
     turning = [
-        race for race, each in zip(races, (rotor or motion.rotor).touchdowns, strict=True) if each.race is not None
+        race
+        for race, each in zip(races, (rotor or motion.rotor).equations.touchdowns, strict=True)
+        if each.race is not None
     ]
     assert motion.final.races == pytest.approx(turning, abs=1e-11)
 
@@ -77,7 +79,7 @@ def assert_same(motion, reference, until, y, rotor=None):
     ],
 )
 def test_contacts_that_give_way_against_a_general_integrator(rotor, contacts, kinds):
-    start = START if len(rotor.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
+    start = START if len(rotor.equations.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
     reference = Turning(rotor)
     y = reference.follow(reference.start(start.position, start.velocity), 12.0)
     assert (reference.contacts, {(plane, sense) for plane, _, sense in reference.seen}) == (contacts, kinds)
@@ -98,7 +100,7 @@ def test_contacts_that_give_way_against_a_general_integrator(rotor, contacts, ki
     ],
 )
 def test_impacts_against_a_general_integrator(rotor, impacts):
-    start = START if len(rotor.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
+    start = START if len(rotor.equations.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
     reference = Turning(rotor)
     y = reference.follow(reference.start(start.position, start.velocity), 8.0)
     assert reference.impacts == impacts
@@ -209,7 +211,7 @@ def test_a_drop_against_a_general_integrator():
 def test_levitation_is_lost_with_the_shaft_that_the_rotor_has():
     held = single(SOFT, Shaft(6.0, 0.01))
     falling = held.under(Force(-1j, np.array([-0.02j]))).without_levitation()
-    assert falling.shaft == held.shaft
+    assert falling.equations.shaft == held.equations.shaft
     assert falling.system.shaft is not None
 
 
@@ -257,7 +259,7 @@ def test_a_driven_shaft_leaves_a_rigid_wall_where_nothing_presses_it_there():
 def test_a_rotor_with_a_shaft_is_written_and_read(tmp_path):
     rotor = single(SOFT, Shaft(2.0, 0.1), 0.3, 3.0)
     again = rotor_from(rotor.attributes())
-    assert again.shaft == rotor.shaft
+    assert again.equations.shaft == rotor.equations.shaft
     motion = cm.simulate(again, START, 3.0)
     motion.save(tmp_path / "motion.nc")
     assert cm.motions.Trajectory.load(tmp_path / "motion.nc").final == cm.simulate(rotor, START, 3.0).final
@@ -267,7 +269,7 @@ def test_another_nominal_speed_is_another_unit_of_the_torque():
     assert Shaft(2.0, 0.4).at_speed(2.0) == Shaft(2.0, 0.1)
     scales = cm.parameters.Scales(mass=1.0, clearance=1e-3, speed=100.0)
     rotor = single(SOFT, Shaft(2.0, 0.4)).replace(scales=scales)
-    assert rotor.replace(speed=200.0).shaft == Shaft(2.0, 0.1)
+    assert rotor.replace(speed=200.0).equations.shaft == Shaft(2.0, 0.1)
 
 
 def test_what_cannot_be_is_refused():
@@ -320,13 +322,15 @@ def test_tables_of_a_soft_touch_have_the_slip_of_the_present_speed():
 )
 def test_the_energy_ledger_holds_the_spin(rotor):
     """What friction takes comes from the shaft, also in the instant of an impact, in which the unbalance pushes too."""
-    start = START if len(rotor.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
+    start = START if len(rotor.equations.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
     motion = cm.simulate(rotor, start, 30.0)
     ledger = cm.motions.energy_ledger(motion)
     assert ledger.imbalance < 1e-13
     assert abs(ledger.shaft[-1] / ledger.shaft[0] - 1.0) > 0.1
-    assert ledger.shaft[-1] == pytest.approx(0.5 * rotor.shaft.inertia * motion.final.shaft[0] ** 2, rel=1e-14)
-    assert (ledger.drive[-1] != 0.0) == (rotor.shaft.torque != 0.0 and len(motion.lasting_contacts) > 0)
+    assert ledger.shaft[-1] == pytest.approx(
+        0.5 * rotor.equations.shaft.inertia * motion.final.shaft[0] ** 2, rel=1e-14
+    )
+    assert (ledger.drive[-1] != 0.0) == (rotor.equations.shaft.torque != 0.0 and len(motion.lasting_contacts) > 0)
 
 
 @pytest.mark.jit_only

@@ -33,7 +33,7 @@ def at_random(random: np.random.Generator) -> Trajectory:
 
 
 def coordinates(motion: Trajectory, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    n = len(motion.rotor.mass)
+    n = len(motion.rotor.equations.mass)
     return tuple(np.reshape(part, (-1, n)) for part in motion.rotor.system.state(amplitudes))
 
 
@@ -47,11 +47,11 @@ def test_momentum_changes_by_the_logged_impulses():
         hits, events = np.unique(motion.blows(motion.is_impact).events, return_inverse=True)
         assert np.array_equal(hits, np.flatnonzero(motion.is_impact))
         push = (-log.normal_impulse + 1j * log.tangential_impulse) * np.exp(1j * log.angle)
-        given = np.zeros((len(hits), len(rotor.mass)), complex)
-        np.add.at(given, events, push[:, None] * rotor.planes.conj()[log.touchdown_bearing - 1])
+        given = np.zeros((len(hits), len(rotor.equations.mass)), complex)
+        np.add.at(given, events, push[:, None] * rotor.equations.planes.conj()[log.touchdown_bearing - 1])
         _, before = coordinates(motion, motion.arrivals[hits])
         _, after = coordinates(motion, motion.segment_amplitudes[1:][hits])
-        changed = (after - before) @ rotor.mass.T
+        changed = (after - before) @ rotor.equations.mass.T
         # Velocities are sums over modes.
         size = np.linalg.cond(rotor.system.basis) * (1.0 + np.abs(before).max())
         assert np.abs(changed - given).max() < 1e-13 * size
@@ -61,7 +61,7 @@ def test_energy_changes_by_the_works_of_the_log():
     random = np.random.default_rng(42)
     for _ in range(sized(12, 4, 200)):
         motion = at_random(random)
-        mass, log, hits = motion.rotor.mass, motion.log_of(motion.is_impact), np.flatnonzero(motion.is_impact)
+        mass, log, hits = motion.rotor.equations.mass, motion.log_of(motion.is_impact), np.flatnonzero(motion.is_impact)
         energies = []
         for amplitudes in (motion.arrivals[hits], motion.segment_amplitudes[1:][hits]):
             _, speed = to_fixed(motion.segment_starts[1:][hits], *coordinates(motion, amplitudes))
@@ -113,7 +113,7 @@ def test_loads_of_all_planes_are_what_the_ledger_says():
     random = np.random.default_rng(44)
     for _ in range(sized(8, 3, 100)):
         motion = at_random(random)
-        ledger, planes = energy_ledger(motion), range(len(motion.rotor.planes))
+        ledger, planes = energy_ledger(motion), range(len(motion.rotor.equations.planes))
         loads = [drop_loads(motion).planes[plane] for plane in planes]
         lost = sum(each.heat + each.restitution_loss for each in loads)
         assert lost == pytest.approx(-(ledger.impacts[-1] + ledger.friction[-1]), rel=1e-9)

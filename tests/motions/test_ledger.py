@@ -218,6 +218,6 @@ def test_energy_closes_in_walls_that_give_way_at_two_planes(law):
 def test_without_a_kinetic_energy_there_is_no_ledger():
     model = tilting(1).model
     motion = carom.simulate(model, carom.kick(0.1), until=1.0)
-    bent = replace(motion, rotor=model.replace(mass=np.triu(model.mass + 0.1)))
+    bent = replace(motion, rotor=model.replace(mass=np.triu(model.equations.mass + 0.1)))
     with pytest.raises(carom.base.outcome.InputError, match=r"^mass = .* Hermitian"):
         energy_ledger(bent)

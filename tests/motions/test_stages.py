@@ -261,7 +261,7 @@ def test_a_stage_may_begin_when_time_is_up():
 
 def test_every_plane_of_a_joint_impact_may_trigger():
     rotor = tilting(arms=(0.8, -0.8), forcing=np.zeros(2)).model
-    position, velocity = np.linalg.solve(rotor.planes, np.array([[1.0, 0.1], [1.0, 1.0]], complex)).T
+    position, velocity = np.linalg.solve(rotor.equations.planes, np.array([[1.0, 0.1], [1.0, 1.0]], complex)).T
     staged = in_stages((Stage(rotor, Trigger(impact_speed=0.5)), Stage(rotor)))
     first = cm.simulate(staged, cm.State(position, velocity), 20.0).parts[0]
     assert (first.outcome, first.time) == (Outcome.TRIGGERED, 0.0)
@@ -272,7 +272,9 @@ def test_a_flight_next_to_the_wall_is_no_contact():
     rotor = tilting().model
     position = np.array([np.exp(2j), 0.0])
     staged = in_stages((Stage(rotor, Trigger(contact_time=1.0)), Stage(rotor)))
-    whole = cm.simulate(rotor, cm.State(position / np.abs(rotor.planes @ position).max(), np.zeros(2, complex)), 60.0)
+    whole = cm.simulate(
+        rotor, cm.State(position / np.abs(rotor.equations.planes @ position).max(), np.zeros(2, complex)), 60.0
+    )
     first = cm.simulate(staged, whole.start, 60.0).parts[0]
     logs = [whole.seen_at(plane) for plane in (0, 1)]
     expected = persisted_at(sorted(each for log in logs for each in touching(log)), 0.0, 1.0)

@@ -47,7 +47,9 @@ class TestStarts:
         model = single(1).model
         with pytest.raises(InputError, match=r"inside the wall, \|U\| <= 1 \(here \|U\| = 1.125\)"):
             simulate(model, State(0.9 + 0j), 1.0)
-        wide = simulate(model.replace(touchdowns=[replace(model.touchdowns[0], plane=[0.5])]), State(1.5 + 0j), 0.1)
+        wide = simulate(
+            model.replace(touchdowns=[replace(model.equations.touchdowns[0], plane=[0.5])]), State(1.5 + 0j), 0.1
+        )
         assert wide.radius(np.zeros(1)) == pytest.approx(0.75, abs=1e-14)
 
     @pytest.mark.parametrize("position", [np.array(["a", "b"]), np.array([None, 1.0]), "ab"])

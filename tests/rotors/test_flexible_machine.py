@@ -205,14 +205,14 @@ def test_mounts_and_races_are_those_of_the_touchdown_bearing():
     )
     model = munich(touchdown=bearing).with_modes(4)
     linear = model.linear
-    assert [each.race is not None for each in linear.touchdowns] == [True, True]
+    assert [each.race is not None for each in linear.equations.touchdowns] == [True, True]
     # The mounts stand by themselves, and planes are seen from them.
     place = model.vectors
     mass, _, _, stiffness, _ = linear.matrices
     assert mass[place, place] == 0.3
     own = stiffness[place, place].real * MACHINE.speed**2 / mass[place, place].real
     assert own == pytest.approx(2e6 / 0.3)
-    assert linear.planes[0, place] == pytest.approx(-math.sqrt(MACHINE.rotor.mass))
+    assert linear.equations.planes[0, place] == pytest.approx(-math.sqrt(MACHINE.rotor.mass))
 
 
 def test_without_bearings_the_rotor_is_free():

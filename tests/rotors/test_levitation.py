@@ -136,9 +136,9 @@ def test_the_model_that_levitates_whirls_with_that_amplitude():
     """Reduced, in its own units: at rest in the frame that turns."""
     reduced = MACHINE.reduce()
     found = synchronous_response(MACHINE, [MACHINE.speed]).touchdowns.forward[0] / MACHINE.clearance
-    assert reduced.linear.planes @ reduced.linear.system.rest == pytest.approx(found, rel=1e-3)
+    assert reduced.linear.equations.planes @ reduced.linear.system.rest == pytest.approx(found, rel=1e-3)
     whole = MACHINE.whole.linear
-    assert whole.planes @ whole.system.rest == pytest.approx(found, rel=1e-9)
+    assert whole.equations.planes @ whole.system.rest == pytest.approx(found, rel=1e-9)
 
 
 def test_sensitivity_is_what_the_controller_sees_of_an_added_signal():

@@ -77,7 +77,7 @@ def test_the_example_is_the_rig_in_python():
     assert case.parameters.planar is None
     assert case.parameters.scales == expected.scales
     for name in ("mass", "damping", "stiffness", "unlevitated", "forcing", "planes"):
-        found, own = getattr(case.parameters, name), getattr(expected, name)
+        found, own = getattr(case.parameters.equations, name), getattr(expected.equations, name)
         # Lengths between nodes are rounded when they are written down.
         assert np.allclose(found, own, rtol=0, atol=1e-9 * np.abs(own).max())
     assert rotor_of(case).forces
@@ -109,7 +109,7 @@ def test_settings_change_the_rotor_and_its_weight(load):
     case = load(SMALL, "gravity=1.62 m/s^2", "speed=6000 rpm", "accuracy=0.05")
     assert case.gravity.acceleration == 1.62
     assert case.parameters.scales.speed == pytest.approx(200.0 * np.pi)
-    assert len(case.parameters.mass) > len(load(SMALL).parameters.mass)
+    assert len(case.parameters.equations.mass) > len(load(SMALL).parameters.equations.mass)
 
 
 def without(text, line):
@@ -237,7 +237,9 @@ def test_a_machine_with_all_modes_is_read_with_its_settings(tmp_path):
     assert machine.speed == pytest.approx(200.0 * np.pi)
     assert machine.gravity.acceleration == 1.62
     case = cm.load(EXAMPLE, ["speed=6000 rpm"])
-    assert np.allclose(machine.reduce().linear.stiffness, case.parameters.stiffness, rtol=1e-12, atol=0)
+    assert np.allclose(
+        machine.reduce().linear.equations.stiffness, case.parameters.equations.stiffness, rtol=1e-12, atol=0
+    )
     with pytest.raises(
         InputError, match=r"^machine file = examples/keogh-cole.toml: a \[rotor\] table; it holds \[machine\]$"
     ):

@@ -176,7 +176,7 @@ def test_a_rotor_that_tilts_about_a_point_moves_as_its_equation():
     start = [place.real, place.imag, velocity.real, velocity.imag]
     ode = solve_ivp(rates, (0.0, 10.0), start, rtol=1e-11, atol=1e-12, max_step=0.01).y
     assert np.hypot(*ode[:2]).max() > 2.5
-    reach = rotor.planes[0, 0]
+    reach = rotor.equations.planes[0, 0]
     motion = cm.simulate(rotor, cm.State(place / reach, velocity / speed / reach), 10.0 * speed)
     assert motion.final.position * reach == pytest.approx(ode[0, -1] + 1j * ode[1, -1], abs=1e-7)
     assert motion.final.velocity * speed * reach == pytest.approx(ode[2, -1] + 1j * ode[3, -1], abs=1e-7)

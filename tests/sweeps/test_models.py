@@ -41,9 +41,11 @@ def test_one_plane_of_several_is_varied():
     rotor = bending().model
     along = axis(rotor, "mu_2")
     plan = plan_sweep(rotor, [GridAxis.of(along, [0.05, 0.2])], KICKS)
-    assert [[each.friction for each in machine.touchdowns] for machine in (plan.case_at((0,)), plan.case_at((1,)))] == [
-        [rotor.touchdowns[0].friction, 0.05],
-        [rotor.touchdowns[0].friction, 0.2],
+    assert [
+        [each.friction for each in machine.equations.touchdowns] for machine in (plan.case_at((0,)), plan.case_at((1,)))
+    ] == [
+        [rotor.equations.touchdowns[0].friction, 0.05],
+        [rotor.equations.touchdowns[0].friction, 0.2],
     ]
     data = run_sweep(plan).dataset
     assert data["mu_2"].attrs["long_name"] == "coefficient of friction at touchdown bearing 2"

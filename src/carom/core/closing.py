@@ -66,7 +66,7 @@ def least_period(rotor, table, state, count, contact, log, memory, work, rub):
     Parameters
     ----------
     rotor : record of :func:`~carom.models.from_modes.second_order_system`
-    table : record of :func:`~carom.core.layout.table_record`
+    table : record of :func:`~carom.core.table.flight_table`
     state : complex array, shape (2,)
         Amplitudes just before an impact to which the motion has recurred.
     count : int

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 from carom.core.compiling.target import has_wide_registers
-from carom.core.records import blank, filled, layout_of, record
+from carom.core.records import blank, filled, layout_of
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
@@ -56,24 +57,10 @@ def rotor_record(
     friction: np.ndarray,
     restitution: np.ndarray,
     surface_speed: np.ndarray,
-    law: np.ndarray | None = None,
-    law_number: np.ndarray | None = None,
-    stiffness: np.ndarray | None = None,
-    loss: np.ndarray | None = None,
-    farthest: np.ndarray | None = None,
-    race: np.ndarray | None = None,
-    race_gain: np.ndarray | None = None,
-    masses: np.ndarray | None = None,
     free: np.ndarray | None = None,
-    shaft: np.ndarray | None = None,
     unbalance: np.ndarray | None = None,
-    shaft_gain: np.ndarray | None = None,
-    drive: np.ndarray | None = None,
     limits: Mapping[str, np.ndarray] | None = None,
-    mirror: np.ndarray | None = None,
-    mirror_columns: np.ndarray | None = None,
-    gap_rows: np.ndarray | None = None,
-    gap_offsets: np.ndarray | None = None,
+    **others: np.ndarray,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
@@ -167,42 +154,43 @@ def rotor_record(
     given, number = (_no_limits(modes), 0) if limits is None else (limits, len(limits["limit_bounds"]))
     scale = 1.0 / given["limit_bounds"]
     reach = own | _seen(generator, given["limit_rows"] * scale[:, None], given["limit_offsets"] * scale) | {"shaft": []}
-    fields = {
-        **own,
-        **seen,
+    fields = _nothing_more(modes, planes) | own | seen | others | dict(given)
+    fields |= {
         "columns": columns,
         "mobility": seen["rate_rows"].dot(columns),
         "weights": (np.abs(rows) ** 2).sum(axis=1) if free is None else (np.abs(rows) ** 2).dot(free),
         "friction": friction,
         "restitution": restitution,
         "surface_speed": surface_speed,
-        "law": np.zeros(planes) if law is None else law,
-        "law_number": np.zeros(planes) if law_number is None else law_number,
-        "stiffness": np.zeros(planes) if stiffness is None else stiffness,
-        "loss": np.zeros(planes) if loss is None else loss,
-        "farthest": np.full(planes, np.inf) if farthest is None else farthest,
-        "race": np.full(planes, -1) if race is None else race,
-        "race_gain": np.zeros(planes) if race_gain is None else race_gain,
-        "masses": np.ones(planes) if masses is None else masses,
-        "free": np.ones(modes) if free is None else free,
-        "shaft": [] if shaft is None else shaft,
-        "unbalance": [] if unbalance is None else unbalance,
-        "unbalance_rows": [] if unbalance is None else seen["rate_rows"].dot(unbalance),
-        "response": [] if unbalance is None else np.zeros(modes),
-        "shaft_gain": [] if shaft_gain is None else shaft_gain,
-        "drive": [] if drive is None else drive,
-        "mirror": [] if mirror is None else mirror,
-        "mirror_columns": np.zeros((modes, 0)) if mirror_columns is None else mirror_columns,
-        "limit_mirrors": np.zeros((modes, 0)),
-        "gap_rows": np.zeros((0, modes)) if gap_rows is None else gap_rows,
-        "gap_offsets": [] if gap_offsets is None else gap_offsets,
-        **given,
         "limit_pulls": seen["rate_rows"].dot(given["limit_columns"]),
         "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
-    magnets = 0 if gap_rows is None else len(gap_rows)
-    layout = _rotor_layout(modes, planes, shaft is not None, number, mirror is not None, magnets)
+    if free is not None:
+        fields["free"] = free
+    if unbalance is not None:
+        more = {"unbalance": unbalance, "unbalance_rows": seen["rate_rows"].dot(unbalance), "response": np.zeros(modes)}
+        fields |= more
+    sizes = len(fields["shaft"]), number, len(fields["mirror"]), len(fields["gap_rows"])
+    layout = _rotor_layout(modes, planes, *sizes)
     return filled(layout, tuple(fields[name] for name in layout.names or ()))
+
+
+@cache
+def _nothing_more(modes: int, planes: int) -> dict[str, Any]:
+    """Fields of a rotor between rigid walls, without race, shaft, limits, mirror and magnets."""
+    none = np.zeros(planes)
+    names = "law", "law_number", "stiffness", "loss", "race_gain"
+    of_shaft = "shaft", "unbalance", "unbalance_rows", "response", "shaft_gain", "drive"
+    return {
+        **dict.fromkeys(names, none),
+        "farthest": np.full(planes, np.inf),
+        "race": np.full(planes, -1),
+        "masses": np.ones(planes),
+        "free": np.ones(modes),
+        **dict.fromkeys((*of_shaft, "mirror", "gap_offsets"), np.zeros(0)),
+        **dict.fromkeys(("mirror_columns", "limit_mirrors"), np.zeros((modes, 0))),
+        "gap_rows": np.zeros((0, modes)),
+    }
 
 
 def _seen(generator: np.ndarray, rows: np.ndarray, offsets: np.ndarray) -> dict[str, np.ndarray]:
@@ -251,8 +239,7 @@ def _flight_layout(modes: int, planes: int) -> np.dtype:
 
 
 @cache
-def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int, mirrored: bool, gaps: int) -> np.dtype:
-    shafts, mirrors = int(with_shaft), int(mirrored)
+def _rotor_layout(modes: int, planes: int, shafts: int, limits: int, mirrors: int, gaps: int) -> np.dtype:
     return layout_of(
         (
             *_flight_fields(modes, planes),
@@ -296,80 +283,6 @@ def _largest_response(exponents: list[complex], gaps: list[complex]) -> list[flo
         apart = 2.0 / abs(gap) if gap != 0.0 else math.inf
         bounds.append(min(slow, apart) if exponent.real <= 0.0 else math.inf)
     return bounds
-
-
-def table_record(
-    *,
-    spacing: float,
-    durations: np.ndarray,
-    coefficients: np.ndarray,
-    errors: np.ndarray,
-    lane_durations: np.ndarray,
-    lane_coefficients: np.ndarray,
-    lane_errors: np.ndarray,
-    basis: np.ndarray,
-    growth: np.ndarray,
-    basis_series: np.ndarray,
-    growth_series: np.ndarray,
-    lane_spacing: float,
-    lane_basis: np.ndarray,
-    bounds: np.ndarray,
-) -> np.record:
-    """Constants of a block of flight that depend on the exponents alone; see :mod:`carom.core.table`.
-
-    Parameters
-    ----------
-    spacing : float
-        Time between nodes.
-    durations : ndarray, shape (LEVELS,)
-        Lengths of the blocks, the longest first; its length is NODES times ``spacing``.
-    coefficients : ndarray, shape (LEVELS, Q, DEGREE), Q = 2N + N²
-        Bernstein coefficients 1 … DEGREE of the products of basis functions; Q = 0 for more than MOST_IN_POLYNOMIALS modes.
-    errors : ndarray, shape (LEVELS, Q)
-        Bound of the approximation error at the end of the block, per row of ``coefficients``.
-    lane_durations, lane_coefficients, lane_errors : ndarray
-        The same with the block as last axis, so that each lane can choose its own; the errors are per modulus of a
-        product and per unit time.  Their shapes are (OCTET,), (DEGREE, Q, OCTET) and (N + N (N + 1)/2, OCTET).
-    basis : ndarray of complex, shape (NODES + 1, 4, N)
-        Basis functions and their first three derivatives at the nodes.
-    growth : ndarray of complex, shape (NODES + 1, N)
-        ``e^{λτ} − 1`` at the nodes.
-    basis_series, growth_series : ndarray of complex, shape (LANE_TERMS, N)
-        Coefficients 1 … LANE_TERMS of the power series of both; single motions, whose nodes are closer, use TERMS of
-        them.
-    lane_spacing : float
-        Time between nodes for lanes.
-    lane_basis : ndarray, shape (N, 2, LANE_NODES)
-        Real and imaginary parts of basis functions at the nodes for lanes.
-    bounds : ndarray, shape (3, N)
-        Largest modulus on the longest block of the first three derivatives of the basis functions.
-
-    Returns
-    -------
-    numpy.record
-        The arguments, and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops in the
-        kernels for lanes take their length from the last two: the compiler would unroll a loop of known length, and the
-        unrolled loop needs more vectors than there are registers.
-    """
-    return record(
-        degree=np.asarray(DEGREE, np.int64),
-        terms=np.asarray(LANE_TERMS, np.int64),
-        spacing=np.asarray(spacing),
-        pace=np.asarray(1.0 / spacing),
-        durations=durations,
-        coefficients=coefficients,
-        errors=errors,
-        lane_durations=lane_durations,
-        lane_coefficients=lane_coefficients,
-        lane_errors=lane_errors,
-        basis=basis,
-        growth=growth,
-        basis_series=basis_series,
-        growth_series=growth_series,
-        lane_spacing=np.asarray(lane_spacing),
-        lane_basis=lane_basis,
-        bounds=bounds,
-    )
 
 
 def workspace(modes: int) -> np.record:

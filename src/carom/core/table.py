@@ -22,7 +22,8 @@ from functools import cache
 
 import numpy as np
 
-from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, MOST_IN_POLYNOMIALS, NODES, OCTET, table_record
+from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, MOST_IN_POLYNOMIALS, NODES, OCTET
+from carom.core.records import record
 
 LONGEST_BLOCK = 3.0
 """Longest time of a block.
@@ -55,7 +56,36 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
     Returns
     -------
     numpy.record
-        See :func:`~carom.core.layout.table_record`.
+        With the fields
+
+        spacing : float
+            Time between nodes.
+        durations : ndarray, shape (LEVELS,)
+            Lengths of the blocks, the longest first; its length is NODES times ``spacing``.
+        coefficients : ndarray, shape (LEVELS, Q, DEGREE), Q = 2N + N²
+            Bernstein coefficients 1 … DEGREE of the products of basis functions; Q = 0 for more than MOST_IN_POLYNOMIALS modes.
+        errors : ndarray, shape (LEVELS, Q)
+            Bound of the approximation error at the end of the block, per row of ``coefficients``.
+        lane_durations, lane_coefficients, lane_errors : ndarray
+            The same with the block as last axis, so that each lane can choose its own; the errors are per modulus of a
+            product and per unit time.  Their shapes are (OCTET,), (DEGREE, Q, OCTET) and (N + N (N + 1)/2, OCTET).
+        basis : ndarray of complex, shape (NODES + 1, 4, N)
+            Basis functions and their first three derivatives at the nodes.
+        growth : ndarray of complex, shape (NODES + 1, N)
+            ``e^{λτ} − 1`` at the nodes.
+        basis_series, growth_series : ndarray of complex, shape (LANE_TERMS, N)
+            Coefficients 1 … LANE_TERMS of the power series of both; single motions, whose nodes are closer, use TERMS of
+            them.
+        lane_spacing : float
+            Time between nodes for lanes.
+        lane_basis : ndarray, shape (N, 2, LANE_NODES)
+            Real and imaginary parts of basis functions at the nodes for lanes.
+        bounds : ndarray, shape (3, N)
+            Largest modulus on the longest block of the first three derivatives of the basis functions.
+
+        and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops in the kernels for lanes take
+        their length from the last two: the compiler would unroll a loop of known length, and the unrolled loop needs more vectors
+        than there are registers.
     """
     fastest = np.abs(exponents).max()
     spacing = _short_number(
@@ -68,8 +98,11 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
     lane_spacing = _short_number(durations[0] / (LANE_NODES - 1))
     lane_times = lane_spacing * np.arange(LANE_NODES)
     growth_series, basis_series = _power_series(exponents, driven)
-    return table_record(
-        spacing=spacing,
+    return record(
+        degree=np.asarray(DEGREE, np.int64),
+        terms=np.asarray(LANE_TERMS, np.int64),
+        spacing=np.asarray(spacing),
+        pace=np.asarray(1.0 / spacing),
         durations=durations,
         coefficients=coefficients,
         errors=errors,
@@ -82,7 +115,7 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         growth=_expm1(np.outer(times, exponents)),
         basis_series=basis_series,
         growth_series=growth_series,
-        lane_spacing=lane_spacing,
+        lane_spacing=np.asarray(lane_spacing),
         lane_basis=_parts(np.array(_basis(exponents, driven, lane_times))),
         bounds=_derivative_bounds(exponents, driven, durations[0]),
     )

@@ -6,7 +6,7 @@
 ``rotor``                 :class:`Rotor`: every rotor, asked for what it has
 ``definition``            :class:`Definition`: its named parameters and equations
 ``documents``             a rotor as plain data, and back
-``matrices``              matrices, and derivatives of the equations of motion
+``matrices``              its matrices
 ``mode_arrays``           modes and contact planes as arrays for the kernels
 ``system``                :class:`System`: any linear rotor by these, its states and what repeats
 ``nodes``                 nodes of orbits: states, and under weight its direction
@@ -42,7 +42,7 @@ from carom.models.forcing import Force
 from carom.models.from_modes import second_order_system
 from carom.models.limits import Limit
 from carom.models.linear import LinearEquations
-from carom.models.matrices import Matrices, Rates
+from carom.models.matrices import Matrices
 from carom.models.planar import Planar, jeffcott
 from carom.models.race import Race
 from carom.models.rotor import Rotor
@@ -66,7 +66,6 @@ __all__ = [
     "Matrices",
     "Planar",
     "Race",
-    "Rates",
     "Rigid",
     "Rotor",
     "Shaft",

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from carom.models.forcing import Force
     from carom.models.limits import Limit
     from carom.models.linear import LinearEquations
-    from carom.models.matrices import Matrices, Rates
+    from carom.models.matrices import Matrices
     from carom.models.system import System
     from carom.parameters import Field, Parameters, Scales, TouchdownBearing
 
@@ -40,10 +40,6 @@ class Definition:
     def replace(self, **changes: Any) -> Definition:
         """Return it with other values of named parameters; what depends on them changes too."""
         raise NotImplementedError
-
-    def rates(self, name: str) -> Rates | None:
-        """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
-        return None
 
     @property
     def words(self) -> str:

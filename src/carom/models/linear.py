@@ -15,7 +15,7 @@ from carom.base.results import Result
 from carom.models import linear_parameters
 from carom.models.definition import Definition
 from carom.models.linear_system import is_singular, system_of
-from carom.models.matrices import Matrices, Rates
+from carom.models.matrices import Matrices
 from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
@@ -267,10 +267,6 @@ class LinearEquations(Definition, Result):
         for name in sorted(set(changes) - given, key=lambda name: (name != "speed", list(changes).index(name))):
             rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
         return rotor
-
-    def rates(self, name: str) -> Rates | None:
-        """Return the derivatives of the equations of motion by a parameter; ``None`` if there is nothing to multiply."""
-        return linear_parameters.rates_of(self, name)
 
 
 def _numbers(name: str, values: Any) -> np.ndarray:

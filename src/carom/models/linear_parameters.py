@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.base.outcome import InputError, shown
-from carom.models.matrices import Rates
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, WALL_FIELDS, Field, Numbers, read_quantity
 from carom.parameters.terms import no_such_parameter
 
@@ -30,9 +29,6 @@ if TYPE_CHECKING:
 
 SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Entries of a machine file that are dimensionless, and the parameter that each is."""
-_EXACT = {"mu": "friction", "d": "restitution", "radius_ratio": "surface_speed"}
-"""Parameters of the planes by which there are derivatives, and what each changes of a wall."""
-
 ROUNDING = 1e-12
 """Part of an unbalance across another one, relative to it, that is rounding."""
 
@@ -160,33 +156,3 @@ def forcing_along(rotor: LinearEquations, push: np.ndarray) -> float | None:
 def _times(pair: np.ndarray | None, damping: float, stiffness: float) -> np.ndarray | None:
     """Multiples of a pair of a damping and a stiffness."""
     return None if pair is None else np.stack([damping * pair[0], stiffness * pair[1]])
-
-
-def rates_of(rotor: LinearEquations, name: str) -> Rates | None:
-    """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` without, or with nothing to multiply."""
-    own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
-    changes_walls = any(each.at_speed(2.0) != each for each in rotor.touchdowns)
-    if own in WALL_FIELDS or (name == "speed" and (changes_walls or not rotor.heavy.all())):
-        return None
-    if rotor.conjugate is not None:
-        return None
-    of_law = {attribute: np.zeros(len(rotor.planes)) for attribute in _EXACT.values()}
-    stiffer, more, pull = np.zeros_like(rotor.stiffness), np.zeros_like(rotor.damping), np.zeros_like(rotor.forcing)
-    if own in _EXACT:
-        of_law[_EXACT[own]][slice(None) if plane is None else plane] = 1.0
-    elif own == "phi":
-        pull = 1j * rotor.forcing
-    else:
-        _, damping, _, stiffness, _ = rotor.matrices
-        value = value_of(rotor, own)
-        if not value:
-            return None
-        if own == "rho":
-            pull = rotor.forcing / value
-        if own in ("gamma", "speed"):
-            more = damping / (value if own == "gamma" else -value)
-        if own in ("omega", "speed"):
-            stiffer = stiffness * (2.0 if own == "omega" else -2.0) / value
-    changes = -np.concatenate([stiffer + 1j * more, more, -pull[:, None]], axis=1)
-    accelerations = rotor.accelerations(changes)
-    return Rates(accelerations[:, :-1], accelerations[:, -1], **of_law)

@@ -1,4 +1,4 @@
-"""Matrices of a rotor, and derivatives of its equations of motion."""
+"""Matrices of a rotor."""
 
 from __future__ import annotations
 
@@ -22,23 +22,3 @@ class Matrices(NamedTuple):
     gyroscopic: np.ndarray
     stiffness: np.ndarray
     forcing: np.ndarray
-
-
-class Rates(NamedTuple):
-    """Derivatives of the equations of motion in the co-rotating frame by a parameter, with masses and contact planes that stay.
-
-    Attributes
-    ----------
-    accelerations : ndarray of complex, shape (n, 2n)
-        Of the accelerations of the coordinates, per coordinate, then per rate of a coordinate.
-    force : ndarray of complex, shape (n,)
-        Of their constant part.
-    friction, restitution, surface_speed : ndarray, shape (P,)
-        Of the contact law of each plane.
-    """
-
-    accelerations: np.ndarray
-    force: np.ndarray
-    friction: np.ndarray
-    restitution: np.ndarray
-    surface_speed: np.ndarray

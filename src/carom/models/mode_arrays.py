@@ -55,7 +55,7 @@ class ModeArrays(Result):
 
     @cached_property
     def table(self) -> np.record:
-        """Constants of the certified crossing search (:func:`~carom.core.layout.table_record`).
+        """Constants of the certified crossing search (:func:`~carom.core.table.flight_table`).
 
         Rotors with the same modes, such as all with the same damping and stiffness, share them.
         """

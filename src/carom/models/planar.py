@@ -22,13 +22,13 @@ from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import second_order_system
 from carom.models.linear import LinearEquations
 from carom.models.linear_parameters import refuse_node
-from carom.models.matrices import Matrices, Rates
+from carom.models.matrices import Matrices
 from carom.models.race import Race
 from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
-from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Numbers, Parameters, Scales, TouchdownBearing
+from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 
@@ -243,19 +243,6 @@ class Planar(Definition):
         bearing = self.bearing.replace(**{name.removeprefix(PREFIX): value for name, value in of_bearing.items()})
         parameters = self.parameters.replace(**changes) if changes else self.parameters
         return replace(self, parameters=parameters, bearing=bearing)
-
-    def rates(self, name: str) -> Rates | None:
-        """Derivatives of the equations of motion by a parameter, in a rigid wall that stands still."""
-        if self.bearing is not None:
-            return None
-        at = self.parameters
-        at.value(name)  # refuses an unknown name
-        gamma, omega, rho, phi, mu, d, radius_ratio = Numbers.of(at).rates(name)
-        return Rates(
-            np.array([[complex(-2.0 * at.omega * omega, -gamma), -gamma]]),
-            np.array([complex(rho, at.rho * phi) * cmath.exp(1j * at.phi)]),
-            *np.array([[mu], [d], [radius_ratio]]),
-        )
 
     def without_levitation(self) -> Definition:
         """See :meth:`carom.models.Rotor.without_levitation`."""

@@ -27,7 +27,7 @@ from carom.parameters.settings import GRAVITY_NAME
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
-    from carom.models.matrices import Matrices, Rates
+    from carom.models.matrices import Matrices
     from carom.models.race import Race
     from carom.models.stages import Stage
     from carom.models.system import System
@@ -43,22 +43,6 @@ _WITHOUT_FORCES = (
     "losses of a blade, releases and states work; a setting gravity=0 leaves weight out"
 )
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
-_OF_EQUATIONS = [
-    "mass",
-    "damping",
-    "stiffness",
-    "forcing",
-    "touchdowns",
-    "translation",
-    "carried",
-    "shaft",
-    "unlevitated",
-    "conjugate",
-    "regained",
-    "magnets",
-    "heavy",
-    "planes",
-]
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
 
@@ -118,12 +102,6 @@ class Rotor(Result):
         if not listed or not all(isinstance(each, Limit) for each in listed):
             raise InputError("limits", shown(given), "carom.models.Limit, one or more")
         object.__setattr__(self, "limits", listed)
-
-    def __getattr__(self, name: str) -> Any:
-        """Members of its equations of motion."""
-        if name not in _OF_EQUATIONS:
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
-        return getattr(self.definition.equations, name)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Rotor):
@@ -435,11 +413,6 @@ class Rotor(Result):
         """The rotor with a change in all its stages."""
         stages = tuple(dataclasses.replace(each, rotor=change(each.rotor)) for each in self.stages)
         return dataclasses.replace(stages[0].rotor, stages=stages)
-
-    @checked
-    def rates(self, name: str) -> Rates | None:
-        """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
-        return None if self.forces or self.limits or self.stages else self.definition.rates(name)
 
     @property
     def stored(self) -> tuple[str, ...]:

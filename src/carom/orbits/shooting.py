@@ -7,18 +7,19 @@ singular where an impact grazes, and a branch of orbits passes through it.
 
 from __future__ import annotations
 
+import cmath
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from carom.base.outcome import CaromError
 from carom.core.closure import carry_through_segments, close_flights, shooting_equations
 from carom.core.segments import follow_flights
 from carom.core.sensitivity import sensitivity_of_flights
 from carom.models import Rotor
 from carom.orbits.word import Word
+from carom.parameters import Numbers
 
 ITERATIONS = 25
 TOLERANCE = 1e-13
@@ -111,9 +112,11 @@ def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
 
 def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray:
     """Exact derivative of the left sides of the equations by a parameter of the planar rotor, shape (m (2N + 1),)."""
-    system, rates = rotor.system, rotor.rates(name)
-    if rates is None:
-        raise CaromError(f"how the rotor changes with {name} is not known exactly")
+    system, present = rotor.system, rotor.parameters
+    gamma, omega, rho, phi, *of_wall = Numbers.of(present).rates(name)
+    accelerations = np.array([[complex(-2.0 * present.omega * omega, -gamma), -gamma]])
+    force = np.array([complex(rho, present.rho * phi) * cmath.exp(1j * present.phi)])
+    rates = accelerations, force, *np.array(of_wall)[:, None]
     at = word.kinds, word.planes, word.planes, *start
     changes: np.ndarray = sensitivity_of_flights(system.arrays, *system.nodes, *rates, *at)
     return changes

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.base.outcome import InputError, shown
-from carom.models import Limit, LinearEquations, Rates
+from carom.models import Limit, LinearEquations
 from carom.models.system import System
 from carom.parameters import Field, read_quantity
 from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
@@ -174,7 +174,3 @@ class FlexibleDefinition(LinearEquations):
         at = nodes[0] if node is None else node
         machine.rotor.check_node("blade_loss_node", at)
         return at, complex(sum(cmath.rect(each.size, each.angle) for each in machine.unbalances if each.node == at))
-
-    def rates(self, name: str) -> Rates | None:
-        """Return the derivatives of the equations of motion by a number of the equations; ``None`` for parameters of the machine."""
-        return None if name in self._own else super().rates(name)
