@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.base.outcome import InputError, shown
 from carom.models.forcing import Force
+from carom.models.mode_arrays import EQUAL, STEADY
 from carom.parameters import Scales
 
 
@@ -37,6 +38,16 @@ def complex_numbers(given: Any) -> np.ndarray | None:
     except (TypeError, ValueError, OverflowError):
         return None
     return values.astype(complex) if values.dtype.kind in "iufc" and np.isfinite(values).all() else None
+
+
+def gravity_among(forces: Sequence[Force], along: np.ndarray, scales: Scales | None) -> tuple[int, float] | None:
+    """Which of these forces is weight, which pulls all masses alike, and its acceleration in m/s²; ``None`` without scales or weight."""
+    for place, force in enumerate(forces if scales else ()):
+        pull = np.vdot(along, force.accelerations) / np.vdot(along, along)
+        alike = np.abs(force.accelerations - pull * along).max() <= EQUAL * abs(pull)
+        if scales and pull and alike and abs(force.exponent - STEADY) <= EQUAL:
+            return place, float(abs(pull)) * scales.acceleration
+    return None
 
 
 def in_scales(force: Force, before: Scales | None, after: Scales | None) -> Force:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from carom.core.wall import Wall
 from carom.models.matrices import Matrices
 from carom.models.system import System
 from carom.parameters import ControlLimit, Scales
+
+if TYPE_CHECKING:
+    from carom.models.definition import Definition
 
 _KEPT = (
     "exponents",
@@ -83,6 +87,22 @@ class Limit:
             accelerations=self.accelerations * slower**2,
             rates=np.asarray(self.rates) * slower,
         )
+
+
+def checked_limits(given: Any, definition: Definition) -> ControlLimit | tuple[Limit, ...]:
+    """Limits of the rotor of a definition: of a force in SI units, or in units of its equations; refuse what is none."""
+    if isinstance(given, ControlLimit):
+        if definition.planar is None or definition.scales is None:
+            raise InputError("rotor", shown(definition), "the planar rotor with mass, clearance and speed")
+        bearing = definition.bearing_at(0)
+        if bearing is not None and definition.pull:
+            allowed = "0 where the magnetic bearings have limits, whose force is counted from the place of levitation"
+            raise InputError("touchdown_offset", bearing.offset, allowed)
+        return given
+    listed = tuple(given) if isinstance(given, Iterable) else ()
+    if not listed or not all(isinstance(each, Limit) for each in listed):
+        raise InputError("limits", shown(given), "carom.models.Limit, one or more")
+    return listed
 
 
 def with_limits(system: System, limits: Sequence[Limit]) -> System:

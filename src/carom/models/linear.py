@@ -104,6 +104,8 @@ class LinearEquations(Definition, Result):
                     raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
                 values.flags.writeable = False
                 object.__setattr__(self, name, values)
+        if self.conjugate is not None and not self.conjugate.any():
+            object.__setattr__(self, "conjugate", None)
         if self.heavy.any() and self.forcing[~self.heavy].any():
             raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
         given: Any = self.touchdowns

@@ -26,7 +26,7 @@ SINGULAR = 1e-14
 def system_of(given: LinearEquations) -> System:
     """Modes, contact planes and contact law of a rotor with these equations of motion."""
     n = len(given.mass)
-    if given.conjugate is not None and given.conjugate.any():
+    if given.conjugate is not None:
         return _anisotropic(given, given.conjugate)
     _check_inverses(given)
     if is_singular(given.stiffness, given.mass, given.damping, given.stiffness) and given.forcing.any():

@@ -6,7 +6,7 @@ import cmath
 import dataclasses
 import json
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -18,9 +18,9 @@ from carom.base.outcome import InputError, shown
 from carom.base.results import Result
 from carom.models.definition import Definition
 from carom.models.documents import document_of
-from carom.models.forces import checked_forces, in_scales
+from carom.models.forces import checked_forces, gravity_among, in_scales
 from carom.models.forcing import Force, with_forces
-from carom.models.limits import Limit, limits_by, with_limits
+from carom.models.limits import Limit, checked_limits, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
 from carom.parameters.settings import GRAVITY_NAME
@@ -32,16 +32,8 @@ if TYPE_CHECKING:
     from carom.models.stages import Stage
     from carom.models.system import System
 
-PLANAR_ALONE = (
-    "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
-    "carom.drop, carom.study, carom.find_attractors, carom.find_orbits, carom.find_bifurcations, carom.map_regions, carom.map_basins and carom.map_gains work, "
-    "and every command that reads a machine file"
-)
-_WITHOUT_FORCES = (
-    "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
-    "carom.drop, carom.study, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
-    "losses of a blade, releases and states work; a setting gravity=0 leaves weight out"
-)
+PLANAR_ALONE = "the planar rotor, of which alone this result is known; the functions of carom itself take any rotor"
+_WITHOUT_FORCES = "needs a rotor without gravity or other forces that change with time in its frame; a setting gravity=0 leaves weight out"
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
@@ -84,31 +76,14 @@ class Rotor(Result):
         if self.forces != ():
             object.__setattr__(self, "forces", checked_forces(self.forces, self.definition.system.rest.shape))
         if self.limits != ():
-            self._check_limits(self.limits)
+            object.__setattr__(self, "limits", checked_limits(self.limits, self.definition))
         if self.stages and self._outline != self.stages[0].rotor._outline:
             raise InputError("stages", shown(self.stages[0]), "stages the first of which has this rotor")
 
-    def _check_limits(self, given: Any) -> None:
-        if isinstance(given, ControlLimit):
-            if self.definition.planar is None or self.scales is None:
-                raise InputError("rotor", shown(self.definition), "the planar rotor with mass, clearance and speed")
-            if self.definition.pull:
-                allowed = (
-                    "0 where the magnetic bearings have limits, whose force is counted from the place of levitation"
-                )
-                raise InputError("touchdown_offset", self.definition.bearing_at(0).offset, allowed)  # type: ignore[union-attr]  # it pulls
-            return
-        listed = tuple(given) if isinstance(given, Iterable) else ()
-        if not listed or not all(isinstance(each, Limit) for each in listed):
-            raise InputError("limits", shown(given), "carom.models.Limit, one or more")
-        object.__setattr__(self, "limits", listed)
-
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Rotor):
-            return NotImplemented
-        same = len(self.forces) == len(other.forces) and all(map(lambda a, b: a is b, self.forces, other.forces))
-        same = same and self.stages == other.stages
-        return same and self.definition == other.definition and self.limits == other.limits
+        if not isinstance(other, Rotor) or (self._outline, self.stages) != (other._outline, other.stages):
+            return False
+        return all(mine is theirs for mine, theirs in zip(self.forces, other.forces, strict=True))
 
     def __hash__(self) -> int:
         return hash(self._outline)
@@ -174,13 +149,7 @@ class Rotor(Result):
 
     @property
     def parameters(self) -> Parameters:
-        """The same of a rotor that is planar.
-
-        Raises
-        ------
-        InputError
-            It is another one.
-        """
+        """The same of a rotor that is planar; any other one is refused."""
         if self.planar is None:
             raise InputError("machine", shown(self), PLANAR_ALONE)
         return self.planar
@@ -213,11 +182,6 @@ class Rotor(Result):
         return self.definition.system.is_anisotropic
 
     @property
-    def acting_on_conjugates(self) -> np.ndarray | None:
-        """Damping and stiffness (2, n, n) in the fixed frame that act on conjugates; ``None`` of isotropic bearings."""
-        return self.equations.conjugate if self.is_anisotropic else None
-
-    @property
     def races(self) -> tuple[Race | None, ...]:
         """The race at each touchdown bearing; ``None`` where it stands still."""
         return tuple(touchdown.race for touchdown in self.equations.touchdowns)
@@ -225,20 +189,13 @@ class Rotor(Result):
     @property
     def is_on_mount(self) -> bool:
         """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
-        bearing = None if self.definition.planar is None else self.definition.bearing_at(0)
-        return bearing is not None and bearing.mount_mass is not None
+        return self.definition.planar is not None and len(self.definition.system.rest) > 1
 
     @property
     def carried_by_housing(self) -> np.ndarray:
         """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and mounts."""
         carried = self.equations.carried
         return self.definition.system.translated if carried is None else carried
-
-    @property
-    def carry_at_regain(self) -> np.ndarray | None:
-        """Coordinates and rates with which levitation begins again per those at the end of the fall, shape (2n, 2n); ``None`` if they stay."""
-        kept = self.equations.regained
-        return None if kept is None else np.diag(np.concatenate([kept, kept]))
 
     # What acts on it besides.
 
@@ -247,18 +204,13 @@ class Rotor(Result):
         """Modes, contact planes, contact law, limits, and a mode for each force, as arrays for the kernels."""
         if self.stages:
             return self.stages[0].rotor.system
-        if self._before is not None:
-            rotor, more = self._before
+        if "_before" in vars(self):  # modes of the rotor to which forces were added need not be found again
+            rotor, more = vars(self)["_before"]
             return with_forces(rotor.system, more)
         system = self.definition.system
         if self.limits:
             system = with_limits(system, self.listed_limits)
         return with_forces(system, self.forces) if self.forces else system
-
-    @cached_property
-    def _before(self) -> tuple[Rotor, tuple[Force, ...]] | None:
-        """The rotor to which forces were added, whose modes need not be found again, and those forces."""
-        return None
 
     @property
     def listed_limits(self) -> tuple[Limit, ...]:
@@ -267,11 +219,6 @@ class Rotor(Result):
             scales: Any = self.scales
             return limits_by(self.limits, self.matrices, scales)
         return self.limits
-
-    @property
-    def acting_forces(self) -> tuple[Force, ...]:
-        """Its forces, and what pulls it off the centre of its touchdown bearing."""
-        return (*self.forces, *self.definition.pull)
 
     @property
     def weight(self) -> np.ndarray | None:
@@ -289,15 +236,7 @@ class Rotor(Result):
     @cached_property
     def _gravity(self) -> tuple[int, float] | None:
         """Which of the forces is weight, which pulls all masses alike, and its acceleration in m/s²; ``None`` without scales or weight."""
-        if self.scales is None or not self.forces:
-            return None
-        along = self.definition.system.translated
-        for place, force in enumerate(self.forces):
-            pull = np.vdot(along, force.accelerations) / np.vdot(along, along)
-            alike = np.abs(force.accelerations - pull * along).max() <= EQUAL * abs(pull)
-            if pull and alike and abs(force.exponent - STEADY) <= EQUAL:
-                return place, float(abs(pull)) * self.scales.acceleration
-        return None
+        return gravity_among(self.forces, self.definition.system.translated, self.scales)
 
     @property
     def is_time_dependent(self) -> bool:
@@ -345,10 +284,7 @@ class Rotor(Result):
     def without_levitation(self) -> Rotor:
         """The rotor without the stiffness and damping of its levitation, under the same forces.
 
-        Raises
-        ------
-        InputError
-            It has several coordinates, and does not say what is left without levitation, which cannot be told from its shaft.
+        One of several coordinates is refused where it does not say what is left then, which does not follow from its shaft.
         """
         return Rotor(self.definition.without_levitation(), self.forces)
 
@@ -440,13 +376,7 @@ class Rotor(Result):
 
         The change is a vector, an eccentricity in ``c_r`` relative to the direction of the unbalance before: a force ``Δ p e^{iβ}`` in the frame
         that turns with the shaft.  The rotor after it is seen in a frame that has turned with the unbalance, so that many changes lead to one
-        machine, which differ by where the motion starts.
-
-        Parameters
-        ----------
-        change : complex
-        node : int, optional
-            Of a flexible machine.
+        machine, which differ by where the motion starts.  A node is one of a flexible machine.
         """
         definition, turned = self.definition.with_changed_unbalance(change, node)
         if self.stages:

@@ -6,6 +6,8 @@ import cmath
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.models import Rotor, Stage, Subject, Trigger, in_stages, rotor_of
@@ -107,7 +109,9 @@ class Drop:
         if self.regained_after is None:
             return falling, start
         time = own_time("regained_after", self.regained_after, rotor.scales)
-        return in_stages((Stage(falling, Trigger(time=time), rotor.carry_at_regain), Stage(rotor))), start
+        kept = rotor.equations.regained
+        carry = None if kept is None else np.diag(np.tile(kept, 2))
+        return in_stages((Stage(falling, Trigger(time=time), carry), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Rotor) -> float:
         """Angle of the unbalance at the release, in the fixed frame, in rad.

@@ -186,8 +186,9 @@ def _work_of_jolts(trajectory: Trajectory, jolts: np.ndarray) -> np.ndarray:
 def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:
     """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
     power, since = np.zeros(times.shape), trajectory.begins + times
-    for force in trajectory.rotor.acting_forces:
-        push = trajectory.rotor.matrices.mass @ force.accelerations
+    rotor = trajectory.rotor
+    for force in (*rotor.forces, *rotor.definition.pull):
+        push = rotor.matrices.mass @ force.accelerations
         power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
     return power
 
@@ -211,7 +212,7 @@ def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray, turning: np.n
 
 def _on_conjugates(rotor: Rotor) -> np.ndarray:
     """Matrices of the forces ``−D′Z̄˙ − K′Z̄`` of bearings that act differently in two directions, (2, n, n)."""
-    pair = rotor.acting_on_conjugates
+    pair = rotor.equations.conjugate
     return np.zeros((2, len(rotor.system.rest), len(rotor.system.rest))) if pair is None else pair
 
 

@@ -179,7 +179,7 @@ def _of_model(model: Rotor) -> _Whole:
     if scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)
-    system, conjugate = model.system, model.acting_on_conjugates
+    system, conjugate = model.system, model.equations.conjugate
     n, widths = len(system.rest), system.widths
     mass, damping, gyroscopic, stiffness, forcing = model.matrices
     none = np.zeros((0, n))
