@@ -45,7 +45,7 @@ class Touch:
     """A contact by the reference, with forces of the felt mass."""
 
     plane: int
-    start: float
+    time: float
     radial_speed: float
     phases: list[str] = field(default_factory=list)
     end: float = np.nan

@@ -139,7 +139,7 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
             before, after = (rotor.energy(*state) for state in states)
             assert after - before == pytest.approx(gained, abs=1e-10)
         chosen, log = motion.is_impact, motion.log_of(motion.is_impact)
-        events = np.searchsorted(np.flatnonzero(chosen), motion.blows(chosen).events)
+        events = np.searchsorted(np.flatnonzero(chosen), motion.impulses(chosen).events)
         times, work = motion.segment_starts[1:][chosen], np.bincount(events, log.contact_work + log.drive_work)
         energies = [
             rotor.energy(

@@ -44,7 +44,7 @@ def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
     case = cm.load(MACHINE)
     motion = cm.simulate(case, cm.kick("495 mm/s", "30 deg"), until)
     each = [motion.seen_at(plane) for plane in (0, 1)]
-    first, second = (len(seen.touches) for seen in each)
+    first, second = (len(seen.contacts) for seen in each)
     assert min(first, second) > 1
 
     _, out, _ = carom(*command, "--csv", str(table), "--netcdf", str(log))
@@ -52,20 +52,20 @@ def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
     assert f"{first + second} contacts ({first} at touchdown bearing 1 and {second} at touchdown bearing 2)" in words
     assert all(f"At the end at touchdown bearing {number}, in the fixed frame" in words for number in (1, 2))
     with table.open(encoding="utf-8") as stream:
-        rows = [(int(row["touchdown_bearing [1]"]), float(row["start [s]"])) for row in csv.DictReader(stream)]
-    starts = [(seen.plane + 1, start) for seen in each for start in seen.touches.to_dataset()["start"].values.tolist()]
+        rows = [(int(row["touchdown_bearing [1]"]), float(row["time [s]"])) for row in csv.DictReader(stream)]
+    starts = [(seen.plane + 1, start) for seen in each for start in seen.contacts.to_dataset()["time"].values.tolist()]
     assert rows == sorted(starts, key=lambda entry: entry[1])
     with xarray.open_dataset(log, engine="h5netcdf", decode_times=False) as read:
-        assert list(zip(read["touchdown_bearing"].values, read["start"].values, strict=True)) == rows
+        assert list(zip(read["touchdown_bearing"].values, read["time"].values, strict=True)) == rows
         assert sorted(read["contact_touchdown_bearing"].values) == sorted(number for number, _ in rows)
 
     found = json.loads(carom(*command, "--json")[1])
     assert [entry["touchdown_bearing"] for entry in found["contacts"]] == [number for number, _ in rows]
     for number, (entry, seen) in enumerate(zip(found["touchdown_bearings"], each, strict=True), start=1):
-        assert (entry["touchdown_bearing"], entry["contacts"]) == (number, len(seen.touches))
+        assert (entry["touchdown_bearing"], entry["contacts"]) == (number, len(seen.contacts))
         place = seen.position([motion.time], "fixed")[0] * seen.scales.length
         assert complex(*entry["final"]["place_si"]) == pytest.approx(place, abs=1e-12)
-        assert entry["loads"]["force_si"] == seen.touches.to_dataset()["peak_force"].max()
+        assert entry["loads"]["force_si"] == seen.contacts.to_dataset()["peak_force"].max()
 
 
 @pytest.mark.parametrize("options", [("--shock", "5 g, 11 ms"), ("--blade-loss", "30 g mm"), ("--kick", "5 mm/s")])

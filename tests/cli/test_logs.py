@@ -61,11 +61,11 @@ def test_netcdf_holds_the_same_with_units(motion, tmp_path):
     with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf") as read:
         assert read["normal_impulse"].attrs["units"] == "N s"
         assert np.array_equal(read["time"], motion.contacts.time * motion.rotor.scales.time)
-        assert read["contact_phase"].values.tolist() == [contact.phase for contact in motion.lasting_contacts]
+        assert read["lasting_phase"].values.tolist() == [contact.phase for contact in motion.lasting_contacts]
         meanings = dict(
             zip(
-                np.atleast_1d(read["contact_phase"].attrs["flag_values"]).tolist(),
-                read["contact_phase"].attrs["flag_meanings"].split(),
+                np.atleast_1d(read["lasting_phase"].attrs["flag_values"]).tolist(),
+                read["lasting_phase"].attrs["flag_meanings"].split(),
                 strict=True,
             )
         )
@@ -81,13 +81,13 @@ def test_contacts_with_a_wall_that_gives_way(tmp_path):
     write_csv(motion, str(tmp_path / "log.csv"))
     write_netcdf(motion, str(tmp_path / "log.nc"))
 
-    rows, touches = rows_of(tmp_path / "log.csv"), motion.touches
+    rows, touches = rows_of(tmp_path / "log.csv"), motion.contacts
     assert [row["kind"] for row in rows] == ["forward-slip"] * len(touches)
     assert [float(row["peak_force [N]"]) for row in rows] == (touches.peak_force * scales.force).tolist()
-    assert [float(row["start [s]"]) for row in rows] == (touches.start * scales.time).tolist()
+    assert [float(row["time [s]"]) for row in rows] == (touches.time * scales.time).tolist()
     with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf", decode_times=False) as read:
         assert np.array_equal(read["deepest"], touches.deepest * scales.length)
-        assert len(read["contact_phase"]) == len(motion.lasting_contacts)
+        assert len(read["lasting_phase"]) == len(motion.lasting_contacts)
 
 
 def test_motion_without_contact(machine, tmp_path):
@@ -97,7 +97,7 @@ def test_motion_without_contact(machine, tmp_path):
 
     assert rows_of(tmp_path / "log.csv") == []
     with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf") as read:
-        assert read.sizes == {"impact": 0, "contact": 0}
+        assert read.sizes == {"contact": 0, "lasting": 0}
 
 
 def test_failed_write_leaves_the_old_file(motion, tmp_path, monkeypatch):

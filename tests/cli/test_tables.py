@@ -34,10 +34,10 @@ def test_contacts_with_a_wall_that_gives_way_are_rows():
     with console.capture() as shown:
         print_parts(console, case, motion, "start")
     text = shown.get()
-    assert f": {len(motion.touches)} contacts." in text
+    assert f": {len(motion.contacts)} contacts." in text
     assert "depth " in text
     assert "after the start" in text
-    assert text.count("forward slip for ") == len(motion.touches)
+    assert text.count("forward slip for ") == len(motion.contacts)
 
 
 def test_what_is_merely_unknown_is_not_called_unstable():

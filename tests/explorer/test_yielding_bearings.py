@@ -186,13 +186,13 @@ def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
     case = with_settings(origin("restitution").case, {"touchdown_stiffness": "2e7"})
     rotor, kicks = rotor_of(case), planes_of(case)[0]
     kicked = follow_kick(rotor, kicks, 0.8, 0.2)
-    touches = carom.simulate(rotor, rest_of(rotor).kicked(0.8, 0.2), settle=True).touches
+    touches = carom.simulate(rotor, rest_of(rotor).kicked(0.8, 0.2), settle=True).contacts
     assert kicked.planes[0].hardest == touches.peak_force.max()
     radius = np.hypot(kicked.planes[0].x, kicked.planes[0].y)
     # Samples lie somewhere between the ends of a contact, and are of single precision.
     assert 1.0 < radius.max() <= 1.0 + touches.deepest.max() + 1e-6
     count = min(len(kicked.planes[0].impact_times), len(touches))
-    np.testing.assert_allclose(kicked.planes[0].impact_times[:count], touches.start[:count], rtol=1e-6)
+    np.testing.assert_allclose(kicked.planes[0].impact_times[:count], touches.time[:count], rtol=1e-6)
     words = f"after {len(touches)} contacts; largest force "
     assert words in kicked.words
     assert " of the clearance." in kicked.words

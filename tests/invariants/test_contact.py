@@ -56,8 +56,8 @@ def test_friction_opposes_slip_within_its_cone_and_never_reverses_it(machine, st
     log, speeds = impacts_of(machine, start)
     rounding = ROUNDING * (speeds + machine.radius_ratio)
     size = np.abs(log.slip_before)
-    assert np.all(log.tangential_impulse * np.sign(log.slip_before) <= rounding)
-    assert np.all(np.abs(log.tangential_impulse) <= machine.mu * log.normal_impulse + rounding)
+    assert np.all(log.friction_impulse * np.sign(log.slip_before) <= rounding)
+    assert np.all(np.abs(log.friction_impulse) <= machine.mu * log.normal_impulse + rounding)
     assert np.all(log.slip_after * np.sign(log.slip_before) >= -rounding)
     assert np.all(np.abs(log.slip_after) <= size + rounding)
 

@@ -81,11 +81,11 @@ def test_elastic_contact_takes_no_energy_along_the_normal():
         for start in starts(1, 5):
             log = simulate(jeffcott(PAPER.replace(d=1.0, mu=mu)), start, 100.0, max_events=EVENTS).contacts
             assert len(log) > 3
-            friction = 0.5 * log.tangential_impulse * (log.slip_before + log.slip_after)
+            friction = 0.5 * log.friction_impulse * (log.slip_before + log.slip_after)
             speed = 1.0 + log.radial_speed + np.abs(log.angular_speed)
             assert np.all(np.abs(log.contact_work - friction) <= 8 * EPSILON * speed**2)
             limited = np.minimum(mu * log.normal_impulse, np.abs(log.slip_before))
-            assert np.all(np.abs(np.abs(log.tangential_impulse) - limited) <= 8 * EPSILON * speed)
+            assert np.all(np.abs(np.abs(log.friction_impulse) - limited) <= 8 * EPSILON * speed)
 
 
 @pytest.mark.parametrize("gamma", [0.0, 0.1, 0.3])

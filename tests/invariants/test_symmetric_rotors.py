@@ -56,9 +56,7 @@ def test_it_does_not_tilt(arm, inertia):
             # Each impact multiplies a difference, which rounding starts, by up to ten.
             assert np.allclose(seen.time[:count], log.time[:count], rtol=1e-8)
             assert np.allclose(2.0 * seen.normal_impulse[:count], log.normal_impulse[:count], rtol=1e-8, atol=1e-10)
-            assert np.allclose(
-                2.0 * seen.tangential_impulse[:count], log.tangential_impulse[:count], rtol=1e-8, atol=1e-10
-            )
+            assert np.allclose(2.0 * seen.friction_impulse[:count], log.friction_impulse[:count], rtol=1e-8, atol=1e-10)
             assert not seen.by_poisson.any()
         compared += count
     assert compared >= sized(30, 10, 500)

@@ -109,7 +109,7 @@ def test_the_same_motion_integrated_in_si_units():
         slip = physical.rotor_radius * physical.speed + tangential
         assert slip == pytest.approx(columns["slip_before"][index], rel=1e-8)
         friction = -math.copysign(min(physical.friction * impulse, physical.mass * abs(slip)), slip)
-        assert friction == pytest.approx(columns["tangential_impulse"][index], rel=1e-6)
+        assert friction == pytest.approx(columns["friction_impulse"][index], rel=1e-6)
         velocity += normal * complex(-impulse, friction) / physical.mass
 
 

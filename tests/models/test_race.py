@@ -185,7 +185,7 @@ def test_impacts_on_a_rigid_wall_keep_the_momentum_of_rotor_and_race(restitution
     motion = cm.simulate(rotor, START, 40.0)
     contacts = motion.contacts
     assert len(contacts) >= 8
-    turned = np.cumsum(contacts.tangential_impulse)
+    turned = np.cumsum(contacts.friction_impulse)
     assert motion.final.races[0] == pytest.approx(-(race.radius**2) / race.inertia * turned[-1], rel=1e-12)
     # The angular momentum of the rotor about the bearing changes by the same impulses.
     position, velocity = motion.final.position, motion.final.velocity + 1j * motion.final.position
@@ -199,11 +199,11 @@ def test_an_impact_is_stopped_by_the_least_impulse_that_stops_the_slip():
     rotor = rotor_with(Rigid(0.6), race, friction=friction, surface_speed=slip)
     motion = cm.simulate(rotor, cm.State(0.2, 2.0), 1.5)
     contacts = motion.contacts
-    first = contacts.tangential_impulse[0]
+    first = contacts.friction_impulse[0]
     assert abs(first) == pytest.approx(abs(contacts.slip_before[0]) / (1.0 + race.radius**2 / race.inertia), rel=1e-12)
     assert contacts.sticks[0]
     weak = cm.simulate(rotor_with(Rigid(0.6), race, friction=0.01, surface_speed=slip), cm.State(0.2, 2.0), 1.5)
-    assert abs(weak.contacts.tangential_impulse[0]) == pytest.approx(0.01 * weak.contacts.normal_impulse[0], rel=1e-12)
+    assert abs(weak.contacts.friction_impulse[0]) == pytest.approx(0.01 * weak.contacts.normal_impulse[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("drag", [0.0, 0.02, 20.0])

@@ -71,11 +71,11 @@ def test_friction_gives_the_race_its_momentum():
     case = cm.load(BALLS, ["touchdown_race_drag=0"])
     motion = cm.simulate(case, cm.drop(race_speed="500 rpm"), "60 ms")
     (plane,) = drop_loads(motion).planes
-    push = -motion.touches.friction_impulse.sum() * case.parameters.scales.impulse
+    push = -motion.contacts.friction_impulse.sum() * case.parameters.scales.impulse
     gained = (plane.race_at_end * SPEED - 500.0 * math.pi / 30.0) * 2e-5
     assert gained == pytest.approx(push * (20e-3 + CLEARANCE), rel=1e-9)
     assert plane.fastest_race == plane.race_at_end
-    assert plane.contacts == len(motion.touches)
+    assert plane.contacts == len(motion.contacts)
 
 
 @pytest.mark.parametrize("machine", [BALLS, RIGID])
@@ -90,10 +90,12 @@ def test_stages_count_together(machine):
     heat = -sum(each.friction[-1] + (0.0 if plane.gives_way else each.impacts[-1]) for each in lost)
     assert plane.heat + (0.0 if plane.gives_way else plane.restitution_loss) == pytest.approx(heat, rel=1e-9)
     if plane.gives_way:
-        assert falls.touches.lasts[-1]
-        assert not back.touches.entered[0]
-        assert plane.contacts == len(falls.touches) + len(back.touches) - 1
-        hardest = max((part.touches.peak_force.max(), part.begins + part.touches.peak_time[0]) for part in motion.parts)
+        assert falls.contacts.lasts[-1]
+        assert not back.contacts.entered[0]
+        assert plane.contacts == len(falls.contacts) + len(back.contacts) - 1
+        hardest = max(
+            (part.contacts.peak_force.max(), part.begins + part.contacts.peak_time[0]) for part in motion.parts
+        )
         assert (plane.force, plane.force_at) == hardest
     else:
         assert plane.contacts == plane.bounces == len(falls.contacts) + len(back.contacts)
@@ -115,10 +117,10 @@ def test_contact_that_goes_on_over_two_stages_began_in_the_first():
     )
     motion = cm.simulate(halves, start)
     (plane,) = drop_loads(motion).planes
-    begun = motion.parts[0].touches.start[-1]
-    assert motion.parts[0].touches.lasts[-1]
+    begun = motion.parts[0].contacts.time[-1]
+    assert motion.parts[0].contacts.lasts[-1]
     assert plane.in_contact_since == pytest.approx(begun, abs=1e-9)
-    assert plane.contacts == len(motion.parts[0].touches)
+    assert plane.contacts == len(motion.parts[0].contacts)
 
 
 def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():

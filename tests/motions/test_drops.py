@@ -122,7 +122,7 @@ def test_the_race_turns_at_the_release(speed):
     case = cm.load("examples/touchdown-balls.toml")
     motion = cm.simulate(case, cm.drop(race_speed=speed), "5 ms")
     begins = 1.0 / 3.0 if speed == "3000 rpm" else speed
-    assert not len(motion.touches)
+    assert not len(motion.contacts)
     assert motion.start.races == pytest.approx((81.0 * begins,), rel=1e-14)
     assert motion.final.races == pytest.approx((81.0 * begins * math.exp(-1e-5 / 2e-5 * 5e-3),), rel=1e-12)
 

@@ -44,9 +44,9 @@ def test_momentum_changes_by_the_logged_impulses():
         motion = at_random(random)
         rotor = motion.rotor
         log = motion.log_of(motion.is_impact)
-        hits, events = np.unique(motion.blows(motion.is_impact).events, return_inverse=True)
+        hits, events = np.unique(motion.impulses(motion.is_impact).events, return_inverse=True)
         assert np.array_equal(hits, np.flatnonzero(motion.is_impact))
-        push = (-log.normal_impulse + 1j * log.tangential_impulse) * np.exp(1j * log.angle)
+        push = (-log.normal_impulse + 1j * log.friction_impulse) * np.exp(1j * log.angle)
         given = np.zeros((len(hits), len(rotor.equations.mass)), complex)
         np.add.at(given, events, push[:, None] * rotor.equations.planes.conj()[log.touchdown_bearing - 1])
         _, before = coordinates(motion, motion.arrivals[hits])
@@ -68,7 +68,7 @@ def test_energy_changes_by_the_works_of_the_log():
             energies.append(0.5 * np.einsum("ki,ij,kj->k", speed.conj(), mass, speed).real)
         gained = energies[1] - energies[0]
         size = np.linalg.cond(motion.rotor.system.basis) * (1.0 + energies[0].max())
-        events = np.searchsorted(hits, motion.blows(motion.is_impact).events)
+        events = np.searchsorted(hits, motion.impulses(motion.is_impact).events)
         worked = np.bincount(events, log.contact_work + log.drive_work)
         assert np.abs(gained - worked).max() < 1e-13 * size
 
@@ -99,7 +99,7 @@ def test_forces_and_impulses_add_up_to_the_change_of_momentum():
         supplied = np.einsum("k,j,kjn->n", half, weights, force)
         for events in (motion.is_impact, motion.is_landing):
             log = motion.log_of(events)
-            push = (-log.normal_impulse + 1j * log.tangential_impulse) * np.exp(1j * log.angle)
+            push = (-log.normal_impulse + 1j * log.friction_impulse) * np.exp(1j * log.angle)
             supplied += push @ rotor.planes.conj()[log.touchdown_bearing - 1]
         change = (motion.final.velocity - motion.start.velocity) @ rotor.mass.T
         change += (motion.final.position - motion.start.position) @ rotor.damping.T
@@ -131,7 +131,7 @@ def test_an_impulse_in_newton_seconds():
         translation=[1.0, 0.0], scales=Scales(mass=mass, clearance=clearance, speed=speed),
     )  # fmt: skip
     motion = simulate(rotor, State(np.zeros(2, complex), np.array([0.7, 0.3 + 0j])), 4.0)
-    first = motion.contacts.to_dataset().isel(impact=0)
+    first = motion.contacts.to_dataset().isel(contact=0)
     felt = 1.0 / (1.0 / mass + arm**2 / inertia)
     assert float(first["normal_impulse"]) == pytest.approx(felt * 1.6 * float(first["radial_speed"]), rel=1e-12)
 

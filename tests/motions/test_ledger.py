@@ -180,7 +180,7 @@ def test_energy_closes_in_walls_that_give_way(law, stiffness, friction, ratio):
     assert ledger.wall_loss.max() <= 0.0
     assert (carom.base.outcome.Phase.ROLLING in motion.segment_phases) == (ratio < 2.0)
     assert not ledger.races.any()
-    touches = motion.touches
+    touches = motion.contacts
     size = np.abs(ledger.friction).max()
     assert touches.heat.sum() == pytest.approx(-ledger.friction[-1], rel=1e-9)
     assert touches.drive_work.sum() == pytest.approx(ledger.drive[-1], abs=1e-9 * size)

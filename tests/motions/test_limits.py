@@ -86,7 +86,7 @@ def test_motions_in_a_wall_that_gives_way_are_those_of_a_general_integrator(boun
     motion = cm.simulate(limited(rotor, bound, pull), start, 8.0)
     final, _ = follow(rates, in_fixed_frame(start, 0.0), 8.0, longest=0.002)
 
-    assert len(motion.touches) >= 3
+    assert len(motion.contacts) >= 3
     assert {2, 3} & set(motion.segment_limits.ravel().tolist())
     # Each of the contacts begins with a kink, which the integrator does not stop at.
     assert in_fixed_frame(motion.final, 8.0) == pytest.approx(final, abs=1e-9)

@@ -166,12 +166,12 @@ def test_any_linear_rotor():
 def test_walls_that_give_way(law):
     """Against the contacts and the ledger; a stiff wall bears nearly the impulses and heat of the rigid one."""
     motion = cm.simulate(with_walls(single(1), law), cm.State(0.2 + 0.1j, 1.0), 20.0)
-    loads, touches, ledger = drop_loads(motion).planes[0], motion.touches, energy_ledger(motion)
+    loads, touches, ledger = drop_loads(motion).planes[0], motion.contacts, energy_ledger(motion)
     assert loads.contacts == len(touches) > 5
     assert loads.impulse == touches.normal_impulse.max()
     assert loads.force == pytest.approx(motion.forces(touches.peak_time)[0].max(), rel=1e-9)
     # Two thousand samples of a contact miss its maxima by less than a millionth.
-    times = np.linspace(touches.start, touches.end, 2_000)
+    times = np.linspace(touches.time, touches.end, 2_000)
     assert loads.depth == pytest.approx(motion.radius(times).max() - 1.0, rel=1e-5)
     assert loads.power == pytest.approx(-motion.history(times.ravel()).friction_power.min(), rel=1e-5)
     assert loads.heat == pytest.approx(-ledger.friction[-1], rel=1e-10)

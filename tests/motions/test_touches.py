@@ -15,14 +15,14 @@ from carom.base.outcome import Phase
 from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL, POWER
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import State, drop_loads, energy_ledger, simulate
-from carom.motions.contacts import presses, slip_velocity
+from carom.motions.kinematics import presses, slip_velocity
 from carom.motions.ledger import NODES, WEIGHTS
-from carom.motions.touches import contact_works
+from carom.motions.wall_works import contact_works
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only
 SPEED = 0.7
-COMPARED = ("start", "end", "radial_speed", "radial_speed_after", "peak_force", "deepest", *SUMS)
+COMPARED = ("time", "end", "radial_speed", "radial_speed_after", "peak_force", "deepest", *SUMS)
 MEETS_AGAIN = (0.1347377930935035 - 0.37505867749253735j, 0.5369589511310852 + 1.3589087556179946j)
 """A start that does, found by following many."""
 
@@ -30,8 +30,8 @@ MEETS_AGAIN = (0.1347377930935035 - 0.37505867749253735j, 0.5369589511310852 + 1
 def hit_of(law):
     """The one contact of a free mass that flies straight at its wall, at 0.7."""
     motion = simulate(free_mass(law), State(0j, SPEED + 0j), 2.5)
-    assert len(motion.touches) == 1
-    return motion.touches, motion
+    assert len(motion.contacts) == 1
+    return motion.contacts, motion
 
 
 @pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e7])
@@ -56,11 +56,11 @@ def test_free_mass_on_a_kelvin_voigt_wall(stiffness, ratio):
     assert hit.normal_impulse[0] == pytest.approx(SPEED * (1.0 + restitution), rel=1e-10)
     assert hit.normal_loss[0] == pytest.approx(0.5 * SPEED**2 * (1.0 - restitution**2), rel=1e-9, abs=1e-13)
     assert hit.heat[0] == hit.friction_impulse[0] == 0.0
-    assert hit.start[0] == pytest.approx(1.0 / SPEED, rel=1e-12)
+    assert hit.time[0] == pytest.approx(1.0 / SPEED, rel=1e-12)
     if 0.0 < ratio < 0.5:
         time = (0.5 * math.pi - 3.0 * sine) / (math.sqrt(stiffness) * math.cos(sine))
         # A maximum is flat: its place is known to the root of the rounding of its value.
-        assert hit.peak_time[0] - hit.start[0] == pytest.approx(time, abs=1e-6 * held)
+        assert hit.peak_time[0] - hit.time[0] == pytest.approx(time, abs=1e-6 * held)
 
 
 @pytest.mark.parametrize("stiffness", [1e2, 1e5, 1e7])
@@ -87,7 +87,7 @@ def compared(rotor, law, start, until):
     others = contacts_of(model, *map(np.atleast_1d, start), until)
     motion = simulate(model, State(*start), until)
     for plane in range(len(rotor.planes)):
-        touches, here = motion.seen_at(plane).touches, [touch for touch in others if touch.plane == plane]
+        touches, here = motion.seen_at(plane).contacts, [touch for touch in others if touch.plane == plane]
         assert len(here) == len(touches) - touches.lasts.sum()
         for place, other in enumerate(here):
             for name in COMPARED:
@@ -142,7 +142,7 @@ def test_a_contact_that_goes_on():
     """Pressed into the wall by the unbalance until the end: not left, and its impulse is no impact's."""
     rotor = single(1, friction=0.15, radius_ratio=20.0, forcing=np.array([1.5]))
     motion = simulate(with_walls(rotor, KelvinVoigt(1e3, 20.0)), State(0.5 + 0j, 0j), 30.0)
-    touches, loads = motion.touches, drop_loads(motion).planes[0]
+    touches, loads = motion.contacts, drop_loads(motion).planes[0]
     assert touches.lasts[-1]
     assert not touches.lasts[:-1].any()
     assert touches.end[-1] == motion.time
@@ -153,28 +153,30 @@ def test_a_contact_that_goes_on():
 def test_a_motion_that_begins_in_the_wall():
     """The ledger closes, and the first contact was not entered."""
     motion = simulate(with_walls(single(1), KelvinVoigt(1e4, 3.0)), State(0.81, 0.3), 8.0)
-    touches = motion.touches
+    touches = motion.contacts
     assert touches.entered.tolist() == [False] + [True] * (len(touches) - 1)
-    assert touches.start[0] == 0.0
+    assert touches.time[0] == 0.0
     assert energy_ledger(motion).imbalance < 1e-12
 
 
-def test_rigid_walls_have_no_such_contacts():
+def test_contacts_of_rigid_bearings_have_no_duration():
     motion = simulate(tilting().model, State(np.zeros(2), np.array([0.9, 0.1])), 10.0)
+    log = motion.contacts
     assert motion.is_impact.any()
-    assert len(motion.touches) == 0
-    assert len(motion.touches) == 0
+    assert log.is_impact.all()
+    assert not np.any([log.duration, log.deepest, log.lasts])
+    assert (log.end == log.time).all()
     assert drop_loads(motion).planes[0].depth == 0.0
 
 
 def test_in_si():
     scales, law = Scales(mass=50.0, clearance=0.7e-3, speed=184.2), KelvinVoigt(1e4, 3.0)
     motion = simulate(with_walls(single(1), law, scales), State(0.2, 1.0), 8.0)
-    touches, table = motion.touches, motion.touches.to_dataset()
+    touches, table = motion.contacts, motion.contacts.to_dataset()
     assert table["peak_force"].attrs["units"] == "N"
     assert table["peak_force"].values == pytest.approx(touches.peak_force * 50.0 * 0.7e-3 * 184.2**2)
     assert table["deepest"].values == pytest.approx(touches.deepest * 0.7e-3)
-    assert table["start"].values == pytest.approx(touches.start / 184.2)
+    assert table["time"].values == pytest.approx(touches.time / 184.2)
     assert table["phase"].attrs["flag_meanings"].split()[int(table["phase"][0])] == "forward_slip"
     assert drop_loads(motion).planes[0].si()["depth"] == pytest.approx(0.7e-3 * touches.deepest.max())
 

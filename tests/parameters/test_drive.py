@@ -38,14 +38,14 @@ def test_a_drop_brakes_the_shaft_and_a_drive_holds_it(tmp_path):
     speed = motion.final.shaft[0]
     assert 0.3 < speed < 0.999
     # What friction takes from the angular momentum of the shaft: R times its impulse.
-    touches, scales = motion.touches, motion.rotor.scales
+    touches, scales = motion.contacts, motion.rotor.scales
     taken = -0.025 * float(touches.friction_impulse.sum()) * scales.impulse
     assert 4.5e-3 * scales.speed * (1.0 - speed) == pytest.approx(taken, rel=1e-6)
     # In this wall rotor and bearing never part while the rotor is in its place, so the torque acts all the time.
     damped = '[touchdown]\nlaw = "hunt-crossley"\nstiffness = "1e8 N/m"\ndissipation = "1 s/m"\n'
     driven = load(tmp_path, damped, '[drive]\npolar_inertia = "4.5e-3 kg m^2"\ntorque = "0.5 N m"\n')
     other = cm.simulate(driven, cm.drop(), "0.02 s")
-    touches, turned = other.touches, 1.0 - other.final.shaft[0]
+    touches, turned = other.contacts, 1.0 - other.final.shaft[0]
     braked = -0.025 * float(touches.friction_impulse.sum()) * scales.impulse
     given = 0.5 * float(touches.duration.sum()) * scales.time
     assert given > 0.01 * braked

@@ -56,7 +56,7 @@ def test_kicks_at_the_bound_never_touch_and_some_beyond_it_do(case):
 
     def touches(share: float, angle: float, instant: float) -> bool:
         motion = cm.simulate(rotor, Kick(share * speed, angle, instant), 200.0, max_events=3)
-        return len(motion.touches) > 0
+        return len(motion.contacts) > 0
 
     tried = random.uniform(0.0, 2.0 * np.pi, (12, 2)).tolist()
     assert not any(touches(1.0, *each) for each in tried)

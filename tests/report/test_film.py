@@ -46,7 +46,7 @@ def test_the_samples_are_those_of_the_motion(played):
     assert data["b"][-1] * motion.rotor.scales.speed == pytest.approx(
         np.trapezoid(np.array(data["q"]) / 20.25e-3, np.array(data["t"]) / 1e3) * motion.rotor.scales.speed, rel=1e-2
     )
-    assert len(data["peaks"]) == len(motion.touches)
+    assert len(data["peaks"]) == len(motion.contacts)
     assert film.whole
 
 
@@ -166,7 +166,7 @@ def test_slider_and_contacts_lead_to_their_instant(page, balls):
     assert reading(opened, "time") == "30.03 ms"
     assert slider.get_attribute("aria-valuetext") == "30.03 ms"
     opened.get_by_role("button", name="Next contact").click()
-    peaks = 1e3 * motion.rotor.scales.time * motion.touches.peak_time
+    peaks = 1e3 * motion.rotor.scales.time * motion.contacts.peak_time
     assert seconds(opened) == pytest.approx(peaks[peaks > 30.03][0], rel=1e-3)
     opened.get_by_role("button", name="Previous contact").click()
     assert seconds(opened) == pytest.approx(peaks[peaks < 30.03][-1], rel=1e-3)
@@ -175,7 +175,7 @@ def test_slider_and_contacts_lead_to_their_instant(page, balls):
 def test_who_wants_no_motion_is_shown_one_contact_after_another(page, balls):
     opened, (_, motion) = page(reduced_motion="reduce"), balls
     opened.get_by_role("button", name="Play").click()
-    first = 1e3 * motion.rotor.scales.time * motion.touches.peak_time[0]
+    first = 1e3 * motion.rotor.scales.time * motion.contacts.peak_time[0]
     assert seconds(opened) == 0.0
     opened.wait_for_function("document.querySelector('[data-reading=time]').textContent !== '0 ms'")
     assert seconds(opened) == pytest.approx(first, rel=1e-3)

@@ -54,7 +54,7 @@ def test_the_unit_of_lengths_changes_no_result_in_si_units(wall):
             seen = motion.seen_at(plane)
             dataset = seen.to_dataset(seen.sample(50))
             rows.append(np.append(dataset["x"].values[[5, 20]] / 0.2e-3, dataset["normal_force"].values.max()))
-            rows.append([seen.touches.to_dataset()[name].values[0] for name in ("deepest", "radial_speed", "heat")])
+            rows.append([seen.contacts.to_dataset()[name].values[0] for name in ("deepest", "radial_speed", "heat")])
         found.append(np.concatenate(rows))
     for other in found[1:]:
         # Each contact enlarges what rounding has changed.
@@ -83,7 +83,7 @@ def test_two_clearances_against_an_integrator_in_si_units():
     machine = munich(touchdowns=touchdowns, clearance=0.2e-3).with_modes(3)
     model, end = machine.model, 0.011
     motion = cm.simulate(model, cm.drop(), f"{end} s")
-    found = [motion.seen_at(plane).touches.to_dataset() for plane in (0, 1)]
+    found = [motion.seen_at(plane).contacts.to_dataset() for plane in (0, 1)]
 
     system = _Dropped(machine)
     place, velocity = (part * model.scales.length for part in levitation_of(model))
@@ -97,7 +97,7 @@ def test_two_clearances_against_an_integrator_in_si_units():
         touched = forces[:, plane] > 0.0
         assert touched.any()
         first = times[touched.argmax()]
-        assert found[plane]["start"].values[0] == pytest.approx(first, abs=times[1])
+        assert found[plane]["time"].values[0] == pytest.approx(first, abs=times[1])
         # To the distance of the samples: a peak is flat.
         assert found[plane]["peak_force"].values.max() == pytest.approx(forces[:, plane].max(), rel=1e-4)
 

@@ -132,11 +132,11 @@ def test_a_drop_from_the_centre_is_free_fall_and_then_a_mass_on_springs():
         motion = cm.simulate(
             model, cm.drop(cm.State(np.zeros(len(model.system.rest)), np.zeros(len(model.system.rest)))), "8 ms"
         )
-        first, scales = motion.touches, model.scales
-        assert first.start[0] * scales.time == pytest.approx(math.sqrt(2.0 * 0.2e-3 / 9.81), rel=1e-10)
+        first, scales = motion.contacts, model.scales
+        assert first.time[0] * scales.time == pytest.approx(math.sqrt(2.0 * 0.2e-3 / 9.81), rel=1e-10)
         weight, stiffness = machine.rotor.mass * 9.81, 2.0 * 2e7
         peak = weight * (1.0 + math.sqrt(1.0 + 2.0 * stiffness * 0.2e-3 / weight))
-        forces = [motion.seen_at(plane).touches.peak_force.max() * scales.force for plane in (0, 1)]
+        forces = [motion.seen_at(plane).contacts.peak_force.max() * scales.force for plane in (0, 1)]
         assert forces[0] == pytest.approx(forces[1], rel=1e-9)
         errors.append(abs(sum(forces) / peak - 1.0))
     assert errors[1] < 0.01
@@ -151,8 +151,8 @@ def test_a_drop_of_the_reduced_rig_is_that_of_all_its_modes():
     machine, found = munich(1.0, bearings=bearings), []
     for reduced in (machine.reduce(0.02), machine.with_modes(1000)):
         motion = cm.simulate(reduced.model, cm.drop(), "8 ms")
-        planes = [motion.seen_at(plane).touches for plane in (0, 1)]
-        found.append([[each.start[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
+        planes = [motion.seen_at(plane).contacts for plane in (0, 1)]
+        found.append([[each.time[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
     reduced, full = np.array(found)
     assert reduced[:, 0] == pytest.approx(full[:, 0], rel=1e-3)
     assert reduced[:, 1:] == pytest.approx(full[:, 1:], rel=0.02)
@@ -167,8 +167,8 @@ def test_the_loss_of_a_blade_of_the_reduced_rig_is_that_of_all_its_modes():
         scales = reduced.model.scales
         loss = cm.disturbances.BladeLoss(800e-6 / scales.mass / scales.length)
         motion = cm.simulate(*loss.apply(reduced.model, 0.3), "40 ms")
-        planes = [motion.seen_at(plane).touches for plane in (0, 1)]
-        found.append([[each.start[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
+        planes = [motion.seen_at(plane).contacts for plane in (0, 1)]
+        found.append([[each.time[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
     reduced, full = np.array(found)
     assert reduced[:, 0] == pytest.approx(full[:, 0], rel=1e-4)
     assert reduced[:, 1:] == pytest.approx(full[:, 1:], rel=machine.reduce(0.02).error)
@@ -180,7 +180,7 @@ def test_the_rig_levitates_and_is_dropped_by_the_verbs_of_every_rotor():
     assert model.weight is not None
     assert model.system.rest_radius < 0.5
     kicked = cm.simulate(model, cm.kick("5 mm/s"), "50 ms")
-    assert not len(kicked.touches)
+    assert not len(kicked.contacts)
     loads = cm.motions.drop_loads(cm.simulate(model, cm.drop(), "50 ms"))
     assert min(each.contacts for each in loads.planes) > 0
     weight = MACHINE.rotor.mass * 9.81

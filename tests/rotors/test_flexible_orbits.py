@@ -47,8 +47,8 @@ def bouncing(gain):
     motion = cm.simulate(machine(gain).model, cm.kick(0.5, 0.0), max_events=20_000)
     assert motion.outcome is Outcome.BOUNCING
     longer = cm.simulate(motion.rotor, motion.final, 40.0 * math.tau)
-    touches = longer.touches
-    return motion, float(np.diff(touches.start[-6:]).mean()), float(touches.radial_speed[-2])
+    touches = longer.contacts
+    return motion, float(np.diff(touches.time[-6:]).mean()), float(touches.radial_speed[-2])
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +67,7 @@ def test_the_bouncing_in_which_a_kick_ends_is_an_orbit(found):
 def test_a_motion_comes_to_it_as_its_largest_multiplier_says(found):
     """Distance of the radial speed from that of the orbit, contact after contact, of the motion that settles on it."""
     orbit, motion, _, _ = found
-    away = np.abs(motion.touches.radial_speed - orbit.radial_speed)
+    away = np.abs(motion.contacts.radial_speed - orbit.radial_speed)
     near = np.flatnonzero((away < 1e-4) & (away > 1e-7))
     rate = math.exp(np.polyfit(near, np.log(away[near]), 1)[0])
     assert rate == pytest.approx(np.abs(orbit.multipliers.values).max(), rel=3e-3)

@@ -66,7 +66,7 @@ def test_controllers_begin_again_as_their_bearings_say(at_regain, integral, spee
     reduced = given.with_modes(8)
     motion = cm.simulate(reduced.model, cm.drop(regained_after=f"{LOST} s"), f"{END} s")
     falls, levitates = motion.parts
-    assert not any(len(part.seen_at(plane).touches) for part in motion.parts for plane in (0, 1))
+    assert not any(len(part.seen_at(plane).contacts) for part in motion.parts for plane in (0, 1))
 
     scales, shapes, n = reduced.scales, reduced.basis.shapes, 8
     unit = scales.length * math.sqrt(scales.mass)

@@ -76,8 +76,8 @@ def test_shocks_shake_the_mounts_of_flexible_machines():
     times, forces = solved()
     scales = model.scales
     for plane in (0, 1):
-        stages = [part.seen_at(plane).touches for part in motion.parts]
-        starts = [begun for log, part in zip(stages, motion.parts, strict=True) for begun in part.begins + log.start]
+        stages = [part.seen_at(plane).contacts for part in motion.parts]
+        starts = [begun for log, part in zip(stages, motion.parts, strict=True) for begun in part.begins + log.time]
         # SciPy's solution is sampled each microsecond.
         assert starts[0] * scales.time == pytest.approx(times[forces[plane] > 0.0][0], abs=1.01e-6)
         hardest = max(log.peak_force.max(initial=0.0) for log in stages) * motion.seen_at(plane).scales.force
@@ -100,4 +100,4 @@ def test_the_bound_of_harmless_shocks_counts_the_mount():
     assert peak > 0.0
     for angle in (0.0, 1.5, 3.0, 4.5):
         motion = cm.simulate(*cm.BaseShock(0.999 * peak, duration).apply(machine, angle), 60.0)
-        assert not any(len(part.touches) for part in motion.parts)
+        assert not any(len(part.contacts) for part in motion.parts)

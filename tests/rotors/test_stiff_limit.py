@@ -67,13 +67,13 @@ def test_the_distance_falls_like_one_over_the_stiffness_of_the_shaft(tmp_path, g
     kick = cm.kick("150 mm/s", angle=0.7)
     rotor = planar(tmp_path, machines[0].rotor.mass, gravity)
     reference = cm.simulate(rotor, kick, UNTIL)
-    assert len(reference.touches.start) >= 3
+    assert len(reference.contacts.time) >= 3
     times = np.linspace(0.0, reference.time, 400)
     away = []
     for machine in machines:
         motion = cm.simulate(machine.with_modes(4).model, kick, UNTIL)
         first, second = (motion.seen_at(plane) for plane in (0, 1))
-        assert len(first.touches.start) == len(reference.touches.start)
+        assert len(first.contacts.time) == len(reference.contacts.time)
         # What is left is rounding of stiff exponents, with contacts that magnify it.
         np.testing.assert_allclose(first.position(times), second.position(times), atol=1e-8)
         away.append(np.abs(first.position(times) - reference.position(times)).max())

@@ -48,10 +48,10 @@ def test_contacts_with_walls_that_give_way():
     motion = simulate(rotor, State(np.array([0.1, 0.02j]), np.array([0.9 + 0.2j, 0.1])), 10.0)
     contacts = json.loads(as_json(trajectory_document(motion)))["contacts"]
 
-    logs = [motion.seen_at(plane).touches for plane in (0, 1)]
+    logs = [motion.seen_at(plane).contacts for plane in (0, 1)]
     assert len(contacts) == sum(map(len, logs))
     assert {entry["touchdown_bearing"] for entry in contacts} == {1, 2}
-    assert [entry["start"] for entry in contacts] == sorted(np.concatenate([log.start for log in logs]).tolist())
+    assert [entry["start"] for entry in contacts] == sorted(np.concatenate([log.time for log in logs]).tolist())
     assert {entry["kind"] for entry in contacts} == {"slide", "roll"}
     here = [entry for entry in contacts if entry["touchdown_bearing"] == 2]
     assert [entry["end"] for entry in here] == logs[1].end.tolist()

@@ -74,10 +74,7 @@ class Ending(Result):
         if not self.impacts:
             return 0.0
         motion = simulate(self.rotor, self.start.state, self.time)
-        hardest = float(motion.log_of(motion.is_impact).normal_impulse.max(initial=0.0))
-        for plane in np.flatnonzero(self.rotor.system.arrays["stiffness"] > 0.0).tolist():
-            hardest = max(hardest, float(motion.seen_at(plane).touches.normal_impulse.max(initial=0.0)))
-        return hardest
+        return max(float(seen.contacts.normal_impulse.max(initial=0.0)) for seen in motion.at_each)
 
 
 def follow_in_stages(

@@ -187,7 +187,7 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
 def _with_touches(motion: Trajectory, impulse: float, force: float) -> tuple[float, float]:
     """Largest impulse and force, with those of the contacts with compliant walls; samples miss brief ones."""
     for plane in np.flatnonzero(motion.rotor.system.arrays["stiffness"] > 0.0).tolist():
-        touches, width = motion.seen_at(plane).touches, float(motion.rotor.system.widths[plane])
+        touches, width = motion.seen_at(plane).contacts, float(motion.rotor.system.widths[plane])
         impulse = max(impulse, float(touches.normal_impulse.max(initial=0.0)) / width)
         force = max(force, float(touches.peak_force.max(initial=0.0)) / width)
     return impulse, force

@@ -146,6 +146,5 @@ def _impacts(rotor: Rotor, attractor: Attractor) -> np.ndarray:
         return np.empty(0)
     motion = simulate(rotor, attractor.state, SHOWN_TIME, max_events=50 * SHOWN_IMPACTS)
     seen = seen_in_contact(motion)
-    yields = bool(rotor.system.arrays["stiffness"][seen.plane])
-    speeds = (seen.touches if yields else seen.contacts).radial_speed[:SHOWN_IMPACTS]
+    speeds = seen.contacts.radial_speed[:SHOWN_IMPACTS]
     return speeds[-attractor.name.multiplicity :] if attractor.name.multiplicity <= len(speeds) else speeds

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from dataclasses import replace
 from importlib.metadata import version
 from io import StringIO
-from itertools import repeat
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,7 +20,7 @@ from carom.base.outcome import InputError, Phase
 if TYPE_CHECKING:
     import xarray
 
-    from carom.motions.contacts import LastingContact
+    from carom.motions.history import LastingContact
     from carom.motions.trajectories import Trajectory
 
 
@@ -40,45 +39,40 @@ def check_file(option: str, path: str) -> None:
 
 
 def write_csv(motion: Trajectory, path: str) -> None:
-    """Write impacts and lasting contacts at all touchdown bearings as CSV in order of time, in SI units if the machine is known.
+    """Write contacts, impacts among them, at all touchdown bearings as CSV in order of time, in SI units if the machine is known.
 
-    A lasting contact fills only ``kind``, ``time``, ``end`` and ``touchdown_bearing``.  Of compliant bearings each contact is a row of its own
-    table.
+    A stretch of lasting contact at a rigid touchdown bearing fills only ``kind``, ``time``, ``end`` and ``touchdown_bearing``.
     """
     log, scale = _log(motion), _time_scale(motion)
-    columns = {name: column for name, column in log.items() if name != "phase"}
-    header = [f"{name} [{column.attrs['units']}]" for name, column in columns.items()]
-    kinds = [Phase(phase).label for phase in log["phase"].values.tolist()] if "phase" in log else repeat("impact")
-    rows = [[*row] for row in zip(kinds, *(column.values.tolist() for column in columns.values()), strict=False)]
-    if "phase" not in log:
-        # The bearing is the first column of the table of impacts after the time.
-        header.insert(1, f"end [{log['time'].attrs['units']}]")
-        rows = [[kind, time, "", *rest] for kind, time, *rest in rows]
-        for bearing, each in _lasting(motion):
+    columns = [column for name, column in log.items() if name != "phase"]
+    header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in columns)]
+    impact = np.isnan(log["peak_force"].values)
+    kinds = np.where(impact, "impact", [Phase(phase).label for phase in log["phase"].values.tolist()])
+    rows = [[*row] for row in zip(kinds.tolist(), *(column.values.tolist() for column in columns), strict=True)]
+    for bearing, each in _lasting(motion):
+        if not motion.at_each[bearing - 1].is_compliant:
             row = [f"{each.kind} ({each.phase.label})", each.start * scale, each.end * scale, bearing]
-            rows.append([*row, *[""] * (len(header) - 3)])
-        rows.sort(key=lambda row: row[1])
+            rows.append([*row, *[""] * (len(header) - len(row))])
+    rows.sort(key=lambda row: row[1])
     text = StringIO(newline="")
-    csv.writer(text).writerows([["kind", *header], *rows])
+    csv.writer(text).writerows([header, *rows])
     with _refusals("--csv", path):
         write_whole(Path(path), text.getvalue().encode())
 
 
 def _log(motion: Trajectory) -> xarray.Dataset:
-    """Impacts, or contacts with compliant walls, of all stages and at all touchdown bearings, in order of time from the beginning."""
+    """Contacts of all stages and at all touchdown bearings, in order of time from the beginning."""
     import xarray
 
     logs = []
     for part in motion.parts:
         for seen in part.at_each:
-            log = seen.log.to_dataset()
-            for name in {"time", "start", "end", "peak_time"}.intersection(log):
+            log = seen.contacts.to_dataset()
+            for name in ("time", "end", "peak_time"):
                 log[name].values += part.begins * _time_scale(part)
             logs.append(log)
-    (dimension,) = logs[0].dims
-    whole = xarray.concat(logs, dimension) if len(logs) > 1 else logs[0]
-    order = np.argsort(whole["time" if "time" in whole else "start"].values, kind="stable")
-    return whole.isel({dimension: order})
+    whole = xarray.concat(logs, "contact") if len(logs) > 1 else logs[0]
+    return whole.isel(contact=np.argsort(whole["time"].values, kind="stable"))
 
 
 def _time_scale(motion: Trajectory) -> float:
@@ -97,25 +91,25 @@ def _lasting(motion: Trajectory) -> list[tuple[int, LastingContact]]:
 
 
 def write_netcdf(motion: Trajectory, path: str) -> None:
-    """Write impacts and lasting contacts as netCDF, in SI units if the machine is known."""
+    """Write contacts and stretches of lasting contact as netCDF, in SI units if the machine is known."""
     content = bytes(_dataset(motion).to_netcdf(engine="h5netcdf"))  # in memory: HDF5 crashes when the disk is full
     with _refusals("--netcdf", path):
         write_whole(Path(path), content)
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.motions.contacts import NUMBERED, in_units, phase_flags
+    from carom.motions.tables import NUMBERED, in_units, phase_flags
 
     scales, numbers = motion.rotor.scales, motion.rotor.numbers
     dataset, contacts = _log(motion), _lasting(motion)
     for name in ("start", "end"):
         times = np.array([getattr(contact, name) for _, contact in contacts], float)
-        dataset[f"contact_{name}"] = in_units("contact", times, "time", f"{name} of lasting contact", scales)
+        dataset[f"lasting_{name}"] = in_units("lasting", times, "time", f"{name} of lasting contact", scales)
     flags = phase_flags(phase for phase in Phase if phase is not Phase.FLIGHT)
     phases = np.array([contact.phase for _, contact in contacts], np.int8)
     bearings = np.array([bearing for bearing, _ in contacts], np.int64)
-    dataset["contact_touchdown_bearing"] = in_units("contact", bearings, "1", NUMBERED, None)
-    dataset["contact_phase"] = ("contact", phases, {"long_name": "kind of lasting contact", **flags})
+    dataset["lasting_touchdown_bearing"] = in_units("lasting", bearings, "1", NUMBERED, None)
+    dataset["lasting_phase"] = ("lasting", phases, {"long_name": "kind of lasting contact", **flags})
     dataset.attrs = {
         "Conventions": "CF-1.11",
         "title": "Contacts of a rotor with its touchdown bearings",

@@ -17,8 +17,7 @@ from carom.attractors.settled import settled_motion
 from carom.base.outcome import Outcome, Phase
 from carom.cli.fitting import fitted, plain_table
 from carom.cli.tables import TEXT_WIDTH, complex_words, print_rows
-from carom.motions import TouchLog, Trajectory, drop_loads
-from carom.motions.contacts import yields
+from carom.motions import Trajectory, drop_loads
 from carom.parameters.indentation import indentation_of_hit
 from carom.parameters.told import number, told, told_angle
 from carom.studies import LoadCheck, Wording
@@ -75,9 +74,10 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
     console.print(f"{followed}: {_counts(motion)}.")
     for seen in motion.at_each:
-        if len(log := seen.contacts) and (
-            soft := no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
-        ):
+        if seen.is_compliant or not len(seen.contacts):
+            continue
+        fastest = float(seen.contacts.radial_speed.max())
+        if soft := no_rigid_wall(indentation_of_hit(case.parameters, fastest)):
             console.print(f"Hardest impact{_where(seen)}: {soft}.")
     if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
         console.print()
@@ -101,12 +101,11 @@ def _where(seen: Trajectory) -> str:
 
 def _counts(motion: Trajectory) -> str:
     """Numbers of impacts and contacts, at all touchdown bearings together and at each of several."""
-    compliant = yields(motion.rotor.system, motion.plane)
-    each = [(len(seen.log), len(seen.lasting_contacts)) for seen in motion.at_each]
+    each = [(len(seen.contacts), len(seen.lasting_contacts)) for seen in motion.at_each]
     struck, lasting = (sum(numbers) for numbers in zip(*each, strict=True))
     text = (
         counted(struck, "contact")
-        if compliant
+        if motion.is_compliant
         else f"{counted(struck, 'impact')}, {counted(lasting, 'lasting contact')}"
     )
     if len(each) == 1 or not struck:
@@ -143,7 +142,7 @@ def _events(say: Wording, motion: Trajectory) -> Table:
     normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
     angle = "angle" if motion.rotor.weight is None else "fixed angle"
     bearing = ("bearing",) if len(motion.at_each) > 1 else ()
-    after = () if yields(motion.rotor.system, motion.plane) else (slips,)
+    after = () if motion.is_compliant else (slips,)
     numbers = (time, *bearing, angle, speeds, normal, friction, *after)
     headings = (time, *bearing, "contact", angle, speeds, "whirl", normal, friction, *after)
     table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
@@ -173,30 +172,23 @@ class _Row(NamedTuple):
 
 def _event_rows(say: Wording, seen: Trajectory) -> list[_Row]:
     """Contacts at one bearing: impacts and lasting contacts, or those with a compliant wall."""
-    log, bearing = seen.log, seen.plane + 1
-    slips: list[tuple[str, ...]]
-    if isinstance(log, TouchLog):
-        times, frictions, slips = log.start, log.friction_impulse, [()] * len(log)
-        kinds = [_lasting(say, *each) for each in zip(log.phase.tolist(), log.duration.tolist(), strict=True)]
-    else:
-        times, frictions, kinds = log.time, log.tangential_impulse, ["impact"] * len(log)
-        after = zip(log.sticks.tolist(), log.slip_after.tolist(), strict=True)
-        slips = [("stops" if sticks else _number_of(say.slip(slip)),) for sticks, slip in after]
+    log, bearing, compliant = seen.contacts, seen.plane + 1, seen.is_compliant
     # Weight has a direction in the fixed frame alone.
-    angles = log.angle if seen.rotor.weight is None else log.angle + seen.begins + times
+    angles = log.angle if seen.rotor.weight is None else log.angle + seen.begins + log.time
     rows = []
-    for place, (time, kind, slip) in enumerate(zip(times.tolist(), kinds, slips, strict=True)):
+    for place, time in enumerate(log.time.tolist()):
+        slip = "stops" if log.sticks[place] else _number_of(say.slip(float(log.slip_after[place])))
         cells = (
-            kind,
+            _lasting(say, int(log.phase[place]), float(log.duration[place])) if compliant else "impact",
             f"{math.degrees(math.remainder(angles[place], 2.0 * math.pi)):.1f}°",
             _number_of(say.velocity(float(log.radial_speed[place]))),
             "forward" if log.angular_speed[place] > -1.0 else "backward",
             _number_of(say.impulse(float(log.normal_impulse[place]))),
-            _number_of(say.impulse(float(frictions[place]))),
-            *slip,
+            _number_of(say.impulse(float(log.friction_impulse[place]))),
+            *(() if compliant else (slip,)),
         )
         rows.append(_Row(time, bearing, cells))
-    if not isinstance(log, TouchLog):
+    if not compliant:
         rows += [
             _Row(each.start, bearing, (_lasting(say, each.phase, each.end - each.start),))
             for each in seen.lasting_contacts

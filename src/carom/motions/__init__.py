@@ -12,8 +12,12 @@
 ``settling``          the record by which settling is recognised
 ``recurrence``        whether a motion that has recurred repeats or leaves, for rotors of several modes
 ``resting``           whether a rotor lies on its touchdown bearing
-``contacts``          load on the bearing: the log of impacts, stretches of lasting contact
-``touches``           contacts with compliant walls: impulses, peaks, depths, works
+``contacts``          the log of contacts, of whatever law
+``impulses``          impulses in events
+``wall_works``        works of lasting contact, segment by segment
+``history``           course at a touchdown bearing: stretches of lasting contact, forces and slip
+``kinematics``        speeds at the touchdown bearings
+``tables``            tables of columns with units
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest
 ``load_sums``         loads, added up piece by piece
 ``courses``           a drop sampled over all stages, to be drawn
@@ -22,16 +26,16 @@
 ====================  ======================================================================================
 """
 
-from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
+from carom.motions.contacts import ContactLog
 from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
+from carom.motions.history import ContactHistory, LastingContact
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.load_sums import drop_loads, follow_loads
 from carom.motions.loads import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State, kick
-from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
 
 __all__ = [
@@ -47,7 +51,6 @@ __all__ = [
     "LastWhirl",
     "LastingContact",
     "State",
-    "TouchLog",
     "TouchdownLoads",
     "Trajectory",
     "Whirl",

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.base.outcome import InputError
-from carom.motions.contacts import presses, race_speed, shaft_lead, yields
+from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_lead
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Scales
@@ -88,7 +88,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
         course["race"] = None
     return Course(
         **course,
-        blows=None if yields(rotor.system, plane) else _blows(parts, until),
+        blows=None if is_compliant(rotor.system, plane) else _blows(parts, until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
         down=rotor.direction_of_fall,
         scales=motion.scales,
@@ -99,7 +99,7 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
     """Columns of one stage up to a time, at so many instants beside its events."""
     system, events = part.rotor.system, part.segment_starts[part.segment_starts <= end]
     even = np.linspace(0.0, end, max(2, samples))
-    peaks = part.touches.peak_time if yields(system, part.plane) else np.zeros(0)
+    peaks = part.contacts.peak_time
     times = np.unique(np.concatenate([even, events, np.nextafter(events[1:], 0.0), peaks[peaks <= end]]))
     amplitudes, phases = part.amplitudes_at(times)
     history, fixed = part.history(times), part.begins + times
@@ -119,7 +119,7 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
 
 def _blows(parts: list[Trajectory], until: float) -> Blows:
     logs = [(part.begins, part.contacts) for part in parts]
-    columns = [(since + log.time, log.normal_impulse, log.tangential_impulse, log.slip_before) for since, log in logs]
+    columns = [(since + log.time, log.normal_impulse, log.friction_impulse, log.slip_before) for since, log in logs]
     times, *rest = map(np.concatenate, zip(*columns, strict=True))
     impulses, frictions, slips = (each[times <= until] for each in rest)
     return Blows(times[times <= until], impulses, frictions, np.abs(slips))
@@ -143,9 +143,6 @@ def shown_until(motion: Trajectory) -> float:
 def first_contacts(motion: Trajectory, number: int) -> float:
     """Time from the release, in ``1/Ω``, until shortly after so many contacts of the plane, or impacts; infinite if there are less."""
     parts = [part.seen_at(motion.plane) for part in motion.parts]
-    ends = [
-        part.begins + (part.touches.end if yields(part.rotor.system, part.plane) else part.contacts.time)
-        for part in parts
-    ]
+    ends = [part.begins + part.contacts.end for part in parts]
     every = np.sort(np.concatenate(ends))
     return 1.02 * float(every[number - 1]) if len(every) >= number else math.inf

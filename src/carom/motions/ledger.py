@@ -14,9 +14,10 @@ from carom.core.wall_work import LOST
 from carom.models import Matrices, Rotor
 from carom.models.anisotropic import TURN
 from carom.models.saturation import saturation_accelerations, saturation_of
-from carom.motions.contacts import Table, column, presses, race_speed, shaft_speed, yields
-from carom.motions.touches import contact_works, lost_on_parting, stored
+from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_speed
+from carom.motions.tables import Table, column
 from carom.motions.trajectories import Trajectory
+from carom.motions.wall_works import contact_works, lost_on_parting, stored
 from carom.parameters import Scales
 
 NODES, WEIGHTS = legendre.leggauss(16)
@@ -145,7 +146,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     wall, wall_loss = _walls(trajectory)
     races, drag = _races(trajectory, times)
     shaft, push, torque, jolts = _spin(trajectory, times)
-    impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
+    impact, landing = (trajectory.impulses(each).events for each in (trajectory.is_impact, trajectory.is_landing))
     impacts, landings = trajectory.log_of(trajectory.is_impact), trajectory.log_of(trajectory.is_landing)
     if trajectory.rotor.system.shaft is None:
         drive = work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work)
@@ -228,7 +229,7 @@ def _walls(trajectory: Trajectory) -> np.ndarray:
     held, lost = np.zeros((2, len(trajectory.segment_starts) + 1))
     works = contact_works(trajectory)
     for plane in range(trajectory.segment_phases.shape[1]):
-        if not yields(trajectory.rotor.system, plane):
+        if not is_compliant(trajectory.rotor.system, plane):
             continue
         motion = trajectory.seen_at(plane)
         held += np.append(

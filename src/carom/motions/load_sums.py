@@ -16,14 +16,15 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.hertz import ball_pressure
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
-from carom.motions.contacts import ContactLog, presses, race_speed, yields
+from carom.motions.contacts import contacts_of
+from carom.motions.kinematics import is_compliant, presses, race_speed
 from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads
 from carom.motions.magnets import reach_with
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import Following, stretches
 from carom.motions.starts import Beginning, State, Until
-from carom.motions.touches import ContactWorks, TouchLog, contact_works, touches_of
 from carom.motions.trajectories import Trajectory, joined
+from carom.motions.wall_works import ContactWorks, contact_works
 
 RECENT = 10
 """Impacts over which the power of bouncing is averaged, at least."""
@@ -75,7 +76,7 @@ def drop_loads(motion: Trajectory) -> DropLoads:
 
     A contact that goes on from one stage into the next counts once.  Friction does the work ``F v`` on the contact point, which slips with
     ``v = s + 1 + θ̇``; in an impact the work is that of the impulse on the mean of the slip velocities before and after.  Loads on a compliant
-    wall are those of :attr:`Trajectory.touches`.
+    wall are those of :attr:`Trajectory.contacts`.
 
     Parameters
     ----------
@@ -210,23 +211,21 @@ class _AtPlane:
         steps = works.found[:, plane]
         self.heat += float(steps[:, HEAT].sum())
         self.largest = np.maximum(self.largest, steps.max(axis=0, initial=0.0))
-        log: ContactLog | TouchLog
-        if yields(system, plane):
-            log = touches_of(seen, works)
-            starts, peak_times, peaks, heat = log.start, log.peak_time, log.peak_force, log.heat
-            entered, left = log.entered, ~log.lasts
-            self.restitution_loss += float(log.normal_loss.sum())
-        else:
-            log = seen.contacts
+        log = contacts_of(seen, works)
+        impacts, loss = log.is_impact, float(log.normal_loss.sum())
+        if not is_compliant(system, plane):
             # A landing stands for the last bounces of a chatter.
             landings = seen.log_of(seen.is_landing & (seen.event_planes == plane))
-            starts, peak_times, peaks, heat = log.time, log.time, np.zeros(len(log)), _friction_work(log)
-            entered, left = np.ones(len(log), bool), log.radial_speed_after < 0.0
-            self.heat += float(heat.sum() + _friction_work(landings).sum())
-            self.restitution_loss += float(_normal_work(log).sum() + _normal_work(landings).sum())
+            self.heat += float(log.heat.sum() + landings.heat.sum())
+            loss += float(landings.normal_loss.sum())
+        self.restitution_loss += loss
+        peaks, left = (
+            np.where(impacts, 0.0, log.peak_force),
+            np.where(impacts, log.radial_speed_after < 0.0, ~log.lasts),
+        )
         speeds, stages = (log.radial_speed, log.radial_speed_after), np.full(len(log), begins)
-        times = begins + starts, begins + peak_times
-        self.pieces.append((*times, peaks, log.normal_impulse, *speeds, heat, entered, left, stages))
+        times = begins + log.time, begins + log.peak_time
+        self.pieces.append((*times, peaks, log.normal_impulse, *speeds, log.heat, log.entered, left, stages))
         self._move(seen)
 
     def _move(self, seen: Trajectory) -> None:
@@ -250,7 +249,7 @@ class _AtPlane:
     def found(self, last: Trajectory) -> TouchdownLoads:
         """All that is told of the plane at the end of a piece, which reaches back over the last turns."""
         rotor, scales, plane = last.rotor, last.scales, last.plane
-        soft, race, contacts = yields(rotor.system, plane), rotor.races[plane], _Contacts.of(self.pieces)
+        soft, race, contacts = is_compliant(rotor.system, plane), rotor.races[plane], _Contacts.of(self.pieces)
         force, bearing = float(self.largest[FORCE]), rotor.definition.bearing_at(plane)
         if not soft and last.outcome is Outcome.ROLLING:
             force = max(force, exact_results(rotor).rolling_force)
@@ -296,18 +295,6 @@ def _lasting_power(last: Trajectory, contacts: _Contacts) -> float:
     recent = np.flatnonzero(contacts.stages == last.begins)[-max(RECENT, 2 * last.multiplicity) - 1 :]
     times, works = contacts.starts[recent], contacts.heat[recent]
     return float(works[1:].sum() / (times[-1] - times[0])) if len(times) > 1 else 0.0
-
-
-def _friction_work(log: ContactLog) -> np.ndarray:
-    """Work lost to friction in impacts, shape (n,)."""
-    work: np.ndarray = -0.5 * log.tangential_impulse * (log.slip_before + log.slip_after)
-    return work
-
-
-def _normal_work(log: ContactLog) -> np.ndarray:
-    """Work lost along the normal in impacts, shape (n,)."""
-    work: np.ndarray = 0.5 * log.normal_impulse * (log.radial_speed + log.radial_speed_after)
-    return work
 
 
 def _last_whirl(last: Trajectory, turned_back: dict[int, float], held_since: float | None) -> LastWhirl | None:

@@ -13,8 +13,8 @@ import numpy as np
 from carom.base.files import netcdf
 from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import rotor_from
-from carom.motions.contacts import phase_flags
 from carom.motions.starts import State
+from carom.motions.tables import phase_flags
 from carom.motions.trajectories import Trajectory
 
 if TYPE_CHECKING:

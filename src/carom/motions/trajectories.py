@@ -18,13 +18,15 @@ from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Rotor
-from carom.motions.contacts import Blows, ContactHistory, ContactLog, LastingContact, blows_of, presses, yields
+from carom.motions.contacts import ContactLog, contacts_of, impacts_of
+from carom.motions.history import ContactHistory, LastingContact
+from carom.motions.impulses import Impulses, impulses_of
+from carom.motions.kinematics import is_compliant, presses
 from carom.motions.starts import State
 
 if TYPE_CHECKING:
     import xarray
 
-    from carom.motions.touches import TouchLog
     from carom.parameters import Scales
 
 TOGETHER = 4096
@@ -164,28 +166,21 @@ class Trajectory(Result):
 
     @cached_property
     def contacts(self) -> ContactLog:
-        """Log of the impacts at the contact plane; a compliant wall has none, but :attr:`touches`."""
-        return ContactLog.of(self, self.blows(self.is_impact).at(self.plane))
-
-    @cached_property
-    def touches(self) -> TouchLog:
-        """Contacts at the contact plane, if the wall there is compliant."""
-        from carom.motions.touches import touches_of
-
-        return touches_of(self)
+        """Log of the contacts at the contact plane: impacts on a rigid touchdown bearing, or contacts with a compliant one."""
+        return contacts_of(self)
 
     @property
-    def log(self) -> ContactLog | TouchLog:
-        """:attr:`touches` if the wall at the contact plane is compliant, else :attr:`contacts`."""
-        return self.touches if yields(self.rotor.system, self.plane) else self.contacts
+    def is_compliant(self) -> bool:
+        """Whether the touchdown bearing at the contact plane is compliant."""
+        return is_compliant(self.rotor.system, self.plane)
 
-    def blows(self, events: np.ndarray) -> Blows:
+    def impulses(self, events: np.ndarray) -> Impulses:
         """Impulses at all planes in chosen events, bool, shape (n,), in chronological order and that of the planes."""
-        return blows_of(self, np.flatnonzero(events))
+        return impulses_of(self, np.flatnonzero(events))
 
     def log_of(self, events: np.ndarray) -> ContactLog:
         """Log of chosen events, bool, shape (n,); of impacts at several planes in one instant each plane has an entry."""
-        return ContactLog.of(self, self.blows(events))
+        return impacts_of(self, self.impulses(events))
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:

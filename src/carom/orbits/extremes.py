@@ -38,7 +38,7 @@ def extremes_of(motion: Trajectory) -> Extremes:
         seen, yields = motion.seen_at(plane), bool(system.arrays["stiffness"][plane])
         far = float(np.abs(system.at_plane(amplitudes, plane)[0]).max())
         if yields:
-            touches = seen.touches
+            touches = seen.contacts
             far = max(far, 1.0 + float(touches.deepest.max(initial=0.0)) if len(touches.deepest) else 0.0)
             force = max(force, float(touches.peak_force.max(initial=0.0)) / float(system.widths[plane]))
             depth = max(depth, far - 1.0)

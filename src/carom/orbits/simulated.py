@@ -175,7 +175,7 @@ class SimulatedOrbit(Result):
     @property
     def impulse(self) -> float:
         """Largest normal impulse of a contact in the period at the plane of the first event, in ``m c_r Ω``; ``nan`` without any."""
-        impulses = self.motion.seen_at(self.leading_plane).log.normal_impulse
+        impulses = self.motion.seen_at(self.leading_plane).contacts.normal_impulse
         return float(impulses.max()) if len(impulses) else np.nan
 
     @property

@@ -13,7 +13,7 @@ from carom.plots.style import LOOKS
 from carom.plots.words import clearance
 
 if TYPE_CHECKING:
-    from carom.motions.contacts import LastingContact
+    from carom.motions.history import LastingContact
     from carom.motions.trajectories import Trajectory
 
 _KINDS = ("slide", "roll")

@@ -224,7 +224,7 @@ def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
             axes.plot(np.where(those, course.times, np.nan), distance, **look, label=words, gid=meaning)
     logs = [(part.begins, part.seen_at(motion.plane).contacts) for part in motion.parts]
     times = told_in("time", scales)[0] * np.concatenate([begins + log.time for begins, log in logs])
-    shown = times <= course.times[-1]
+    shown = (times <= course.times[-1]) & np.concatenate([log.is_impact for _, log in logs])
     speeds = np.concatenate([log.angular_speed for _, log in logs])
     _impacts(axes, times[shown], speeds[shown] > -1.0, clearance(scales))
     whole = told_in("time", scales)[0] * (motion.begins + motion.time)

@@ -187,7 +187,7 @@ def _stretch(axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float
     path(axes, flight, look, wall=wall)
     direction_arrow(axes, flight, look, fraction=0.9)
     log = trajectory.contacts
-    shown = (log.time >= ends[0]) & (log.time <= ends[1])
+    shown = log.is_impact & (log.time >= ends[0]) & (log.time <= ends[1])
     if shown.any():
         impacts(axes, trajectory.position(log.time[shown], frame) * complex(wall), log.angular_speed[shown])
 

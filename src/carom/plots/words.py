@@ -64,7 +64,7 @@ def contacts_in_words(motion: Trajectory) -> str:
     """Write how often a motion touched in which time, and at which touchdown bearing of several: ``2 impacts in 3 ms``."""
     noun = "contact" if motion.rotor.system.contacts[motion.plane].wall.stiffness else "impact"
     where = f" at touchdown bearing {motion.plane + 1}" if len(motion.at_each) > 1 else ""
-    return f"{counted(len(motion.log), noun)}{where} in {time_in_words(motion.time, motion.rotor.scales)}"
+    return f"{counted(len(motion.contacts), noun)}{where} in {time_in_words(motion.time, motion.rotor.scales)}"
 
 
 def times_larger(ratio: float) -> str:

@@ -10,8 +10,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import Phase
 from carom.base.results import record
 from carom.motions import drop_loads
-from carom.motions.contacts import LastingContact
-from carom.motions.touches import TouchLog
+from carom.motions.history import LastingContact
 from carom.motions.trajectories import Trajectory
 from carom.parameters import LoadLimits
 from carom.studies.load_tables import load_entries
@@ -65,17 +64,19 @@ def _in_order(key: str, entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def _impacts(motion: Trajectory) -> list[dict[str, Any]]:
     """Impacts at one bearing."""
+    if motion.is_compliant:
+        return []
     columns = record(motion.contacts, " ".join(IMPACT)).values()
     return [dict(zip(IMPACT, each, strict=True)) for each in zip(*columns, strict=True)]
 
 
 def _contacts(motion: Trajectory) -> list[dict[str, Any]]:
     """Stretches of lasting contact at one bearing; of a compliant one whole contacts, by the kind that takes most of each."""
-    log, number = motion.log, {"touchdown_bearing": motion.plane + 1}
-    if not isinstance(log, TouchLog):
+    log, number = motion.contacts, {"touchdown_bearing": motion.plane + 1}
+    if not motion.is_compliant:
         return [_stretch(contact) | number for contact in motion.lasting_contacts]
     columns = record(log, CONTACT, log.scales)
-    kinds = zip(log.phase.tolist(), log.start.tolist(), log.end.tolist(), strict=True)
+    kinds = zip(log.phase.tolist(), log.time.tolist(), log.end.tolist(), strict=True)
     return [
         _stretch(LastingContact(Phase(phase), start, end)) | number | dict(zip(columns, values, strict=True))
         for (phase, start, end), *values in zip(kinds, *columns.values(), strict=True)

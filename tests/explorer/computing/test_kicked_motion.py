@@ -134,7 +134,7 @@ def test_a_flexible_machine_is_followed_at_each_touchdown_bearing():
     motion = carom.simulate(rotor, rest_of(rotor).kicked(size, 0.0), settle=True)
     assert kicked.outcome == motion.outcome.label
     for place, found in enumerate(kicked.planes):
-        touches = motion.seen_at(place).touches
+        touches = motion.seen_at(place).contacts
         assert found.hardest == touches.peak_force.max()
         assert found.words.startswith(f"{len(touches)} contact")
         assert 0.5 < found.force.max() / (found.hardest * motion.seen_at(place).scales.force) <= 1.0 + SINGLE

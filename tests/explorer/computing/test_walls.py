@@ -38,10 +38,10 @@ def test_impacts_of_a_rigid_wall_are_those_of_its_log():
 
 def test_arrivals_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion(motion):
     hits = hits_of(motion)
-    assert hits.count == len(motion.touches) == len(hits.time)
+    assert hits.count == len(motion.contacts) == len(hits.time)
     # The motion itself, sampled around the hardest of its contacts: below the peak, and close to it.
-    hardest = int(motion.touches.peak_force.argmax())
-    times = np.linspace(motion.touches.start[hardest], motion.touches.end[hardest], 2001)[1:-1]
+    hardest = int(motion.contacts.peak_force.argmax())
+    times = np.linspace(motion.contacts.time[hardest], motion.contacts.end[hardest], 2001)[1:-1]
     forces, _ = motion.forces(times)
     assert 0.999 * hits.hardest < forces.max() <= hits.hardest * (1.0 + 1e-9)
     depth = motion.radius(times).max() - 1.0

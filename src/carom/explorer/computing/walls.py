@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.models import Rotor
 from carom.motions import Trajectory
-from carom.motions.contacts import yields
+from carom.motions.kinematics import is_compliant
 from carom.parameters import LoadLimits, Scales
 from carom.parameters.told import number
 from carom.studies import Wording
@@ -21,7 +21,7 @@ class Hits:
     Attributes
     ----------
     time, angle, angular_speed, radial_speed : ndarray of float, shape (n,)
-        As in :class:`~carom.motions.ContactLog` and :class:`~carom.motions.TouchLog`.
+        As in :class:`~carom.motions.ContactLog`.
     blow : ndarray of float, shape (n,)
         Normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
     count : int
@@ -44,21 +44,17 @@ class Hits:
 
 def hits_of(motion: Trajectory) -> Hits:
     """Impacts of a motion, or its arrivals at a compliant wall."""
-    if not yields(motion.rotor.system, motion.plane):
-        log = motion.contacts
-        blow = log.normal_impulse
-        return Hits(log.time, log.angle, log.angular_speed, log.radial_speed, blow, len(log.time), _most(blow))
-    touches = motion.touches
-    came = touches.entered
+    log, came = motion.contacts, motion.contacts.entered
+    blow = log.peak_force if motion.is_compliant else log.normal_impulse
     return Hits(
-        touches.start[came],
-        touches.angle[came],
-        touches.angular_speed[came],
-        touches.radial_speed[came],
-        touches.peak_force[came],
-        len(touches),
-        _most(touches.peak_force),
-        _most(touches.deepest),
+        log.time[came],
+        log.angle[came],
+        log.angular_speed[came],
+        log.radial_speed[came],
+        blow[came],
+        len(log),
+        _most(blow),
+        _most(log.deepest),
     )
 
 
@@ -135,4 +131,4 @@ COMPLIANT = Wall(
 
 def wall_at(rotor: Rotor, place: int) -> Wall:
     """What the page says of a touchdown bearing of a rotor."""
-    return COMPLIANT if yields(rotor.system, place) else RIGID
+    return COMPLIANT if is_compliant(rotor.system, place) else RIGID
