@@ -359,7 +359,7 @@ def test_study_refuses_a_kick_without_a_unit(carom, machine):
 
 
 def test_study_for_people(carom, machine):
-    code, out, err = carom("study", machine)
+    code, out, err = carom("study", machine, "--long")
 
     assert (code, err) == (0, "")
     for words in (
@@ -374,11 +374,13 @@ def test_study_for_people(carom, machine):
     ):
         assert words in out
     assert "\x1b" not in out
-    assert "B1,d" not in out.partition("For a closer look")[0]
+    _, short, _ = carom("study", machine)
+    assert out.startswith(short.partition("All that was found")[0].rstrip())
+    assert "B1,d" not in short
 
 
 def test_study_of_a_dimensionless_file(carom, dimensionless):
-    code, out, _ = carom("study", dimensionless)
+    code, out, _ = carom("study", dimensionless, "--long")
 
     assert code == 0
     assert "synchronous rub below 0.37;" in " ".join(out.split())

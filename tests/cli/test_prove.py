@@ -35,8 +35,6 @@ def test_json_is_the_certificate(capsys, tmp_path):
     ("arguments", "words"),
     [
         ([], "give a machine file"),
-        ([PAPER, "--longest-period", "-1"], "a time in 1/Omega"),
-        ([PAPER, "--longest-period", "1e999999999"], "longest_period"),
         ([PAPER, "--along", "gamma", "--from", "[0.1, 0.2]", "--to", "0.3"], "must be one number"),
         ([PAPER, "--check", "proof.json"], "must stand alone"),
         (["--check", "proof.json", "--kicks-up-to", "1"], "must stand alone"),

@@ -11,7 +11,7 @@ from yielding_walls import with_walls
 import carom as cm
 from carom.cli.basin_tables import print_basin
 from carom.cli.motion_tables import print_parts
-from carom.cli.tables import _motions
+from carom.cli.tables import print_motions
 from carom.models import KelvinVoigt
 from carom.studies.summaries import MotionRow, State
 
@@ -20,7 +20,7 @@ def test_every_state_of_a_motion_is_shown():
     rows = [MotionRow(f"motion {place}", state) for place, state in enumerate(get_args(State))]
     console = Console(width=100)
     with console.capture() as shown:
-        console.print(_motions(rows, "Motions", console.width))
+        print_motions(console, "Motions", rows)
     lines = shown.get().splitlines()
     for row in rows:
         assert any(row.name in line and row.state in line for line in lines)
@@ -37,14 +37,14 @@ def test_contacts_with_a_wall_that_gives_way_are_rows():
     assert f": {len(motion.contacts)} contacts." in text
     assert "depth " in text
     assert "after the start" in text
-    assert text.count("forward slip for ") == len(motion.contacts)
+    assert text.count("forward slip") == len(motion.contacts)
 
 
 def test_what_is_merely_unknown_is_not_called_unstable():
     case = cm.load("examples/keogh-cole.toml")
     for damping, words in (
-        (1400.0, "No size is known up to which"),
-        (-1400.0, "has no stable levitation inside the wall"),
+        (1400.0, "no size is known that cannot touch"),
+        (-1400.0, "no stable levitation inside the wall"),
     ):
         machine = case.parameters.replace(gamma=case.parameters.gamma * damping / 1400.0)
         basin = cm.map_basins(machine, cm.Grid(cm.disturbances.VelocityKick(0.01), (1, 2)), until=50.0)

@@ -21,7 +21,7 @@ PAGE = Path("docs/reference/motions.md").read_text(encoding="utf-8")
 FORBIDDEN = re.findall(r'"([^"]+)"', PAGE[PAGE.index("Not written for people") :])
 NAMES = re.findall(r"^\| ([^|`]+?) \|", PAGE, re.MULTILINE)[1:]
 COMMANDS = {
-    "study": ("study", MACHINE),
+    "study": ("study", MACHINE, "--long"),
     "orbits": ("orbits", MACHINE),
     "simulate": ("simulate", MACHINE, "--kick", "51.576 mm/s,0.2 rad", "--until", "100"),
     "basins": ("basins", MACHINE, "--grid", "14x14"),

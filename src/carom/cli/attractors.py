@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from carom.base.outcome import IRREGULAR_BOUNCING
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
     from carom.attractors import Attractor, AttractorSet
@@ -34,9 +34,7 @@ def attractors(
     Irregular bouncing is followed further to measure how long it lasts: it may be a
     transient.  A sample of disturbances proves nothing about motions that none of them reaches.
     """
-    from carom.loading import load
-
-    case = load(machine, settings or ())
+    case = read_machine(machine, settings)
     check_output(out)
     with progress("attractors (the kernels are compiled on first use)") as tell:
         from carom.attractors import exponents_of, find_attractors
@@ -47,30 +45,24 @@ def attractors(
         found = find_attractors(case, count=starts, seed=seed or 0, fastest=fastest, progress=tell)
         known = [exponents_of(case, entry) for entry in found]
         document = attractors_document(rotor_of(case), found, known if exponents else None) if as_json or out else {}
-        if out is not None:
-            with output_directory(out, case) as output:
-                output.figure("attractors", found.plot())
-                output.document("attractors", document)
-    if as_json:
-        print_document(document)
-    else:
-        _print(case, found, known, exponents)
-    say_where(out)
+        write_output(out, case, "attractors", document, {"attractors": found.plot})
+    hand_over(out, document, as_json, lambda: _print(case, found, known, exponents))
 
 
 def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None], exponents: bool) -> None:
     """Print a table of the attractors, and what the rotor does on each below it."""
     from carom.basins import share_of_kicks
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
 
     screen = console()
-    columns = ("motion", "lasting", "disturbances", "impacts", "period", "largest exponent")
-    table = plain_table("Motions on which disturbances end", *columns, right=columns[2:], no_wrap=columns[2:])
-    for entry, measured in zip(found, known, strict=True):
-        table.add_row(entry.name.words, _lasting(entry), *_numbers(entry, measured, len(found.disturbances)))
+    rows = [
+        (entry.name.words, _lasting(entry), *_numbers(entry, measured, len(found.disturbances)))
+        for entry, measured in zip(found, known, strict=True)
+    ]
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
-    screen.print(fitted(screen, table))
+    columns = ("motion", "lasting", "disturbances", "impacts", "period", "largest exponent across the motion")
+    print_table(screen, "Motions on which disturbances end", columns, rows)
     if share := share_of_kicks(found):
         screen.print(f"{share.words}.")
     for entry in found:
@@ -79,8 +71,9 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()} of some disturbances ended: {found.transient.words}.")
     if exponents:
         screen.print()
-        screen.print(fitted(screen, _exponents(found, known)))
-        screen.print("In Omega, +- standard errors; -inf: contact takes the direction away.")
+        note = "In Omega, +- standard errors; -inf: contact takes the direction away."
+        headings = ("motion", "exponents", "impacts measured")
+        print_table(screen, "Lyapunov exponents", headings, _exponents(found, known), note=note)
     screen.print()
     screen.print(found.argument)
 
@@ -95,6 +88,7 @@ def _lasting(entry: Attractor) -> str:
 def _numbers(entry: Attractor, exponents: LyapunovExponents | None, total: int) -> tuple[str, ...]:
     """Share of all disturbances, impacts, period and largest exponent across the motion, as text."""
     from carom.attractors import exact_interval
+    from carom.parameters.told import told
 
     low, high = exact_interval(entry.count, total) if total else (0.0, 1.0)
     largest = "-"
@@ -105,7 +99,7 @@ def _numbers(entry: Attractor, exponents: LyapunovExponents | None, total: int) 
     return (
         f"{100.0 * entry.share_of_disturbances:.3g} % ({_end(low)} to {_end(high)})",
         str(impacts) if impacts else "-",
-        f"{entry.period:.6g}" if entry.period else "-",
+        told(entry.period, "time", entry.scales, 6) if entry.period else "-",
         largest,
     )
 
@@ -115,18 +109,14 @@ def _end(share: float) -> str:
     return f"{100.0 * share:.{2 if share < 0.995 else 3}g}"
 
 
-def _exponents(found: AttractorSet, known: list[LyapunovExponents | None]):  # type: ignore[no-untyped-def]
-    """Table of all exponents."""
-    from carom.cli.fitting import plain_table
-
-    table = plain_table("Lyapunov exponents", "motion", "exponents", "impacts measured", right=("impacts measured",))
+def _exponents(found: AttractorSet, known: list[LyapunovExponents | None]) -> list[tuple[str, str, str]]:
+    """Rows of all exponents."""
+    rows = []
     for entry, measured in zip(found, known, strict=True):
-        if measured is not None:
-            pairs = zip(measured.values, measured.errors, strict=True)
-            told = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
-            table.add_row(
-                entry.name.words, ", ".join(told), f"{measured.impacts:,}" if measured.errors.any() else "exact"
-            )
-        else:
-            table.add_row(entry.name.words, "not known", "-")
-    return table
+        if measured is None:
+            rows.append((entry.name.words, "not known", "-"))
+            continue
+        pairs = zip(measured.values, measured.errors, strict=True)
+        shown = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
+        rows.append((entry.name.words, ", ".join(shown), f"{measured.impacts:,}" if measured.errors.any() else "exact"))
+    return rows

@@ -2,40 +2,34 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from rich.console import Console
 
 from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.basins import Basin, GainMap, SmallestLoss
-from carom.basins.families import has_sizes, size_coordinate
+from carom.basins.families import has_sizes
 from carom.basins.gains import WANTED
-from carom.cli.fitting import fitted, plain_table
-from carom.disturbances import Coordinate
+from carom.cli.fitting import print_table
+from carom.cli.tables import print_rows
 from carom.disturbances.echo import plan_words
-from carom.parameters import Case, InTerms, Scales, in_terms_of
+from carom.parameters import Case, InTerms, in_terms_of
+from carom.parameters.told import told, told_angle
+from carom.studies.wording import Wording
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
     screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales, at=basin.instants)}.")
     drawn = basin.share_recovered.drawn
-    numbers = ("starts", "share", *(["95 % interval"] if drawn else []), "known after (median)")
-    table = plain_table("", "where they end", *numbers, right=numbers)
+    headings, rows = ("where they end", "starts", "share", "95 % interval", "decision time (median)"), []
     index, times = basin.dataset["motion"].values, basin.dataset["time"].values
     for name in basin.fractions:
         share = basin.share_of(name)
         when = float(np.median(times[index == basin.motions.index(name)]))
-        interval = [f"{100 * share.low:.3g} to {100 * share.high:.3g} %"] if drawn else []
-        table.add_row(
-            name.words, str(share.count), f"{100 * share.fraction:.4g} %", *interval, _time(when, basin.scales)
-        )
-    screen.print(fitted(screen, table))
-    screen.print(
-        "Known after: time from the start until it was known where the motion ends, by a proof or by the criterion of that outcome; "
-        "the motion need not have arrived there. The table shows the median of the starts with this end."
-    )
+        interval = f"{100 * share.low:.3g} to {100 * share.high:.3g} %" if drawn else ""
+        fraction, decided = f"{100 * share.fraction:.4g} %", told(when, "time", basin.scales)
+        rows.append((name.words, str(share.count), fraction, interval, decided))
+    print_table(screen, "", headings, rows, note="Decision time: when the outcome was certain.")
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
     if basin.irregular:
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()}: {basin.irregular['survival']}.")
@@ -46,8 +40,8 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         )
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
-    for line in _losses(basin, smallest, harmless):
-        screen.print(line)
+    if rows := _losses(basin, smallest, harmless):
+        print_rows(screen, "What is survived", rows)
 
 
 def print_gains(screen: Console, found: GainMap, case: Case) -> None:
@@ -58,11 +52,11 @@ def print_gains(screen: Console, found: GainMap, case: Case) -> None:
     names = [axis.name for axis in found.axes]
     here = ", ".join(_value(case, name, value) for name, value in zip(names, found.present, strict=True))
     ends = [found.dataset[name].values[[0, -1]].tolist() for name in names]
-    told = [
-        (_value(case, name, low), _value(case, name, high, named=False))
+    spans = [
+        f"{_value(case, name, low)} to {_stated(case, name, high).text}"
         for name, (low, high) in zip(names, ends, strict=True)
     ]
-    screen.print(f"Map: {'; '.join(f'{low} to {high}' for low, high in told)}.")
+    screen.print(f"Map: {'; '.join(spans)}.")
     screen.print(f"Present machine: {here}; {back.words}.")
     shape = " x ".join(str(size) for size in share.shape)
     reach, sure = (int((found.dataset[name].values >= WANTED).sum()) for name in ("recovered", "recovered_low"))
@@ -84,91 +78,43 @@ def _touching(basin: Basin) -> str:
     return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
 
 
-_LOSSES = {
-    "kick": "kick",
-    "shock": "shock of this duration",
-    "blade-loss": "change of the unbalance by a loss of a blade",
-}
+def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[tuple[str, str]]:
+    """From which size on disturbances do not come back, if they have a size; else why nothing was searched."""
+    from carom.studies.endings import ending_words  # only here: it takes long to load
+    from carom.studies.verdict import SURVIVED, size_cells
 
-
-def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:
-    """Say from which size on disturbances are lost, if they have a size."""
+    system = basin.rotor.system
     if not has_sizes(basin.plan.model):
         return []
     if smallest is None or harmless <= 0.0:
-        system = basin.rotor.system
-        if system.rest_radius < 1.0 and system.decay > 0.0:
-            return [
-                "No size is known up to which disturbances are harmless, so the smallest that is lost is not searched."
-            ]
-        return ["The rotor has no stable levitation inside the wall: no disturbance is proven harmless."]
-    size = size_coordinate(basin.plan.model)
-
-    def shown(value: float) -> str:
-        return _size(size, value, basin.scales, 5)
-
-    noun = _LOSSES[smallest.kind]
-    lines = []
-    if smallest.size is not None:
-        ending = f"; {_ending(basin, smallest.outcome)}" if smallest.outcome else ""
-        where = _where(basin, smallest)
-        lines.append(
-            f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}{smallest.sensitivity and f'; {smallest.sensitivity}'}."
-        )
+        levitates = system.rest_radius < 1.0 and system.decay > 0.0
+        why = "no size is known that cannot touch" if levitates else "no stable levitation inside the wall"
+        return [(SURVIVED["lost"], f"not searched: {why}")]
+    ending = ending_words(smallest.outcome, basin.motions).removeprefix("it ") if smallest.outcome else ""
+    cells = size_cells(Wording(basin.scales), smallest, _where(smallest), ending)
     if smallest.all_back is None:
-        lines.append("Disturbances of size zero are already lost.")
+        cells["back"] = "none: those of size zero do not come back"
     elif smallest.fresh:
-        said = (
-            "lies between these two sizes"
-            if smallest.size is not None
-            else f"is larger than the largest tried, {shown(smallest.largest)}"
-        )
-        beyond = " beyond the proven size and" if smallest.harmless > 0.0 else ""
-        lines.append(
-            f"Up to {shown(smallest.all_back)} all that were tried came back, {smallest.fresh} of them fresh: with 95 % confidence "
-            f"fewer than {100.0 * smallest.share_below:.2g} % of those{beyond} up to that size are lost. As far as {smallest.tried} trials "
-            f"tell, the smallest that is lost{' in any direction, at any instant of the turn,' if basin.instants else ''} {said}."
-        )
+        share = f"fewer than {100.0 * smallest.share_below:.2g} % do not, with 95 % confidence"
+        cells["back"] += f"; {smallest.fresh:,} of them fresh: {share}"
     elif smallest.size is not None:
-        lines.append(
-            f"Fresh trials kept finding smaller ones ({smallest.tried} trials in all): it is not the smallest."
-        )
-    if smallest.harmless > 0.0:
-        proven = "provably never bring the rotor to the wall, in any direction"
-        lines.append(f"Only those up to {shown(smallest.harmless)} {proven}.")
-    return lines
+        cells["lost"] += "; fresh ones kept finding smaller ones: a smaller one is likely"
+    return [(SURVIVED[column], cells[column]) for column in SURVIVED if column in cells]
 
 
-def _where(basin: Basin, smallest: SmallestLoss) -> str:
-    """Describe the direction of the smallest lost disturbance."""
-    angle = smallest.angle or 0.0
+def _where(smallest: SmallestLoss) -> str:
+    """The direction of the smallest disturbance that does not come back."""
+    if smallest.size is None:
+        return ""
+    where = f"at {told_angle(smallest.angle or 0.0)}"
     if smallest.kind == "blade-loss":
-        return f"at {math.degrees(angle):+.0f} deg from the unbalance before it"
-    heavy = math.degrees(math.remainder(angle - basin.rotor.unbalance_phase, 2.0 * math.pi))
-    turned = (
-        "" if smallest.instant is None else f" when the shaft has turned by {math.degrees(smallest.instant):.0f} deg"
-    )
-    return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side){turned}"
+        return f"{where} from the unbalance before it"
+    return where if smallest.instant is None else f"{where} when the shaft has turned by {told_angle(smallest.instant)}"
 
 
-def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: int = 4) -> str:
-    own = coordinate.told(value, None, digits)
-    return own if scales is None else f"{coordinate.told(value, scales, digits)} ({own})"
-
-
-def _ending(basin: Basin, outcome: Outcome) -> str:
-    from carom.studies.endings import ending_words  # only here: it takes long to load
-
-    return ending_words(outcome, basin.motions)
-
-
-def _time(value: float, scales: Scales | None) -> str:
-    return f"{value:.4g} /Ω" if scales is None else f"{value * scales.time:.3g} s"
-
-
-def _value(case: Case, name: str, value: float, *, named: bool = True) -> str:
+def _value(case: Case, name: str, value: float) -> str:
     stated = _stated(case, name, value)
-    return f"{stated.field.words} {stated.text}" if named else stated.text
+    return f"{stated.field.words} {stated.text}"
 
 
 def _stated(case: Case, name: str, value: float) -> InTerms:

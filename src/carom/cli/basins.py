@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan
@@ -47,12 +47,7 @@ OTHERS = option(
 )
 GRID = option("NxM", "Cells of size and direction, or of x and y; N for releases and losses of a blade.")
 SAMPLE = option("N", "Instead of a grid: a seeded sample of this size.")
-GAINS = option("NxM", "Map the share that comes back over two parameters.")
-PLANE = option(
-    "NAME,NAME",
-    "With --gains: the two parameters, by default stiffness,damping, of a flexible machine proportional,derivative; or what a machine file "
-    "states them by, such as proportional_gain,derivative_gain.",
-)
+GAINS = option("NxM", "Map the share that comes back over the two parameters of --plane.")
 
 
 def basins(
@@ -67,7 +62,7 @@ def basins(
     starts: int | None = SAMPLE,
     seed: int | None = options.SEED,
     gains: str | None = GAINS,
-    plane: str | None = PLANE,
+    plane: str | None = options.PLANE,
     x: str | None = options.FIRST_RANGE,
     y: str | None = options.SECOND_RANGE,
     out: str | None = options.OUT,
@@ -78,11 +73,10 @@ def basins(
     Every start is followed to where it settles. Values need units, such as '50 mm/s', unless the machine file is
     dimensionless. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
     """
+    case = read_machine(machine, settings)
     with progress("loading") as tell:
         from carom.cli.starts import read_cells, read_plane, refuse_without
-        from carom.loading import load
 
-        case = load(machine, settings or ())
         ways = {"--kick": kick, "--shock": shock, "--blade-loss": blade_loss, "--disturbance": disturbance}
         plan = _plan(case, _model(case, ways), grid, starts, seed, instant)
         if gains is None:
@@ -111,31 +105,27 @@ def basins(
             found = map_gains(rotor, plan, asked.names, **ways_of)  # type: ignore[arg-type]
             over = (found, asked.told_by)
         document = basin_document(basin, smallest, harmless, *over)
-        if out is not None:
-            tell(0.97, "drawing")
-            with output_directory(out, case) as output:
-                output.figure("basins", basin.plot(smallest))
-                basin.save(output.directory / "basins.nc")
-                if over:
-                    output.figure("gain-map", found.plot(told_by=asked.told_by))
-                    found.save(output.directory / "gains.nc")
-                output.document("basins", document)
-    if as_json:
-        print_document(document)
-    else:
+        figures: dict[str, Any] = {"basins": lambda: basin.plot(smallest)}
+        files = {"basins.nc": basin.save}
+        if over:
+            figures["gain-map"] = lambda: found.plot(told_by=asked.told_by)
+            files["gains.nc"] = found.save
+        write_output(out, case, "basins", document, figures, files=files, tell=tell.part(0.97, 1.0))
+
+    def show() -> None:
         from carom.cli.basin_tables import print_basin, print_gains
 
         print_basin(console(), basin, smallest, harmless)
         if over:
             print_gains(console(), *over)
-    say_where(out)
+
+    hand_over(out, document, as_json, show)
 
 
 def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:
     """The kind of disturbance that the options describe, with its largest size."""
-    from carom.cli.starts import read_positive
+    from carom.cli.starts import read_all_around, read_positive
     from carom.disturbances import MODELS, VelocityKick
-    from carom.disturbances.single import read_single
 
     scales, usual = case.parameters.scales, case.requirement.own(case.parameters.scales).kick
     chosen = {name: text for name, text in ways.items() if text is not None}
@@ -145,9 +135,7 @@ def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:
         return VelocityKick(usual)
     ((name, text),) = chosen.items()
     if name != "--disturbance":
-        single = read_single(MODELS[name.removeprefix("--")], text, scales, name)
-        if single.values[-1]:
-            raise InputError(name, text, "must be without an angle: all directions are tried")
+        single = read_all_around(name, text, scales)
         if name != "--kick":
             return single.model
         if not single.values[0] > 0.0:

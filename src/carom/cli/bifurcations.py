@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Diagram
@@ -39,7 +39,6 @@ def bifurcations(
     end: str = TO,
     settings: list[str] | None = options.SETTINGS,
     impacts: int = IMPACTS,
-    virtual: bool = options.VIRTUAL,
     attractors: int = SAMPLED,
     seed: int | None = options.SEED,
     out: str | None = options.OUT,
@@ -52,14 +51,13 @@ def bifurcations(
     points, folds of rubs and the limit of rolling. Along the speed it is a run-up diagram: damping and stiffness stay
     fixed, their dimensionless values change with the speed.
     """
+    case = read_machine(machine, settings)
     with progress("loading") as tell:
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
-        from carom.loading import load
         from carom.models import axis, rotor_of
 
-        case = load(machine, settings or ())
         model = rotor_of(case)
         varied = axis(model, along.strip())
         interval = read_ends(start, end, varied)
@@ -71,21 +69,13 @@ def bifurcations(
             varied.name,
             interval,
             impacts=impacts,
-            virtual=virtual,
             attractors=attractors,
             seed=seed or 0,
             progress=tell,
         )
-    document = diagram_document(diagram)
-    if out is not None:
-        with output_directory(out, case) as output:
-            output.figure(f"bifurcations-{varied.name}", diagram.plot(virtual=virtual))
-            output.document(f"bifurcations-{varied.name}", document)
-    if as_json:
-        print_document(document)
-    else:
-        _print_diagram(diagram, varied.value(model))
-    say_where(out)
+        document, name = diagram_document(diagram), f"bifurcations-{varied.name}"
+        write_output(out, case, name, document, {name: diagram.plot})
+    hand_over(out, document, as_json, lambda: _print_diagram(diagram, varied.value(model)))
 
 
 def _shown(varied: Axis, value: float) -> str:
@@ -94,27 +84,38 @@ def _shown(varied: Axis, value: float) -> str:
 
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
     from carom.cli.regions import named
+    from carom.parameters.told import shown_in
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
     now = _shown(diagram.axis, present)
     screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {now}")
-    unit = diagram.speed_unit
-    headings = (diagram.parameter, "what happens", "to", "period (1/Ω)", f"radial speed ({unit})", "")
-    table = plain_table("", *headings)
-    for point in diagram.points:
-        table.add_row(
-            _shown(diagram.axis, point.value),
+    unit = shown_in("time", diagram.model.scales)[1]
+    columns = (
+        diagram.parameter,
+        "what happens",
+        "to",
+        f"period ({unit})",
+        f"radial speed ({diagram.speed_unit})",
+        "possible",
+    )
+    rows = [
+        (
             f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
+            f"{diagram.axis.field.in_usual_unit(point.value):.10g}",
             STEADY_WORDS.get(point.name, point.name),
-            "" if point.period != point.period else f"{point.period:.8g}",
+            "" if point.period != point.period else f"{float(diagram.told('time', point.value, point.period)):.8g}",
             "" if point.radial_speed != point.radial_speed else _speed(diagram, point),
             "" if point.admissible else "virtual",
-            style="" if point.admissible else "dim",
         )
-    screen.print(fitted(screen, table) if diagram.points else "No bifurcation on this range.")
+        for point in diagram.points
+    ]
+    if rows:
+        print_table(screen, "", columns, rows, styles=["" if point.admissible else "dim" for point in diagram.points])
+    else:
+        screen.print("No bifurcation on this range.")
     for branch in diagram.orbits:
         screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
     for several in diagram.several:
@@ -133,13 +134,13 @@ def _speed(diagram: Diagram, point: Bifurcation) -> str:
 
 def _print_attractors(diagram: Diagram) -> None:
     """Print the ranges in which disturbances reached each motion, and those in which only a start next to it did."""
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
 
     screen, tried = console(), diagram.disturbances
     if tried is None:
         return
     values = len({sample.value for sample in diagram.attractors})
-    table = plain_table("Where motions settled", "motion", "from", "to", "at values", "reached by")
+    rows = []
     for name in dict.fromkeys(sample.name for sample in diagram.attractors):
         for met in (True, False):
             alike = [sample for sample in diagram.attractors if sample.name == name and sample.met == met]
@@ -147,8 +148,8 @@ def _print_attractors(diagram: Diagram) -> None:
                 ends = (_shown(diagram.axis, sample.value) for sample in (alike[0], alike[-1]))
                 most = max(sample.count for sample in alike)
                 reached = f"up to {most} of {tried.count} disturbances" if met else "a start next to it, no disturbance"
-                table.add_row(name, *ends, f"{len(alike)} of {values}", reached)
-    screen.print(fitted(screen, table))
+                rows.append((name, *ends, f"{len(alike)} of {values}", reached))
+    print_table(screen, "Where motions settled", ("motion", "from", "to", "at values", "reached by"), rows)
     screen.print(
         f"At each of {values} values {tried.general_words(diagram.model.scales)}; and starts next to the motions known in closed form."
     )

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, print_document, progress, read_machine
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -65,9 +65,8 @@ def drop(
     from carom.basins.drops import RELEASED
     from carom.cli.beginnings import released
     from carom.cli.starts import read_cells, read_plane, read_time, refuse_without
-    from carom.loading import load
 
-    case = load(machine, settings or ())
+    case = read_machine(machine, settings)
     check_output(out)
     ways = {"--start": start, "--kick": kick, "--whirl": whirl}
     begins = released(case, ways, regained_after, phase, race_speed, called="the release")
@@ -135,38 +134,30 @@ def _map(case: Case, begins: Beginning, asked: dict[str, Any], out: str | None, 
     with progress("following drops (the kernels are compiled on first use)") as tell:
         found = map_drops(case, begins.release, **asked, progress=tell if out is None else tell.part(0.0, 0.95))
         document = {"name": case.name, **drop_map_document(found)}
-        if out is not None:
-            with output_directory(out, case) as output:
-                output.figure("drop-map", found.plot())
-                found.save(output.directory / "drop-map.nc")
-                output.document("drop-map", document)
-    if as_json:
-        print_document(document)
-    else:
-        _print_map(console(), found)
-    say_where(out)
+        write_output(out, case, "drop-map", document, {"drop-map": found.plot}, files={"drop-map.nc": found.save})
+    hand_over(out, document, as_json, lambda: _print_map(console(), found))
 
 
 def _print_map(screen: Console, found: DropMap) -> None:
     """Print how the drops end, what they ask of the bearing, and how many exceed its limits."""
     from carom.basins.drops import MEASURES
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
     from carom.parameters.told import number
 
     index, exists = found.dataset["motion"].values, found.exists
     screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
     unit, words = MEASURES[found.hardest]
-    most, when = f"{words} ({unit})", "at rest or whirling since (median)"
-    table = plain_table("", "how they end", "drops", "share", most, when, right=("drops", "share", most, when))
+    rows = []
     for name, share in found.fractions.items():
         here = index == found.motions.index(name)
         loads, since = (found.dataset[each].values[here] for each in (found.hardest, "settled_at"))
         known = sorted(since[~(since != since)].tolist())
         ends = [number(float(each), 3) for each in (loads.min(), loads.max())]
         told = f"{number(1e3 * known[len(known) // 2], 3)} ms" if known else ""
-        table.add_row(name.words, str(int(here.sum())), f"{100.0 * share:.3g} %", " to ".join(ends), told)
-    screen.print(fitted(screen, table))
+        rows.append((name.words, str(int(here.sum())), f"{100.0 * share:.3g} %", " to ".join(ends), told))
+    headings = ("how they end", "drops", "share", f"{words} ({unit})", "at rest or whirling since (median)")
+    print_table(screen, "", headings, rows)
     screen.print(f"Hardest: {found.worst}.")
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())

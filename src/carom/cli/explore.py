@@ -9,7 +9,7 @@ import typer
 
 from carom.base.outcome import CaromError
 from carom.cli.options import SETTINGS, option
-from carom.cli.terminal import console
+from carom.cli.terminal import console, read_machine
 
 MACHINE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file; by default the example machine.")
 PORT = option("P", "Port on this machine; 0 for any that is free.", default=5006)
@@ -27,8 +27,6 @@ def explore(
     The page is served on this machine alone, at the address that is printed first, until Ctrl-C. It needs the extra
     carom[explore].
     """
-    from carom.loading import load
-
     if find_spec("bokeh") is None:
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")
     from carom.explorer.computing.exports import Origin
@@ -37,7 +35,7 @@ def explore(
     from carom.explorer.server import serve
 
     path = str(example_file()) if machine is None else machine
-    origin = Origin(path, tuple(settings or ()), load(path, settings or ()))
+    origin = Origin(path, tuple(settings or ()), read_machine(path, settings))
     words = Questions(origin).words()
     serve(origin, port, browser=browser, tell=lambda address: _print_opening(address, words))
 

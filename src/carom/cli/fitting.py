@@ -1,73 +1,88 @@
-"""Tables on narrow terminals: text columns wrap and gaps shrink, but no word and no number is cut."""
+"""Tables of text that fit into a narrow terminal: no cell wraps, and no word and no number is cut."""
 
 from __future__ import annotations
 
+import re
 import textwrap
-from collections.abc import Collection
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
-from rich import box
-from rich.cells import cell_len
-from rich.table import Table
+from rich.cells import cell_len, set_cell_size
+from rich.console import Console
+from rich.text import Text
 
-if TYPE_CHECKING:
-    from rich.console import Console
-
-_PADDINGS = ((0, 1, 0, 0), (0, 0))
-"""Paddings between columns, from wide to narrow; the box adds one to each."""
-
-
-def plain_table(title: str, *headings: str, right: Collection[str] = (), no_wrap: Collection[str] = ()) -> Table:
-    """Return a table with a title and headings; the columns in `right` are flush right."""
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
-    for heading in headings:
-        table.add_column(heading, justify="right" if heading in right else "left", no_wrap=heading in no_wrap)
-    return table
+_NUMBER = re.compile(r"([-+−]?(\d|inf\b|nan\b)|up to \d|-$|…$)")
+_LONGEST = 24
+"""Characters of a number with its unit and its interval; what is longer is text."""
+_GAPS = (2, 1)
+"""Columns of the terminal between those of a table, on a wide and on a narrow one."""
 
 
-def fitted(screen: Console, table: Table) -> Table:
-    """Fit a table of plain text, with all its rows, to the screen: choose column widths at which words stay whole.
+def print_table(
+    screen: Console,
+    title: str,
+    headings: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    *,
+    styles: Sequence[str] = (),
+    note: str = "",
+) -> None:
+    """Print rows of text below their headings.
 
-    Columns that do not wrap keep their cells in one line; their headings wrap.  Return the same table.
+    A column that is empty in all rows is left out; one of numbers is flush right.  Cells never wrap: the widest columns for which the screen has no
+    room stand below their row, each with its heading.
     """
-    if screen.measure(table, options=screen.options.update(width=10_000)).maximum <= screen.width:
-        return table
-    texts = [[str(column.header), *map(str, column.cells)] for column in table.columns]
-    most = [max(_widest(text.splitlines()) for text in column) for column in texts]
-    least = [
-        max(
-            _widest(text.splitlines() if place and whole.no_wrap else text.split()) for place, text in enumerate(column)
-        )
-        for column, whole in zip(texts, table.columns, strict=True)
-    ]
-    gaps = 2 + len(least) - 1
-    table.pad_edge = False
-    for padding in _PADDINGS:
-        table.padding = padding
-        room = screen.width - gaps - sum(padding[1::2]) * (len(least) - 1)
-        if sum(least) <= room:
-            break
-    else:
-        # Not even the words fit: the longest ones are broken, but no text is lost.
-        while sum(least) > max(room, len(least)):
-            least[least.index(max(least))] -= 1
-    widths = _widened(least, most, room)
-    for column, width in zip(table.columns, widths, strict=True):
-        column.width, column.overflow, column.no_wrap = width, "fold", False
-        column.header = textwrap.fill(str(column.header), width)
-    return table
+    columns = {heading: [row[place] for row in rows] for place, heading in enumerate(headings)}
+    columns = {heading: cells for heading, cells in columns.items() if any(cells)}
+    widths = {heading: _widest([*cells, *heading.split()]) for heading, cells in columns.items()}
+    below: list[str] = []
+    while (room := _room(screen.width, widths, _GAPS[-1])) < 0 and len(widths) > 1:
+        others = list(widths)[1:]
+        below.append(max(others, key=lambda heading: widths[heading]))
+        del widths[below[-1]]
+    gap = next((each for each in _GAPS if _room(screen.width, widths, each) >= 0), _GAPS[-1])
+    room = _room(screen.width, widths, gap)
+    for heading in widths:  # a heading wraps only where the screen has no room for it
+        more = min(max(0, cell_len(heading) - widths[heading]), max(0, room))
+        widths[heading], room = widths[heading] + more, room - more
+    flush = {
+        heading
+        for heading in widths
+        if all(len(cell) <= _LONGEST and _NUMBER.match(cell) for cell in columns[heading] if cell)
+    }
+
+    def line(cells: Sequence[str]) -> str:
+        sized = [
+            " " * max(0, width - cell_len(cell)) + cell
+            if heading in flush
+            else set_cell_size(cell, max(width, cell_len(cell)))
+            for (heading, width), cell in zip(widths.items(), cells, strict=True)
+        ]
+        return (" " * gap).join(sized).rstrip()
+
+    if title:
+        screen.print(Text(title, style="bold"))
+    wrapped = [textwrap.wrap(heading, widths[heading]) or [""] for heading in widths]
+    depth = max(map(len, wrapped), default=0)
+    for at in range(depth):
+        screen.print(line([lines[at - depth + len(lines)] if at >= depth - len(lines) else "" for lines in wrapped]))
+    screen.print("─" * min(screen.width, sum(widths.values()) + gap * (len(widths) - 1)))
+    order = sorted(below, key=list(columns).index)
+    for place in range(len(rows)):
+        style = styles[place] if styles else ""
+        screen.print(Text(line([columns[heading][place] for heading in widths]), style=style))
+        for heading in order:
+            if cell := columns[heading][place]:
+                text = f"{heading}: {cell}" if heading else cell
+                screen.print(Text(textwrap.indent(textwrap.fill(text, max(20, screen.width - 4)), "    "), style=style))
+    if note:
+        screen.print(note)
+    screen.print()
 
 
-def _widest(parts: list[str]) -> int:
-    return max(map(cell_len, parts), default=0) or 1  # a column may be empty
+def _widest(texts: Sequence[str]) -> int:
+    return max(map(cell_len, texts), default=1)
 
 
-def _widened(least: list[int], most: list[int], room: int) -> list[int]:
-    """Widen columns to use the available width: each step widens the column that would have the most lines."""
-    widths = list(least)
-    for _ in range(room - sum(widths)):
-        crowded = [high / width if width < high else 0.0 for width, high in zip(widths, most, strict=True)]
-        if not any(crowded):
-            break
-        widths[crowded.index(max(crowded))] += 1
-    return widths
+def _room(width: int, widths: dict[str, int], gap: int) -> int:
+    """What is left of the width of a screen beside columns; negative if they do not fit."""
+    return width - sum(widths.values()) - gap * (len(widths) - 1)

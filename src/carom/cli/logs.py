@@ -1,16 +1,18 @@
-"""Contact logs as files, written completely or not at all."""
+"""Contact logs: as rows, and as files that are written completely or not at all."""
 
 from __future__ import annotations
 
 import csv
+import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib.metadata import version
 from io import StringIO
+from operator import itemgetter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,34 +40,42 @@ def check_file(option: str, path: str) -> None:
         try_place(target)
 
 
-def write_csv(motion: Trajectory, path: str) -> None:
-    """Write contacts, impacts among them, at all touchdown bearings as CSV in order of time, in SI units if the machine is known.
+def contact_rows(parts: Sequence[Trajectory]) -> tuple[dict[str, str], list[dict[str, Any]]]:
+    """Units of the columns of a log by their names, and a row for each contact, impacts among them, of some stages in order of time.
 
-    A stretch of lasting contact at a rigid touchdown bearing fills only ``kind``, ``time``, ``end`` and ``touchdown_bearing``.
+    Numbers are in SI units if the machine is known.  A stretch of lasting contact at a rigid touchdown bearing fills only ``kind``, ``phase``,
+    ``time``, ``end`` and ``touchdown_bearing``.
     """
-    log, scale = _log(motion), _time_scale(motion)
-    columns = [column for name, column in log.items() if name != "phase"]
-    header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in columns)]
-    impact = np.isnan(log["peak_force"].values)
-    kinds = np.where(impact, "impact", [Phase(phase).label for phase in log["phase"].values.tolist()])
-    rows = [[*row] for row in zip(kinds.tolist(), *(column.values.tolist() for column in columns), strict=True)]
-    for bearing, each in _lasting(motion):
-        if not motion.at_each[bearing - 1].is_compliant:
-            row = [f"{each.kind} ({each.phase.label})", each.start * scale, each.end * scale, bearing]
-            rows.append([*row, *[""] * (len(header) - len(row))])
-    rows.sort(key=lambda row: row[1])
+    log, scale = _log(parts), _time_scale(parts[-1])
+    units = {str(name): values.attrs.get("units", "1") for name, values in log.items()}
+    rows = [
+        dict(zip(units, row, strict=True)) for row in zip(*(each.values.tolist() for each in log.values()), strict=True)
+    ]
+    rows = [row | {"kind": "impact" if math.isnan(row["peak_force"]) else Phase(row["phase"]).label} for row in rows]
+    for bearing, each in _lasting(parts):
+        if not parts[-1].at_each[bearing - 1].is_compliant:
+            kind = {"kind": f"{each.kind} ({each.phase.label})", "phase": each.phase, "touchdown_bearing": bearing}
+            rows.append(kind | {"time": each.start * scale, "end": each.end * scale})
+    return units, sorted(rows, key=itemgetter("time"))
+
+
+def write_csv(motion: Trajectory, path: str) -> None:
+    """Write contacts at all touchdown bearings as CSV, by :func:`contact_rows`."""
+    units, rows = contact_rows(motion.parts)
+    names = [name for name in units if name != "phase"]
     text = StringIO(newline="")
-    csv.writer(text).writerows([header, *rows])
+    csv.writer(text).writerow(["kind", *(f"{name} [{units[name]}]" for name in names)])
+    csv.DictWriter(text, ["kind", *names], restval="", extrasaction="ignore").writerows(rows)
     with _refusals("--csv", path):
         write_whole(Path(path), text.getvalue().encode())
 
 
-def _log(motion: Trajectory) -> xarray.Dataset:
-    """Contacts of all stages and at all touchdown bearings, in order of time from the beginning."""
+def _log(parts: Sequence[Trajectory]) -> xarray.Dataset:
+    """Contacts of some stages and at all touchdown bearings, in order of time from the beginning."""
     import xarray
 
     logs = []
-    for part in motion.parts:
+    for part in parts:
         for seen in part.at_each:
             log = seen.contacts.to_dataset()
             for name in ("time", "end", "peak_time"):
@@ -80,11 +90,11 @@ def _time_scale(motion: Trajectory) -> float:
     return motion.rotor.scales.time if motion.rotor.scales else 1.0
 
 
-def _lasting(motion: Trajectory) -> list[tuple[int, LastingContact]]:
-    """Lasting contacts of all stages, each with its touchdown bearing from 1, with times from the beginning."""
+def _lasting(parts: Sequence[Trajectory]) -> list[tuple[int, LastingContact]]:
+    """Lasting contacts of some stages, each with its touchdown bearing from 1, with times from the beginning."""
     return [
         (seen.plane + 1, replace(contact, start=part.begins + contact.start, end=part.begins + contact.end))
-        for part in motion.parts
+        for part in parts
         for seen in part.at_each
         for contact in seen.lasting_contacts
     ]
@@ -101,7 +111,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
     from carom.motions.tables import NUMBERED, in_units, phase_flags
 
     scales, numbers = motion.rotor.scales, motion.rotor.numbers
-    dataset, contacts = _log(motion), _lasting(motion)
+    dataset, contacts = _log(motion.parts), _lasting(motion.parts)
     for name in ("start", "end"):
         times = np.array([getattr(contact, name) for _, contact in contacts], float)
         dataset[f"lasting_{name}"] = in_units("lasting", times, "time", f"{name} of lasting contact", scales)

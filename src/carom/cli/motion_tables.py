@@ -6,20 +6,20 @@ import cmath
 import dataclasses
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.base.outcome import Outcome, Phase
-from carom.cli.fitting import fitted, plain_table
+from carom.cli.fitting import print_table
+from carom.cli.logs import contact_rows
 from carom.cli.tables import TEXT_WIDTH, complex_words, print_rows
 from carom.motions import Trajectory, drop_loads
 from carom.parameters.indentation import indentation_of_hit
-from carom.parameters.told import number, told, told_angle
+from carom.parameters.told import number, shown_from_si, told, told_angle
 from carom.studies import LoadCheck, Wording
 from carom.studies.load_checks import checks_of_planes
 from carom.studies.load_tables import load_tables
@@ -81,9 +81,8 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
             console.print(f"Hardest impact{_where(seen)}: {soft}.")
     if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
         console.print()
-        console.print(fitted(console, _events(say, motion)))
+        _print_contacts(console, motion)
     final = motion.final
-    console.print()
     if motion.rotor.weight is not None or len(motion.rotor.system.rest) > 1:
         for seen in motion.at_each:
             console.print(_final_words(say, seen))
@@ -134,72 +133,46 @@ def _end_words(motion: Trajectory) -> str:
     return f"The rotor ends in {name}: it stays in contact with the touchdown bearing and {how}."
 
 
-def _events(say: Wording, motion: Trajectory) -> Table:
-    """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    speed, impulse, slip = (size(1.0).partition(" ")[2] for size in (say.velocity, say.impulse, say.slip))
-    time = f"time, {'ms' if say.scales else '1/Ω'}"
-    speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
-    normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
-    angle = "angle" if motion.rotor.weight is None else "fixed angle"
-    bearing = ("bearing",) if len(motion.at_each) > 1 else ()
-    after = () if motion.is_compliant else (slips,)
-    numbers = (time, *bearing, angle, speeds, normal, friction, *after)
-    headings = (time, *bearing, "contact", angle, speeds, "whirl", normal, friction, *after)
-    table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
-    rows = [row for seen in motion.at_each for row in _event_rows(dataclasses.replace(say, scales=seen.scales), seen)]
-    rows.sort(key=lambda row: row.time)
-    hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
-    shown = rows
+def _print_contacts(console: Console, motion: Trajectory) -> None:
+    """Print contacts of a stage in order of time, by the columns of their log; the middle of a long log is left out."""
+    units, rows = contact_rows((motion,))
+    headings = {name: each["heading"] for name, each in motion.contacts.columns.items() if each["heading"]}
+    if len(motion.at_each) == 1:
+        del headings["touchdown_bearing"]
+    if motion.rotor.weight is not None:
+        headings["angle"] = "fixed angle"
+    shown = {name: shown_from_si(units[name]) for name in headings} | {"angle": (math.degrees(1.0), "°")}
+    hidden, note = len(rows) - FIRST_EVENTS - LAST_EVENTS, ""
     if hidden > 1:
-        shown = [*rows[:FIRST_EVENTS], *rows[-LAST_EVENTS:]]
-        table.caption, table.caption_justify = f"… {number(hidden, 12)} more: --csv FILE has all", "left"
-    factor = 1e3 * say.scales.time if say.scales else 1.0
-    for place, row in enumerate(shown):
-        if hidden > 1 and place == FIRST_EVENTS:
-            table.add_row("…")
-        which = (str(row.bearing),) if bearing else ()
-        table.add_row(number(factor * (motion.begins + row.time), 7), *which, *row.cells)
-    return table
+        note = f"… {number(hidden, 12)} more: --csv FILE has all"
+        rows = [*rows[:FIRST_EVENTS], {"kind": "…"}, *rows[-LAST_EVENTS:]]
+    cells = [_contact_cells(motion, row, {name: shown[name][0] for name in headings}) for row in rows]
+    heads = [f"{heading}, {shown[name][1]}".removesuffix(", 1") for name, heading in headings.items()]
+    print_table(console, "Contacts", ("contact", *heads, "whirl"), cells, note=note)
 
 
-class _Row(NamedTuple):
-    """A contact at a touchdown bearing, from 1; its time counts from the beginning of the stage."""
-
-    time: float
-    bearing: int
-    cells: tuple[str, ...]
-
-
-def _event_rows(say: Wording, seen: Trajectory) -> list[_Row]:
-    """Contacts at one bearing: impacts and lasting contacts, or those with a compliant wall."""
-    log, bearing, compliant = seen.contacts, seen.plane + 1, seen.is_compliant
-    # Weight has a direction in the fixed frame alone.
-    angles = log.angle if seen.rotor.weight is None else log.angle + seen.begins + log.time
-    rows = []
-    for place, time in enumerate(log.time.tolist()):
-        slip = "stops" if log.sticks[place] else _number_of(say.slip(float(log.slip_after[place])))
-        cells = (
-            _lasting(say, int(log.phase[place]), float(log.duration[place])) if compliant else "impact",
-            f"{math.degrees(math.remainder(angles[place], 2.0 * math.pi)):.1f}°",
-            _number_of(say.velocity(float(log.radial_speed[place]))),
-            "forward" if log.angular_speed[place] > -1.0 else "backward",
-            _number_of(say.impulse(float(log.normal_impulse[place]))),
-            _number_of(say.impulse(float(log.friction_impulse[place]))),
-            *(() if compliant else (slip,)),
-        )
-        rows.append(_Row(time, bearing, cells))
-    if not compliant:
-        rows += [
-            _Row(each.start, bearing, (_lasting(say, each.phase, each.end - each.start),))
-            for each in seen.lasting_contacts
-        ]
-    return rows
-
-
-def _lasting(say: Wording, phase: int, duration: float) -> str:
-    return f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(duration))}"
-
-
-def _number_of(told: str) -> str:
-    """The number of a size such as ``60 mm/s``, for a column whose heading has the unit."""
-    return told.partition(" ")[0]
+def _contact_cells(motion: Trajectory, row: dict[str, Any], factors: dict[str, float]) -> list[str]:
+    """The cells of a contact: its kind, its numbers in the units of the table, and the sense of the whirl."""
+    shown, kind, whirl = dict(row), row["kind"], ""
+    period = motion.rotor.scales.time if motion.rotor.scales else 1.0
+    if "angle" in row:
+        # Weight has a direction in the fixed frame alone.
+        turned = 0.0 if motion.rotor.weight is None else row["time"] / period
+        shown["angle"] = math.remainder(row["angle"] + turned, math.tau)
+        whirl = "forward" if row["angular_speed"] > -1.0 / period else "backward"
+    elif "end" in row:
+        shown["duration"] = row["end"] - row["time"]
+    if kind == "impact":
+        del shown["duration"]
+    else:  # its slip changes on the way
+        kind = Phase(row["phase"]).label.replace("-", " ") if "phase" in row else kind
+        shown.pop("slip_after", None)
+    digits = {"time": 7, "angle": 4}
+    cells = {
+        name: number(factor * value, digits.get(name, 3))
+        for name, factor in factors.items()
+        if not math.isnan(value := shown.get(name, math.nan))
+    }
+    if "slip_after" in cells and row["sticks"]:
+        cells["slip_after"] = "stops"
+    return [kind, *(cells.get(name, "") for name in factors), whirl]

@@ -58,12 +58,9 @@ UNTIL = option(
 ALONG = option("NAME", "Parameter to vary, such as gamma, speed, damping or stiffness.", default=...)
 PLANE = option(
     "NAME,NAME",
-    "Two parameters, such as speed,damping, or what a machine file states them by, such as proportional_gain,derivative_gain.",
-    default="gamma,omega",
+    "Two parameters, such as speed,damping, or what a machine file states them by, such as proportional_gain,derivative_gain; by default "
+    "stiffness,damping, of a dimensionless file gamma,omega, of a flexible machine proportional,derivative.",
 )
 FIRST_RANGE = option("A,B", "Range of the first parameter, by default around its present value.", "--x")
 SECOND_RANGE = option("C,D", "Range of the second parameter.", "--y")
 SEED = option("S", "Seed of the sample, by default 0.", min=0)
-VIRTUAL = flag(
-    "--virtual", "Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions."
-)

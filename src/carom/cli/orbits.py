@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.terminal import console, print_document, progress
+from carom.cli.terminal import console, print_document, progress, read_machine
 
 if TYPE_CHECKING:
     from carom.closed_forms.yielding_walls import SlippingWhirl
@@ -41,10 +41,9 @@ def orbits(
     --impacts N, the orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.cli.starts import read_time
-    from carom.loading import load
     from carom.models import rotor_of
 
-    case = load(machine, settings or ())
+    case = read_machine(machine, settings)
     model, exact = rotor_of(case), False
     if impacts is None:
         model.system.refuse_non_stationary()

@@ -1,53 +1,59 @@
-"""The directory into which a command writes its figures and its document, all of them or none."""
+"""What a command hands over: a directory of figures and numbers, all of them or none, and then one object of JSON or a text."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from carom.cli.terminal import console
+from carom.base.progress import Reporter
+from carom.cli.terminal import console, print_document
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from carom.parameters import Case
 
-
-@dataclass(frozen=True)
-class Output:
-    """A directory that is being filled."""
-
-    directory: Path
-
-    def figure(self, name: str, figure: Figure) -> None:
-        """Write a figure as SVG and PNG."""
-        from carom import plots
-        from carom.base.files.directory import FIGURES
-
-        plots.save(figure, self.directory / FIGURES / name)
-
-    def document(self, name: str, document: dict[str, Any]) -> None:
-        """Write a document as JSON."""
-        from carom.base.files import write_json
-
-        write_json(self.directory / f"{name}.json", document)
+_NO_FILES: Mapping[str, Callable[[Path], None]] = MappingProxyType({})
 
 
-@contextmanager
-def output_directory(out: str, case: Case) -> Iterator[Output]:
-    """Fill the directory of ``--out``; figures made meanwhile show the name and the present values of the machine."""
-    from carom.base.files import staged_directory
-    from carom.plots import heading
+def write_output(
+    out: str | None,
+    case: Case,
+    name: str,
+    document: dict[str, Any],
+    figures: Mapping[str, Callable[[], Figure]],
+    *,
+    files: Mapping[str, Callable[[Path], None]] = _NO_FILES,
+    tell: Reporter | None = None,
+) -> None:
+    """Fill the directory of ``--out``, if one is given, with figures, files and the document.
+
+    Figures show the name and the present values of the machine.
+    """
+    if out is None:
+        return
+    from carom import plots
+    from carom.base.files import staged_directory, write_json
+    from carom.base.files.directory import FIGURES
     from carom.studies.wording import machine_heading
 
-    with staged_directory(out, "--out") as directory, heading(machine_heading(case)):
-        yield Output(directory)
+    with staged_directory(out, "--out") as directory, plots.heading(machine_heading(case)):
+        for place, (figure, draw) in enumerate(figures.items()):
+            if tell is not None:
+                tell(place / len(figures), "drawing")
+            plots.save(draw(), directory / FIGURES / figure)
+        for file, write in files.items():
+            write(directory / file)
+        write_json(directory / f"{name}.json", document)
 
 
-def say_where(out: str | None) -> None:
-    """Say where the files are, on the error stream."""
+def hand_over(out: str | None, document: dict[str, Any], as_json: bool, show: Callable[[], None]) -> None:
+    """Print the document, or what ``show`` prints; and on the error stream where the files are."""
+    if as_json:
+        print_document(document)
+    else:
+        show()
     if out is not None:
         console(errors=True).print(f"Written to {out}", soft_wrap=True)

@@ -41,13 +41,11 @@ def paper(out: str | None = OUT, as_json: bool = AS_JSON) -> None:
 
 
 def _print_reproduction(found: Reproduction) -> None:
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
     from carom.reproductions.mora2014.document import given_words, tables
 
     screen = console()
     for shown in tables(found):
-        table = plain_table(shown.title, *shown.headings, right=shown.numbers)
-        for row, agrees in zip(shown.rows, shown.agrees, strict=True):
-            table.add_row(*row, style="" if agrees else "yellow")
-        screen.print(fitted(screen, table))
+        styles = ["" if agrees else "yellow" for agrees in shown.agrees]
+        print_table(screen, shown.title, shown.headings, shown.rows, styles=styles)
     screen.print(given_words(found))

@@ -23,11 +23,13 @@ DRAWN = "kicks"
 """Theorem that has a figure."""
 PICTURE, SAMPLED = "figures/proven-kicks", (160, 160)
 """The figure of kicks, and in how many of them the basin below it is sampled."""
+_CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-single-impact-orbits", "orbits")
+"""Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
 _DRAWING = 0.95
 """Share of the bar after which it is drawn."""
 _RANGE = ("--along", "--from", "--to")
 _ALLOWED = {
-    "": ("--longest-period", "--impacts", *_RANGE, "--time-limit"),
+    "": ("--impacts", *_RANGE, "--time-limit"),
     "--kicks-up-to": (*_RANGE, "--most-impacts", "--time-limit"),
     "--shocks-up-to": ("--most-impacts", "--time-limit"),
     "--unbalance-up-to": ("--most-impacts", "--time-limit"),
@@ -36,7 +38,6 @@ _ALLOWED = {
 """Options of theorems about what comes back, and what may stand beside each; first of those about equilibria and orbits."""
 
 FILE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file.")
-LONGEST_PERIOD = option("T", "Look only for periods up to T, in 1/Omega; by default for all.")
 IMPACTS = option(
     "N", "Prove orbits with at most N impacts a period, those with several that a search finds; by default 1."
 )
@@ -66,7 +67,6 @@ CHECK = option("FILE", "Verify a certificate instead; no machine file is needed.
 def prove(
     machine: str | None = FILE,
     settings: list[str] | None = options.SETTINGS,
-    longest_period: str | None = LONGEST_PERIOD,
     impacts: int | None = IMPACTS,
     along: list[str] | None = ALONG,
     start: list[str] | None = FROM,
@@ -90,7 +90,6 @@ def prove(
     sizes = {name: size for name, size in theorems.items() if size is not None}
     limits = {"--most-impacts": most_impacts, "--time-limit": time_limit}
     others = {
-        "--longest-period": longest_period,
         "--impacts": impacts,
         **dict(zip(_RANGE, (along, start, stop), strict=True)),
     }
@@ -205,23 +204,41 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:
-    """Print all claims, and what is not claimed."""
-    from carom.cli.fitting import fitted, plain_table
+    """Print the theorem, all claims, and what is not claimed."""
+    from carom.cli.fitting import print_table
     from carom.proofs.levitation_claims import THEOREM
 
-    screen = console()
-    table = plain_table("Claims", "of", "claim", "status", "number, or reason")
+    screen, chief = console(), _chief(proof)
+    screen.print(_theorem(proof, chief), style="bold")
+    screen.print()
+    rows = [(claim.about, claim.kind, claim.status, claim.reason or _number(claim)) for claim in proof]
+    print_table(screen, "Claims", ("of", "claim", "status", "number, or reason"), rows)
     for claim in proof:
-        table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
-    screen.print(fitted(screen, table))
-    for claim in proof:
-        if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven":
+        if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven" and claim is not chief:
             screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
     screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")
     screen.print("Not claimed:")
     for words in proof.not_claimed:
         screen.print(f"- {words}")
+
+
+def _chief(proof: Proof) -> Claim | None:
+    """The claim that the others lead to; proven if one of its kind is."""
+    ranked = sorted(proof, key=lambda claim: claim.status != "proven")
+    return next((claim for kind in _CHIEF for claim in ranked if claim.kind == kind), None)
+
+
+def _theorem(proof: Proof, chief: Claim | None) -> str:
+    """The first line: the theorem with its numbers, or that it is not proven."""
+    proven = len(proof.with_status("proven"))
+    if chief is not None and chief.status == "proven":
+        numbers = _number(chief)
+        return f"Theorem: {chief.statement}{numbers and f' ({numbers})'}"
+    if not proven:
+        return "Nothing was proven."
+    why = "" if chief is None else f" {chief.about} {chief.kind}: {chief.reason or chief.status}."
+    return f"The theorem was not proven; {proven} of {len(proof)} claims were.{why}"
 
 
 def _number(claim: Claim) -> str:

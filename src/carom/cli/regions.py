@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
 
     from carom.bifurcations import RegionMap
     from carom.models import Axis
@@ -26,12 +25,11 @@ _NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacke
 
 def regions(
     machine: str = options.MACHINE,
-    plane: str = options.PLANE,
+    plane: str | None = options.PLANE,
     x: str | None = options.FIRST_RANGE,
     y: str | None = options.SECOND_RANGE,
     settings: list[str] | None = options.SETTINGS,
     grid: int = NODES,
-    virtual: bool = options.VIRTUAL,
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
@@ -41,18 +39,19 @@ def regions(
     of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  Of machines whose
     orbits have no closed forms, the regions are told by where disturbances settle, without curves.
     """
+    case = read_machine(machine, settings)
     with progress("loading") as tell:
+        from carom.basins.gains import usual_gains
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
         from carom.cli.starts import read_plane
-        from carom.loading import load
         from carom.models import rotor_of
         from carom.models.axes import usual_range
 
-        case = load(machine, settings or ())
         model = rotor_of(case)
         subject = model.parameters if model.has_closed_forms else model
-        axes, given, _ = read_plane(case, "--plane", plane, x, y)
+        usual = ",".join(usual_gains(model)) if model.scales else "gamma,omega"
+        axes, given, _ = read_plane(case, "--plane", plane or usual, x, y)
         ranges = [
             limits or usual_range(varied, subject.value(varied.name), name, AROUND)
             for varied, limits, name in zip(axes, given, ("--x", "--y"), strict=True)
@@ -62,19 +61,11 @@ def regions(
             subject,
             Plane(axes[0].name, axes[1].name, *ranges),
             grid=grid,
-            virtual=virtual,
             progress=tell,
         )
-    document = regions_document(found)
-    if out is not None:
-        with output_directory(out, case) as output:
-            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(virtual=virtual))
-            output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
-    if as_json:
-        print_document(document)
-    else:
-        _print_map(console(), found)
-    say_where(out)
+        document, name = regions_document(found), f"regions-{axes[0].name}-{axes[1].name}"
+        write_output(out, case, name, document, {name: found.plot})
+    hand_over(out, document, as_json, lambda: _print_map(console(), found))
 
 
 def named(kind: str) -> str:
@@ -84,16 +75,17 @@ def named(kind: str) -> str:
 
 def _print_map(screen: Console, found: RegionMap) -> None:
     """Print the curves of a map, their meeting points, the regions, and in which of them the machine lies."""
-    from carom.cli.fitting import fitted
+    from carom.cli.fitting import print_table
 
-    names = tuple(map(_quantity, found.axes))
+    names = tuple(map(quantity, found.axes))
     first, second = (f"{axis.field.words} {name}" for axis, name in zip(found.axes, names, strict=True))
     screen.print(f"Plane of {first} and {second}")
+    screen.print()
     if not found.curves and found.model.has_closed_forms:
         screen.print("No bifurcation in this plane.")
-    for table in _tables(found, names):
-        if table.row_count:
-            screen.print(fitted(screen, table))
+    for title, headings, rows, styles in _tables(found, names):
+        if rows:
+            print_table(screen, title, headings, rows, styles=styles)
     if found.everywhere:
         screen.print(f"In every region: {', '.join(found.everywhere)}")
     screen.print(_present_words(found))
@@ -101,40 +93,35 @@ def _print_map(screen: Console, found: RegionMap) -> None:
         screen.print(f"Not followed: {words}" if found.model.has_closed_forms else words)
 
 
-def _tables(found: RegionMap, names: tuple[str, ...]) -> Iterator[Table]:
-    from carom.cli.fitting import plain_table
+def _tables(
+    found: RegionMap, names: tuple[str, ...]
+) -> Iterator[tuple[str, tuple[str, ...], list[tuple[str, ...]], list[str]]]:
+    """Title, headings, rows and styles of each table."""
+    from carom.parameters.told import told
 
-    table = plain_table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
+    rows, styles, at = [], [], f"at {', '.join(names)}"
     for curve in found.curves:
         ends = [_place(found, curve.points[end]) for end in (0, -1)]
         virtual = "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
         stops = ", ".join(dict.fromkeys(map(named, curve.stops)))
-        style = "dim" if virtual == "virtual" else ""
-        table.add_row(named(curve.kind), curve.subject, *ends, stops, virtual, style=style)
-    yield table
-    table = plain_table("Where two happen at once, and resonances", "kinds", *names, "period (1/Ω)", "")
+        rows.append((named(curve.kind), curve.subject, *ends, stops, virtual))
+        styles.append("dim" if virtual == "virtual" else "")
+    yield "Curves", ("bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "possible"), rows, styles
+    rows = []
     for point in found.codimension2:
-        kinds = " + ".join(map(named, point.kinds))
-        period = "" if point.period != point.period else f"{point.period:.6g}"
-        table.add_row(
-            kinds,
-            *(f"{value:.8g}" for value in _usual(found, point.value)),
-            period,
-            "" if point.admissible else "virtual",
-        )
-    yield table
-    headings = ("#", "share", f"for example at {', '.join(names)}", "region", "motions")
-    table = plain_table("Regions", *headings, no_wrap=headings[:2])
+        scales = found.plane.at(found.model.parameters, *point.value).scales
+        period = "" if point.period != point.period else told(point.period, "time", scales, 6)
+        place = (f"{value:.8g}" for value in _usual(found, point.value))
+        rows.append((" + ".join(map(named, point.kinds)), *place, period, "" if point.admissible else "virtual"))
+    yield "Where two happen at once, and resonances", ("kinds", *names, "period", "possible"), rows, []
+    rows = []
     for number, region in enumerate(found.regions, start=1):
         share = f"{100 * region.share:.1f} %" if region.share else "thin"
         own = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
-        table.add_row(str(number), share, _place(found, region.point), region.motions.region, own)
-    yield table
-    at = f"at {', '.join(names)}"
-    table = plain_table("Changes of motions on no curve found", at, "what changes", "why no curve")
-    for change in found.unexplained:
-        table.add_row(_place(found, change.point), change.words, change.reason)
-    yield table
+        rows.append((str(number), share, _place(found, region.point), region.motions.region, own))
+    yield "Regions", ("#", "share", f"for example {at}", "region", "motions"), rows, []
+    rows = [(_place(found, change.point), change.words, change.reason) for change in found.unexplained]
+    yield "Changes of motions on no curve found", (at, "what changes", "why no curve"), rows, []
 
 
 def _place(found: RegionMap, point: Sequence[float]) -> str:
@@ -146,7 +133,7 @@ def _usual(found: RegionMap, point: Sequence[float]) -> list[float]:
     return [axis.field.in_usual_unit(value) for axis, value in zip(found.axes, point, strict=True)]
 
 
-def _quantity(varied: Axis) -> str:
+def quantity(varied: Axis) -> str:
     """Return the name of a parameter with its unit."""
     return f"{varied.name} ({varied.field.usual_unit})" if varied.field.usual_unit else varied.name
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from carom.base.outcome import STEADY_WORDS, InputError
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -42,9 +42,7 @@ def response(
     separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor touches, the synchronous rubs that are possible are shown too.  Stiffness
     and damping are the same at every speed.
     """
-    from carom.loading import load
-
-    case = load(machine, settings or ())
+    case = read_machine(machine, settings)
     interval, run = _read(case, start, end, operating)
     check_output(out)
     with progress("response over speed") as tell:
@@ -56,18 +54,8 @@ def response(
         tell(0.3, "response over speed")
         echo = echo_of_unbalance(rotor_of(case).value("rho"), found.interval, found.scales)
         document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
-        if out is not None:
-            tell(0.4, "drawing")
-            with output_directory(out, case) as output:
-                figure = found.plot()
-                tell(0.7, "writing")
-                output.figure("response", figure)
-                output.document("response", document)
-    if as_json:
-        print_document(document)
-    else:
-        _print(found, echo, out)
-    say_where(out)
+        write_output(out, case, "response", document, {"response": found.plot}, tell=tell.part(0.4, 1.0))
+    hand_over(out, document, as_json, lambda: _print(found, echo, out))
 
 
 def _read(
@@ -91,7 +79,7 @@ def _read(
 
 
 def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
     from carom.studies.response_words import rpm
 
     screen = console()
@@ -102,8 +90,7 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
         screen.print(sentence)
     screen.print()
     _print_bearings(screen, found)
-    columns = ("from", "to", STEADY_WORDS["contact-free"], f"{STEADY_WORDS['rub']}s", STEADY_WORDS["rolling"])
-    table = plain_table("Steady motions over speed", *columns, right=("from", "to"), no_wrap=("from", "to"))
+    columns, rows = ("from", "to", STEADY_WORDS["contact-free"], f"{STEADY_WORDS['rub']}s", STEADY_WORDS["rolling"]), []
     for stretch in found.stretches:
         steady = stretch.what
         kinds = {"stable": steady.stable_rubs, "unstable": steady.unstable_rubs}
@@ -111,10 +98,9 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
         rubs = "not known" if steady.stable_rubs is None else rubs
         free = "possible" if steady.contact_free else "virtual: the rotor touches"
         rolls = "not known" if steady.rolls is None else "holds" if steady.rolls else "does not hold"
-        table.add_row(rpm(stretch.low), rpm(stretch.high), free, rubs, rolls)
-    screen.print(fitted(screen, table))
+        rows.append((rpm(stretch.low), rpm(stretch.high), free, rubs, rolls))
+    print_table(screen, "Steady motions over speed", columns, rows)
     if out is None:
-        screen.print()
         screen.print("Figure and response.json: add --out DIR")
 
 
@@ -122,21 +108,17 @@ def _print_bearings(screen: Console, found: UnbalanceResponse) -> None:
     """Print the whirl at each touchdown bearing at the present speed."""
     import numpy as np
 
-    from carom.cli.fitting import fitted, plain_table
+    from carom.cli.fitting import print_table
     from carom.parameters.told import number
     from carom.studies.response_words import micrometres, rpm
 
     now = found.now
-    amplitude, columns = (
-        "amplitude, 0-to-peak",
-        ("touchdown bearing", "forward", "backward", "sag", "share of clearance", "lag"),
-    )
-    names = (columns[0], amplitude, *columns[1:])
-    table = plain_table(f"At {rpm(found.present)}", *names, right=names)
+    columns = ("touchdown bearing", "amplitude, 0-to-peak", "forward", "backward", "sag", "share of clearance", "lag")
+    rows = []
     parts = (now.touchdowns.major, np.abs(now.touchdowns.forward), np.abs(now.touchdowns.backward))
     for place in range(len(now.clearances)):
         sizes = (micrometres(float(each[0, place])) for each in parts)
         share = f"{number(100.0 * float(now.reach[0, place]), 3)} %"
         lag = f"{number(float(np.degrees(now.lags[0, place])), 3)}°"
-        table.add_row(str(place + 1), *sizes, micrometres(float(now.sags[place])), share, lag)
-    screen.print(fitted(screen, table))
+        rows.append((str(place + 1), *sizes, micrometres(float(now.sags[place])), share, lag))
+    print_table(screen, f"At {rpm(found.present)}", columns, rows)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over, write_output
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
-    from carom.base.progress import Reporter
+    from matplotlib.figure import Figure
+
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
 
@@ -46,9 +49,8 @@ def simulate(
     from carom.cli import logs
     from carom.cli.beginnings import one_of, released
     from carom.cli.starts import read_time
-    from carom.loading import load
 
-    case = load(machine, settings or ())
+    case = read_machine(machine, settings)
     check_output(out)
     for name, path in (("--csv", csv), ("--netcdf", netcdf)):
         if path is not None:
@@ -77,10 +79,10 @@ def simulate(
         document = {"disturbance": echo.document(case.parameters.scales), **_document(case, motion)}
         document |= {name: found.document() for name, found in known.items()}
         if out is not None:
-            _write(out, case, motion, document, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
-    if as_json:
-        print_document(document)
-    else:
+            figures = _figures(case, motion, decaying=end is None)
+            write_output(out, case, "simulation", document, figures, tell=tell.part(0.4, 1.0, "drawing"))
+
+    def show() -> None:
         from carom.cli.motion_tables import print_parts
 
         console().print(f"{echo.words}.")
@@ -88,7 +90,8 @@ def simulate(
         for words in filter(None, (found.words for found in known.values())):
             console().print()
             console().print(words)
-    say_where(out)
+
+    hand_over(out, document, as_json, show)
 
 
 def _document(case: Case, motion: Trajectory) -> dict[str, Any]:
@@ -105,10 +108,8 @@ def _document(case: Case, motion: Trajectory) -> dict[str, Any]:
     return document
 
 
-def _write(
-    out: str, case: Case, motion: Trajectory, document: dict[str, Any], tell: Reporter, *, decaying: bool
-) -> None:
-    """Write the path, its touchdown over time if there is a contact, and the document.
+def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> dict[str, Callable[[], Figure]]:
+    """The path of each stage at each touchdown bearing, and its touchdown over time if there is a contact, by their names.
 
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
     """
@@ -116,21 +117,20 @@ def _write(
     from carom.motions.ledger import energy_ledger
     from carom.plots.words import contacts_in_words
 
-    with output_directory(out, case) as output:
-        for place, part in enumerate(motion.parts):
-            tell(place / len(motion.parts))
-            whole, ends = _shown(part) if decaying else (part, "")
-            for number, shown in enumerate(whole.at_each):
-                tell((place + (number + 0.5) / len(whole.at_each)) / len(motion.parts))
-                mark = f"-{place + 1}" if place else ""
-                mark += f"-bearing-{shown.plane + 1}" if len(whole.at_each) > 1 else ""
-                title = f"{contacts_in_words(shown)} \N{EM DASH} {ends}" if ends else None
-                output.figure(f"motion{mark}", plots.motion(shown, title=title))
-                touched = len(shown.contacts) or shown.lasting_contacts
+    figures: dict[str, Callable[[], Figure]] = {}
+    for place, part in enumerate(motion.parts):
+        whole, ends = _shown(part) if decaying else (part, "")
+        for shown in whole.at_each:
+            mark = f"-{place + 1}" if place else ""
+            mark += f"-bearing-{shown.plane + 1}" if len(whole.at_each) > 1 else ""
+            title = f"{contacts_in_words(shown)} \N{EM DASH} {ends}" if ends else None
+            figures[f"motion{mark}"] = partial(plots.motion, shown, title=title)
+            if len(shown.contacts) or shown.lasting_contacts:
                 ledger = None if shown.begins else energy_ledger(shown)  # of one stage
-                over_time = plots.touchdown(shown, ledger) if touched else plots.radius(shown, case.zones)
-                output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)
-        output.document("simulation", document)
+                figures[f"touchdown{mark}"] = partial(plots.touchdown, shown, ledger)
+            else:
+                figures[f"radius{mark}"] = partial(plots.radius, shown, case.zones)
+    return figures
 
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str]:

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.base.outcome import InputError, together
-from carom.disturbances.single import split_text
+from carom.disturbances.single import Single, read_single, split_text
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     Case,
@@ -58,7 +58,6 @@ def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> Sta
 def read_kick(text: str, scales: Scales | None) -> Kick:
     """Read ``SPEED`` or ``SPEED,ANGLE``: a velocity kick out of levitation, co-rotating frame."""
     from carom.disturbances import VelocityKick
-    from carom.disturbances.single import read_single
     from carom.motions.starts import Kick
 
     return Kick(*read_single(VelocityKick, text, scales, "--kick").values)
@@ -102,8 +101,21 @@ def _size(option: str, text: str, kind: str, scales: Scales | None) -> float:
     return read_size(option, text, kind, scales, bare=False).own(scales)
 
 
+def read_all_around(option: str, text: str, scales: Scales | None) -> Single:
+    """Read a kick, a shock or a loss of a blade of which all directions are meant, by its option."""
+    from carom.disturbances import MODELS
+
+    single = read_single(MODELS[option.removeprefix("--")], text, scales, option)
+    if single.values[-1]:
+        raise InputError(option, text, "must be without an angle: all directions are tried")
+    return single
+
+
 def with_requirement(case: Case, **given: str | int | None) -> Case:
     """Return the case with what ``--kick``, ``--shock`` and ``--blade-loss`` state in place of what its file states."""
+    if (loss := given.get("blade_loss")) is not None:
+        node = getattr(read_all_around("--blade-loss", str(loss), case.parameters.scales).model, "node", None)
+        given |= {"blade_loss": split_text("--blade-loss", str(loss), (1, 2, 3), "")[0], "blade_loss_node": node}
     try:
         return replace(case, requirement=case.requirement.changed_by(Requirement.of(case, **given)))
     except InputError as problem:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.terminal import check_output, console, print_document, progress, read_machine
 
 KICK = option("SPEED", "A velocity kick that the machine must survive, such as '100 mm/s'.")
 SHOCK = option(
     "PEAK,DURATION", "A half-sine shock of the base that it must survive, such as '5 g, 11 ms'; 11 ms if left out."
 )
 BLADE_LOSS = option(
-    "CHANGE",
-    "A loss of a blade that it must survive: by how much it changes the unbalance, such as '2000 g mm', or the eccentricity; at any phase.",
+    "CHANGE[,0,NODE]",
+    "A loss of a blade that it must survive, at any phase: by how much it changes the unbalance, such as '2000 g mm', or the eccentricity; of a "
+    "flexible machine at a node: '2000 g mm, 0, 7'.",
 )
-NODE = option("NODE", "The node of a flexible machine at which the blade is lost.")
 OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
 PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")
 ALONG = option(
@@ -27,6 +27,9 @@ TIME_LIMIT = option(
     "Follow no further motions after T, such as '2 min', and say what was not reached; with --prove it also ends the proof of kicks, by "
     "default after 30 s.",
 )
+LONG = flag(
+    "--long", "Print all that was found and the table of motions too, not the verdict and the recommendation alone."
+)
 
 
 def study(
@@ -35,11 +38,11 @@ def study(
     kick: str | None = KICK,
     shock: str | None = SHOCK,
     blade_loss: str | None = BLADE_LOSS,
-    blade_loss_node: int | None = NODE,
     out: str | None = OUT,
     prove: bool = PROVE,
     along: list[str] | None = ALONG,
     time_limit: str | None = TIME_LIMIT,
+    long: bool = LONG,
     as_json: bool = options.AS_JSON,
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
@@ -50,11 +53,8 @@ def study(
     --out it also writes figures, study.json and report.html.
     """
     from carom.cli.starts import with_requirement
-    from carom.loading import load
 
-    case = with_requirement(
-        load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss, blade_loss_node=blade_loss_node
-    )
+    case = with_requirement(read_machine(machine, settings), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:
         check_output(out)
         from carom.studies import study as study_case
@@ -74,4 +74,4 @@ def study(
         return
     from carom.cli.tables import print_study
 
-    print_study(console(), result, report)
+    print_study(console(), result, report, long)

@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.base.outcome import Outcome
-from carom.cli.fitting import fitted, plain_table
+from carom.cli.fitting import print_table
 from carom.parameters.told import number
 from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
@@ -59,20 +59,21 @@ _LEVELS = {
 }
 
 
-def print_study(console: Console, study: Study, report: Path | None) -> None:
-    """Print the verdict, all facts and the motions of a study."""
+def print_study(console: Console, study: Study, report: Path | None, long: bool) -> None:
+    """Print the verdict and the recommendation of a study; if it is to be ``long``, all facts and the motions too."""
     verdict = study.verdict
     headline = Text(f"{study.case.name}: {verdict.lead}", style=_LEVELS[verdict.level])
     console.print(headline, width=min(console.width, TEXT_WIDTH))
     _print_facts(console, study, "Verdict", "What it survives")
     _print_facts(console, study, "Recommendation", "Recommendation")
-    _print_topics(console, study)
+    if long:
+        _print_topics(console, study)
+        console.print()
+        print_motions(console, "Motions", motion_rows(study))
+        _print_left_out(console, study.orbits)
     console.print()
-    console.print(Text("For a closer look", style="bold"))
-    console.print()
-    console.print(fitted(console, _motions(motion_rows(study), "Motions", console.width)))
-    _print_left_out(console, study.orbits)
-    console.print()
+    if not long:
+        console.print("All that was found, and the table of motions: --long")
     if report is None:
         console.print("Figures, study.json and report.html: add --out DIR")
     else:
@@ -132,10 +133,9 @@ def print_orbits(
         rows.append(MotionRow(f"{name}; {ends}", "undecided", size=size, force=say.force(whirl.normal_force)))
     exact = rotor.has_closed_forms
     title = "Equilibria and orbits with one impact a period" if exact else "Steady motions"
-    console.print(fitted(console, _motions(rows, title, console.width)))
+    print_motions(console, title, rows)
     _print_left_out(console, orbits, most_virtual=40)
     _print_numbers(console, [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS])
-    console.print()
     console.print(orbits.argument if exact else f"{_why_only(rotor)} Orbits with impacts are searched by --impacts N.")
 
 
@@ -158,19 +158,17 @@ def _frequency(speed: float, scales: Scales | None) -> str:
 def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
     """Print the orbits with at most a number of impacts."""
     _print_head(console, case, found.rotor)
-    if len(found):
-        title = f"Orbits with at most {counted(found.impacts, 'impact')} a period"
-        motions = plain_table(title, "orbit", "period", "state", "word", no_wrap=("orbit", "period"))
-        say = Wording(case.parameters.scales)
-        for orbit in found:
-            state = "stable" if orbit.stable else "unstable"
-            turns = "" if orbit.turns is None else f", {counted(orbit.turns, 'turn')}"
-            motions.add_row(orbit.name, f"{say.time(orbit.period)}{turns}", state, orbit.segments)
-        console.print(fitted(console, motions))
+    title = f"Orbits with at most {counted(found.impacts, 'impact')} a period"
+    say, rows = Wording(case.parameters.scales), []
+    for orbit in found:
+        turns = "" if orbit.turns is None else f", {counted(orbit.turns, 'turn')}"
+        state = "stable" if orbit.stable else "unstable"
+        rows.append((orbit.name, f"{say.time(orbit.period)}{turns}", state, orbit.segments))
+    if rows:
+        print_table(console, title, ("orbit", "period", "state", "word"), rows)
     else:
         console.print(f"No orbit with at most {counted(found.impacts, 'impact')} a period was found.")
     _print_numbers(console, list(found))
-    console.print()
     console.print(found.argument)
 
 
@@ -184,33 +182,25 @@ def _print_head(console: Console, case: Case, rotor: Rotor) -> None:
 
 def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
     """Print states and multipliers of orbits."""
-    if shown:
-        columns, size = ("period T", "ṙ", "θ", "θ̇"), "largest modulus"
-        title = "Orbits in the units of the equations, just before the first impact"
-        values = plain_table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
-        title = "Multipliers: a small disturbance is multiplied by these in a period"
-        multipliers = plain_table(title, "orbit", size, "multipliers", right=[size])
-        for orbit in shown:
-            style = "" if orbit.admissible else "dim"
-            numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
-            values.add_row(orbit.name, *(f"{value:.10g}" for value in numbers), style=style)
-            factors = "   ".join(map(complex_words, orbit.multipliers.values))
-            multipliers.add_row(orbit.name, f"{orbit.multipliers.spectral_radius:.6g}", factors, style=style)
-        for table in (values, multipliers):
-            console.print()
-            console.print(fitted(console, table))
+    if not shown:
+        return
+    styles = ["" if orbit.admissible else "dim" for orbit in shown]
+    names = {"period T": "period", "ṙ": "radial_speed", "θ": "angle", "θ̇": "angular_speed"}
+    rows = [(orbit.name, *(f"{getattr(orbit, name):.10g}" for name in names.values())) for orbit in shown]
+    title = "Orbits in the units of the equations, just before the first impact"
+    print_table(console, title, ("orbit", *names), rows, styles=styles)
+    factors = [(each.multipliers.spectral_radius, map(complex_words, each.multipliers.values)) for each in shown]
+    rows = [(each.name, f"{most:.6g}", "   ".join(all_)) for each, (most, all_) in zip(shown, factors, strict=True)]
+    title = "Multipliers: a small disturbance is multiplied by these in a period"
+    print_table(console, title, ("orbit", "largest modulus", "multipliers"), rows, styles=styles)
 
 
-def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
-    table = plain_table(title)
-    if width < NARROW and all(row.state != "not possible" for row in rows):
+def print_motions(console: Console, title: str, rows: Sequence[MotionRow]) -> None:
+    """Print a table of motions; of a narrow screen remarks are left out, unless a motion is not possible."""
+    if console.width < NARROW and all(row.state != "not possible" for row in rows):
         rows = [dataclasses.replace(row, remark="") for row in rows]
-    used = [name for name in MOTION_COLUMNS if any(getattr(row, name) for row in rows)]
-    for name in used:
-        table.add_column(MOTION_COLUMNS[name], no_wrap=name in ("state", "period", "impulse", "trials"))
-    for row in rows:
-        table.add_row(*(Text(getattr(row, name)) for name in used), style=_STYLES[row.state])
-    return table
+    cells = [[getattr(row, name) for name in MOTION_COLUMNS] for row in rows]
+    print_table(console, title, list(MOTION_COLUMNS.values()), cells, styles=[_STYLES[row.state] for row in rows])
 
 
 def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -> None:

@@ -13,6 +13,8 @@ from carom.base.progress import Reporter, bar
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from carom.parameters import Case
+
 WIDTH = 80
 """Width of texts and tables, in columns, if the output is no terminal and ``COLUMNS`` is not set."""
 
@@ -58,3 +60,11 @@ def progress(step: str) -> Iterator[Reporter]:
         return
     with bar(step, console(errors=True)) as shown:
         yield shown
+
+
+def read_machine(machine: str, settings: list[str] | None) -> Case:
+    """Load a machine file with the settings of ``--set``; of a flexible machine this takes seconds."""
+    with progress("reading the machine"):
+        from carom.loading import load
+
+        return load(machine, settings or ())

@@ -22,9 +22,9 @@ NUMBERED = "touchdown bearing, counted from 1"
 """What a table says of the column that names the bearing: people count from 1, indices of arrays (``plane``) count from 0."""
 
 
-def column(quantity: str, words: str) -> Any:
-    """Field of a table: a property of :class:`~carom.parameters.Scales`, or a unit where it needs none; and words."""
-    return field(metadata={"quantity": quantity, "words": words})
+def column(quantity: str, words: str, heading: str = "") -> Any:
+    """Field of a table: a property of :class:`~carom.parameters.Scales`, or a unit where it needs none; words; and what heads it in a terminal, if it is there."""
+    return field(metadata={"quantity": quantity, "words": words, "heading": heading})
 
 
 def in_units(
@@ -72,7 +72,10 @@ class Table(Result):
 
         columns = self.columns.items()
         dataset = xarray.Dataset(
-            {name: in_units(self.dimension, getattr(self, name), **one, scales=self.scales) for name, one in columns}
+            {
+                name: in_units(self.dimension, getattr(self, name), one["quantity"], one["words"], self.scales)
+                for name, one in columns
+            }
         )
         if "phase" in dataset:
             del dataset["phase"].attrs["units"]

@@ -60,8 +60,8 @@ def shown_in(kind: str, scales: Scales | None) -> tuple[float, str]:
 
 
 def shown_from_si(unit: str) -> tuple[float, str]:
-    """Return the unit in which people are told a length, speed or acceleration given in an SI unit, and by what to multiply it."""
-    kinds = {UNITS[kind][1]: kind for kind in ("length", "velocity", "acceleration")}
+    """Return the unit in which people are told a length, time, speed or acceleration given in an SI unit, and by what to multiply it."""
+    kinds = {UNITS[kind][1]: kind for kind in ("length", "time", "velocity", "acceleration")}
     return _SHOWN[kinds[unit]] if unit in kinds else (1.0, unit)
 
 

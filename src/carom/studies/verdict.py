@@ -20,7 +20,7 @@ from carom.studies.kinds import LABELS, Kind, required_kinds
 from carom.studies.proven import proven_kicks_document
 from carom.studies.study_data import StudyData
 from carom.studies.survives import decides
-from carom.studies.wording import listed
+from carom.studies.wording import Wording, listed
 
 Level = Literal["no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"]
 NEARLY_ALL = 0.95
@@ -115,17 +115,23 @@ def _required_words(study: StudyData) -> str:
 
 def survived_cells(study: StudyData, name: Kind, found: SmallestLoss) -> dict[str, str]:
     """What of one kind of disturbance is survived, by :data:`SURVIVED`; what is not known is left out."""
-    size, cells = study.wording.size_of(name), {}
-    if found.harmless > 0.0:
-        cells["untouched"] = f"{size(found.harmless)} (proven)"
+    cells = size_cells(study.wording, found, lost_to(study, name, found))
     if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
         cells["sure"] = f"{study.kicks.told_up_to} (proven)"
+    return {column: cells[column] for column in SURVIVED if column in cells}
+
+
+def size_cells(wording: Wording, found: SmallestLoss, *remarks: str) -> dict[str, str]:
+    """Sizes of one kind of disturbance up to which it is survived, by :data:`SURVIVED`; remarks stand behind the smallest that is not."""
+    name, cells = found.kind.replace("-", "_"), {}
+    size = wording.size_of(name)
+    if found.harmless > 0.0:
+        cells["untouched"] = f"{size(found.harmless)} (proven)"
     none = found.size is None and found.complete
     if (up_to := found.largest if none else found.all_back) is not None:
         most = "; with more it cannot levitate" if none and name == "blade_loss" else ""
         cells["back"] = f"{size(up_to)} ({found.tried:,} tried{most})"
-    remarks = [lost_to(study, name, found), found.sensitivity, "" if found.complete else "not searched to the end"]
-    told = "; ".join(filter(None, remarks))
+    told = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "not searched to the end")))
     if found.size is not None:
         cells["lost"] = f"{size(found.size)} ({told})"
     elif not found.complete:
