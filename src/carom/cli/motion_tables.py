@@ -147,7 +147,7 @@ def _print_contacts(console: Console, motion: Trajectory) -> None:
         note = f"… {number(hidden, 12)} more: --csv FILE has all"
         rows = [*rows[:FIRST_EVENTS], {"kind": "…"}, *rows[-LAST_EVENTS:]]
     cells = [_contact_cells(motion, row, {name: shown[name][0] for name in headings}) for row in rows]
-    heads = [f"{heading}, {shown[name][1]}".removesuffix(", 1") for name, heading in headings.items()]
+    heads = [f"{heading} ({shown[name][1]})".removesuffix(" (1)") for name, heading in headings.items()]
     print_table(console, "Contacts", ("contact", *heads, "whirl"), cells, note=note)
 
 
