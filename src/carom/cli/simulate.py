@@ -13,8 +13,6 @@ from carom.cli.output import hand_over, write_output
 from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
 
@@ -108,7 +106,7 @@ def _document(case: Case, motion: Trajectory) -> dict[str, Any]:
     return document
 
 
-def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> dict[str, Callable[[], Figure]]:
+def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> dict[str, Callable[[], Any]]:
     """The path of each stage at each touchdown bearing, and its touchdown over time if there is a contact, by their names.
 
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
@@ -117,7 +115,7 @@ def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> dict[str, Cal
     from carom.motions.ledger import energy_ledger
     from carom.plots.words import contacts_in_words
 
-    figures: dict[str, Callable[[], Figure]] = {}
+    figures: dict[str, Callable[[], Any]] = {}
     for place, part in enumerate(motion.parts):
         whole, ends = _shown(part) if decaying else (part, "")
         for shown in whole.at_each:
