@@ -1,7 +1,10 @@
 """Bad input: one line that names the field, the value and what is allowed; exit code 2; nothing written."""
 
 import json
+import sys
+import time
 import warnings
+import weakref
 from pathlib import Path
 
 import pytest
@@ -463,6 +466,27 @@ def test_interrupt(monkeypatch, carom, machine):
     monkeypatch.setattr("carom.loading.load", _raise(KeyboardInterrupt))
 
     assert carom("study", machine) == (INTERRUPTED, "", "carom: interrupted\n")
+
+
+def test_interrupt_in_a_place_that_hands_nothing_on(monkeypatch, carom, machine):
+    """Python ignores what is raised in the callback of a weak reference."""
+
+    def interrupted(*_):
+        class Thing:
+            pass
+
+        thing = Thing()
+        reference = weakref.ref(thing, _raise(KeyboardInterrupt))
+        del thing
+        for _ in range(2000):
+            time.sleep(0.01)
+        return reference
+
+    monkeypatch.setattr("carom.loading.load", interrupted)
+    hook = sys.unraisablehook
+
+    assert carom("study", machine)[:2] == (INTERRUPTED, "")
+    assert sys.unraisablehook is hook
 
 
 def test_file_system_error_is_one_line(monkeypatch, carom, machine):

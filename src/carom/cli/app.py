@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import io
 import json
 import math
@@ -12,9 +13,10 @@ import threading
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, TextIO
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -22,6 +24,8 @@ from carom.base.outcome import CaromError, CaromWarning, InputError, printable, 
 from carom.cli.terminal import InterruptionError
 
 FAILURE, BAD_INPUT, INTERRUPTED, TERMINATED = 1, 2, 130, 143
+AGAIN = 0.01
+"""Seconds after which a lost interrupt is raised again."""
 
 # The error of a wrong option or argument; different versions of typer keep click in different places.
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
@@ -94,7 +98,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
-        with _warnings_on_one_line(), _ended_in_order():
+        with _lost_interrupts_repeated(), _warnings_on_one_line(), _ended_in_order():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
     except BrokenPipeError:
@@ -106,7 +110,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if code != INTERRUPTED:  # caught by typer, which prints nothing
             return code if isinstance(code, int) else 0
         failure = Failure(INTERRUPTED, "interrupted")
-    told = _report(failure, as_json="--json" in words)
+    told = failure.tell(as_json="--json" in words)
     if told == TERMINATED:
         # A thread that is still in a kernel would come back to an interpreter that is gone, and abort the process.
         _discard_unwritten_output()
@@ -114,28 +118,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return told
 
 
-class Failure(NamedTuple):
+@dataclass(frozen=True)
+class Failure:
     """Why a command did not succeed, its exit code, and the errors of the input if it was refused."""
 
     code: int
     message: str
     errors: tuple[InputError, ...] = ()
 
-
-def _report(failure: Failure, as_json: bool) -> int:
-    """Print each error on its own line of the error stream, and with ``--json`` one object too; return the exit code."""
-    for line in failure.message.split("\n") if failure.errors else [failure.message]:
-        _complain(line)
-    if as_json:
-        nothing = dict.fromkeys(("field", "value", "allowed", "message"))
-        entries = [_entry(error) for error in failure.errors] or [nothing | {"message": _on_one_line(failure.message)}]
-        error = entries[0] | {"code": failure.code}
-        document = {"error": error} if len(entries) == 1 else {"error": error, "errors": entries}
-        try:
-            print(json.dumps(document, indent=2), flush=True)  # noqa: T201
-        except OSError:
-            _close_quietly(sys.stdout)
-    return failure.code
+    def tell(self, as_json: bool) -> int:
+        """Print each error on its own line of the error stream, and with ``--json`` one object too; return the exit code."""
+        lines = self.message.split("\n") if self.errors else [self.message]
+        for line in lines:
+            _complain(line)
+        if as_json:
+            entries = [_entry(error) for error in self.errors] or [{"message": _on_one_line(self.message)}]
+            nothing = dict.fromkeys(("field", "value", "allowed", "message"))
+            error = nothing | entries[0] | {"code": self.code}
+            document = {"error": error} if len(entries) == 1 else {"error": error, "errors": entries}
+            try:
+                print(json.dumps(document, indent=2), flush=True)  # noqa: T201
+            except OSError:
+                _close_quietly(sys.stdout)
+        return self.code
 
 
 def _entry(error: InputError) -> dict[str, Any]:
@@ -168,6 +173,26 @@ def _failure_of(problem: BaseException) -> Failure:
         raise cause or problem
     name = type(cause).__name__
     return Failure(FAILURE, f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {cause}")
+
+
+@contextmanager
+def _lost_interrupts_repeated() -> Iterator[None]:
+    """Repeat an interrupt that Python cannot propagate: in finalizers and callbacks of weak references."""
+    usual = sys.unraisablehook
+
+    def told(lost: sys.UnraisableHookArgs) -> None:
+        if not issubclass(lost.exc_type, KeyboardInterrupt):
+            usual(lost)
+            return
+        again = threading.Timer(AGAIN, _thread.interrupt_main)
+        again.daemon = True
+        again.start()
+
+    sys.unraisablehook = told
+    try:
+        yield
+    finally:
+        sys.unraisablehook = usual
 
 
 @contextmanager
