@@ -159,24 +159,6 @@ def test_no_bar_appears_where_it_is_not_wanted_or_not_seen(why, terminal, monkey
     assert terminal.getvalue() == ""
 
 
-def test_in_a_notebook_the_bar_is_an_output_that_ends_empty(monkeypatch, terminal):
-    drawn = []
-
-    def display(data, **_):
-        drawn.append(data)
-        return SimpleNamespace(update=lambda data, **_: drawn.append(data))
-
-    shell = SimpleNamespace(kernel=object())
-    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
-    monkeypatch.setitem(sys.modules, "IPython.display", SimpleNamespace(display=display))
-    monkeypatch.setattr(carom.base.progress, "_PAUSE", 0.0)
-    outer()
-    assert [data["text/plain"] for data in drawn] == ["", "outer", "50 %: the whole", ""]
-    assert drawn[2]["text/html"] == "<progress value='0.5000' max='1'></progress> 50 %: the whole"
-    assert drawn[-1]["text/html"] == ""
-    assert terminal.getvalue() == ""
-
-
 @pytest.mark.parametrize("wish", [None, False])
 def test_nothing_is_shown_unless_someone_watches(wish, capfd):
     carom.settle(PAPER, [0.1], [0.3], progress=wish)

@@ -5,8 +5,8 @@
 >>> orbits = cm.find_orbits(machine)
 >>> motion = cm.simulate(machine, cm.kick(0.4, angle=0.2), 400.0)
 
-Each verb takes a machine, a case, parameters or a model.  Where one takes more than two seconds, a bar appears in terminals
-and notebooks; ``progress=False`` prevents it, and a callable receives each :class:`~carom.base.progress.Progress`.  What is more
+Each verb takes a machine, a case, parameters or a model.  Where one takes more than two seconds, a bar appears in a terminal;
+``progress=False`` prevents it, and a callable receives each :class:`~carom.base.progress.Progress`.  What is more
 special lives in the packages: ``cm.disturbances``, ``cm.basins``, ``cm.bifurcations``, ``cm.closed_forms``, ``cm.plots`` and so on.
 
 Names and packages are loaded when they are first used, so ``import carom`` stays light.  The file ``__init__.pyi`` beside

@@ -11,7 +11,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import wraps
-from html import escape
 from multiprocessing import current_process
 from threading import Timer
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
@@ -27,8 +26,6 @@ PATIENCE = 0.7
 """Seconds before a bar appears that was asked for."""
 LONG = 2.0
 """Seconds before one appears that was not."""
-_PAUSE = 0.1
-"""Seconds between two changes of a bar in a notebook."""
 _CLOCK = len("0:00:00")
 _SETTLED = 1.0
 """Seconds after which a rate means something."""
@@ -96,9 +93,9 @@ _inside: ContextVar[bool] = ContextVar("carom_progress", default=False)
 
 
 def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
-    """Let a function show a bar on the error stream, or in the notebook: with ``progress=True``, and by itself if it takes long.
+    """Let a function show a bar on the error stream: with ``progress=True``, and by itself if it takes long.
 
-    By itself it does so where someone watches: in a notebook, or if the error stream is a terminal.  ``progress=False`` prevents
+    By itself it does so where someone watches: if the error stream is a terminal.  ``progress=False`` prevents
     it, and ``CAROM_PROGRESS=0`` in the environment does for all functions.
     """
 
@@ -122,25 +119,18 @@ def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, 
 def _watched() -> bool:
     """Whether someone sees a bar that was not asked for: nobody does in other threads and processes, and where output is piped."""
     # Asked before each call of a function that takes long at most: what is quickly told comes first.
-    if _inside.get() or not (_in_notebook() or (sys.stderr is not None and sys.stderr.isatty())):
+    if _inside.get() or sys.stderr is None or not sys.stderr.isatty():
         return False
     if os.environ.get("CAROM_PROGRESS") == "0":
         return False
     return current_process().name == "MainProcess" and threading.current_thread() is threading.main_thread()
 
 
-def _in_notebook() -> bool:
-    """Whether this is the kernel of a notebook."""
-    library = sys.modules.get("IPython")
-    shell = None if library is None else library.get_ipython()
-    return getattr(shell, "kernel", None) is not None
-
-
 @contextmanager
 def bar(step: str, console: Console | None = None, patience: float | None = None) -> Iterator[Reporter]:
     """Show a bar that appears if the work takes longer than a moment; the reporter moves it, and at the end it vanishes.
 
-    `step` is the first step, in words.  By default the console is the error stream, or the notebook.
+    `step` is the first step, in words.  By default the console is the error stream.
     """
     late = _LateBar(step, console, PATIENCE if patience is None else patience)
     before = _inside.set(True)
@@ -157,7 +147,7 @@ class _LateBar:
     def __init__(self, step: str, console: Console | None, patience: float) -> None:
         self._newest, self._console, self._began = Progress(0.0, step), console, time.monotonic()
         self._lock, self._ended = threading.Lock(), False
-        self._shown: _Terminal | _Notebook | None = None
+        self._shown: rich.progress.Progress | None = None
         self._timer = Timer(patience, self._appear)
         self._timer.daemon = True
         self._timer.start()
@@ -165,60 +155,28 @@ class _LateBar:
     def _appear(self) -> None:
         with self._lock:
             if not self._ended:
-                notebook = self._console is None and _in_notebook()
-                self._shown = _Notebook(self._began) if notebook else _Terminal(self._began, self._console)
-                self._shown.show(self._newest)
+                self._shown = _bar(self._console)
+                self._shown.add_task("", total=1.0)
+                self._shown.tasks[0].start_time = self._began
+                self._shown.start()
+                self._show()
+
+    def _show(self) -> None:
+        if self._shown is not None:
+            task, report = self._shown.tasks[0].id, self._newest
+            self._shown.update(task, completed=report.share, description=report.step)
 
     def tell(self, report: Progress) -> None:
         with self._lock:
             self._newest = report
-            if self._shown is not None:
-                self._shown.show(report)
+            self._show()
 
     def end(self) -> None:
         self._timer.cancel()
         with self._lock:
             self._ended = True
             if self._shown is not None:
-                self._shown.close()
-
-
-class _Terminal:
-    """A bar in the last line of a terminal."""
-
-    def __init__(self, began: float, console: Console | None) -> None:
-        self._bar = _bar(console)
-        self._task = self._bar.add_task("", total=1.0)
-        self._bar.tasks[0].start_time = began
-        self._bar.start()
-
-    def show(self, report: Progress) -> None:
-        self._bar.update(self._task, completed=report.share, description=report.step)
-
-    def close(self) -> None:
-        self._bar.stop()
-
-
-class _Notebook:
-    """A bar below a cell, which needs no widgets."""
-
-    def __init__(self, began: float) -> None:
-        from IPython.display import display
-
-        self._began, self._drawn = began, 0.0
-        self._place = display({"text/plain": ""}, raw=True, display_id=True)
-
-    def show(self, report: Progress) -> None:
-        now = time.monotonic()
-        if now - self._drawn < _PAUSE:
-            return
-        self._drawn = now
-        words = _told(report.share, now - self._began, report.step)
-        html = f"<progress value='{report.share:.4f}' max='1'></progress> {escape(words)}"
-        self._place.update({"text/plain": words, "text/html": html}, raw=True)
-
-    def close(self) -> None:
-        self._place.update({"text/plain": "", "text/html": ""}, raw=True)
+                self._shown.stop()
 
 
 def _bar(console: Console | None) -> rich.progress.Progress:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, fields
-from html import escape
 from pathlib import Path
-from urllib.parse import quote
 
 
 @dataclass(frozen=True)
@@ -85,20 +83,6 @@ class Citations:
 
     def __repr__(self) -> str:
         return self.text
-
-    def _repr_html_(self) -> str:
-        """For notebooks: the references with their links, and the BibTeX entries folded away."""
-        entries = "".join(f"<li>{_linked(reference)}</li>" for reference in self.references)
-        bibtex = f"<details><summary>BibTeX</summary><pre>{escape(self.bibtex)}</pre></details>"
-        return f"<ol>{entries}</ol>{bibtex}"
-
-
-def _linked(reference: Reference) -> str:
-    """The line of a reference as HTML, with its DOI as a link."""
-    before, found, after = escape(reference.text).partition(f"doi:{escape(reference.doi)}")
-    if not reference.doi:
-        return escape(reference.text)
-    return f'{before}<a href="https://doi.org/{quote(reference.doi)}">{found}</a>{after}'
 
 
 def _listed(names: list[str]) -> str:

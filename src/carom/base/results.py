@@ -255,20 +255,21 @@ def in_a_line(value: object, scales: Any = None) -> str:
     if isinstance(value, np.ndarray):
         return _array(value)
     if isinstance(value, Result):
-        return _titled(value)
+        name = f"of {len(value)}" if isinstance(value, Sized) else _text(value, "name")
+        return (f"{type(value).__name__} {name}" if name else _cut(_text(value, "words"))) or type(value).__name__
     if isinstance(value, Mapping):
         return _cut(", ".join(f"{key} {in_a_line(entry)}" for key, entry in value.items()) or "none")
     if isinstance(value, Sequence | Set):
-        return _counted(list(value), [_name(entry) for entry in value])
+        return _counted(list(value))
     if dataclasses.is_dataclass(value):
-        return _cut(_words(value)) or _parts(value, scales)
+        return _cut(_text(value, "words")) or _parts(value, scales)
     return _cut(repr(value))
 
 
-def _words(value: object) -> str:
-    """What something says itself that it is."""
-    words = getattr(value, "words", "")
-    return words if isinstance(words, str) else ""
+def _text(value: object, name: str) -> str:
+    """What something says itself that it is; empty if it does not."""
+    text = getattr(value, name, "")
+    return text if isinstance(text, str) else ""
 
 
 def _parts(value: Any, scales: Any) -> str:
@@ -304,26 +305,12 @@ def _array(values: np.ndarray) -> str:
     return f"{size} numbers from {_number(known.min())} to {_number(known.max())}"
 
 
-def _titled(value: Result) -> str:
-    name = f"of {len(value)}" if isinstance(value, Sized) else _name(value)
-    if not name and _words(value):
-        return _cut(_words(value))
-    return f"{type(value).__name__} {name}".strip()
-
-
-def _name(entry: object) -> str:
-    """What identifies an entry of a collection: its name, or the entry itself if it is text or a number."""
-    if isinstance(entry, str | Complex):
-        return in_a_line(entry)
-    name = getattr(entry, "name", "")
-    return name if isinstance(name, str) else ""
-
-
-def _counted(entries: list[object], names: list[str]) -> str:
+def _counted(entries: list[object]) -> str:
+    """A collection by what identifies its entries, their names or themselves if they are text or numbers, otherwise by its size."""
     if not entries:
         return "none"
-    told = [name for name in names if name]
-    if len(told) == len(entries):
+    told = [in_a_line(each) if isinstance(each, str | Complex) else _text(each, "name") for each in entries]
+    if all(told):
         return _cut(f"{len(entries)}: {', '.join(told)}" if len(entries) > FEW else ", ".join(told))
     kinds = dict.fromkeys(type(entry).__name__ for entry in entries)
     return f"{len(entries)} of {', '.join(kinds)}"

@@ -1,12 +1,10 @@
-"""What interpreters and notebooks show as a small table."""
+"""What interpreters show as a small table."""
 
 from __future__ import annotations
 
-from html import escape
-
 
 class Tabular:
-    """Something that interpreters and notebooks show as a small table of labels and texts."""
+    """Something that interpreters show as a small table of labels and texts."""
 
     @property
     def heading(self) -> str:
@@ -25,11 +23,3 @@ class Tabular:
         rows = self.brief_rows()
         width = max((len(name) for name, _ in rows), default=0)
         return "\n".join([self.heading, *(f"  {name:<{width}}  {text}".rstrip() for name, text in rows)])
-
-    def _repr_html_(self) -> str:
-        """The same as a table, for notebooks."""
-        cells = "".join(
-            f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
-            for name, text in self.rows()
-        )
-        return f"<table><caption>{escape(self.heading)}</caption>{cells}</table>"

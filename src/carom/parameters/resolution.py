@@ -101,8 +101,9 @@ class _Work:
         if way is not None:
             number, written = self.numbers[way], self.entries[way]
         elif base is not None and name in base.values:
-            way = base.source(name)
-            if way not in TERMS or self.entries.keys().isdisjoint(HELPER_FIELDS.keys() & set(TERMS[way].needs)):
+            source = base.source(name)
+            way = source or name
+            if source not in TERMS or self.entries.keys().isdisjoint(HELPER_FIELDS.keys() & set(TERMS[way].needs)):
                 return self._take(name, base.values[name], base.given.get(name, {}))
             written = base.given[name][way]
             number = read_decimal(ENTRIES[way], written)

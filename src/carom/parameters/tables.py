@@ -98,17 +98,23 @@ class Table:
     means_something_empty: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        read_entries(self, entries_of(type(self)))
+        read_entries(self, self.entries)
+
+    @property
+    def entries(self) -> Mapping[str, Field]:
+        """Its numbers by their names."""
+        table: Any = type(self)
+        return entries_of(table)
 
     @property
     def given(self) -> dict[str, Any]:
         """The numbers that are stated, in SI units."""
-        own = {name: getattr(self, name) for name in entries_of(type(self))}
+        own = {name: getattr(self, name) for name in self.entries}
         return {name: value for name, value in own.items() if value is not None}
 
     def unit(self, name: str) -> str:
         """SI unit of an entry."""
-        return entries_of(type(self))[name].unit
+        return self.entries[name].unit
 
     def to_toml(self) -> str:
         """Return the text of a table that is read as this value; nothing if nothing is stated."""
@@ -126,7 +132,8 @@ class Table:
         InputError
             An unknown name, a value that is not allowed, or a table without a machine in SI units.
         """
-        problems, known = Problems(), dict.fromkeys(cls.texts) | dict[str, Any](entries_of(cls))
+        own: Any = cls
+        problems, known = Problems(), dict.fromkeys(cls.texts) | dict[str, Any](entries_of(own))
         problems.errors += unknown_names(table, known, f"[{cls.heading}]")
         if not has_scales and (table or cls.means_something_empty):
             problems.errors.append(cls.without_scales(shown(dict(table))))

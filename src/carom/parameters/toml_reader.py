@@ -82,7 +82,9 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         problems.raise_all()
     optional = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
     listed = {name: content[name] if isinstance(content.get(name), list) else [] for name in lists}
-    parts = {name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()}
+    parts: dict[str, list[Mapping[str, Any]]] = {
+        name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()
+    }
     return MachineTables(kinds[0], content[kinds[0]], **optional, parts=parts, folder=Path(name).parent)
 
 
@@ -92,7 +94,8 @@ def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str
     Errors call the file ``what``, such as ``"machine file"``.  For a file that is empty or far too long they say what it must hold,
     ``remedy``.
     """
-    name = os.fspath(path) if isinstance(path, str | os.PathLike) else ""
+    given: Any = path
+    name = os.fspath(given) if isinstance(given, str | os.PathLike) else None
     if not isinstance(name, str) or not name:
         raise InputError(what, shown(path), "must be the path of a TOML file")
     return name, _parse(name, _read(name, what, remedy), what, remedy)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import dataclasses
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -18,7 +19,15 @@ OF_LAW = ("stiffness", "damping", "dissipation", "restitution", "restitution_spe
 """Entries that belong to the law of a compliant touchdown bearing; the others are of race, mount and place, or of the balls."""
 OF_BALLS = ("balls", "ball_diameter", "race_diameter", "conformity", "ball_modulus", "race_modulus")
 """Entries that say how its balls are pressed on; they change no motion."""
-MM = {"usual": "mm", "usual_size": 1e-3}
+MM: Mapping[str, Any] = {"usual": "mm", "usual_size": 1e-3}
+_OF_MOUNT, _OF_BALLS = ("mount_mass", "mount_stiffness"), OF_BALLS[:3]
+_TOGETHER = (
+    (("offset_direction",), ("offset",), "a direction needs the distance too"),
+    (("race_drag",), ("race_inertia",), "a race with drag needs it"),
+    ((*_OF_MOUNT, "mount_damping"), _OF_MOUNT, f"a mount needs {' and '.join(_OF_MOUNT)}"),
+    (OF_BALLS, _OF_BALLS, f"the pressure of balls needs {', '.join(_OF_BALLS)}"),
+)
+"""Entries any of which needs others, and why."""
 PREFIX = "touchdown_"
 """Before the names of these entries where they stand beside those of the machine, as in ``--set touchdown_stiffness=1e8 N/m``."""
 _POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
@@ -115,13 +124,11 @@ class TouchdownBearing(Table):
 
     def _wrong(self) -> list[InputError]:
         """What does not fit together."""
-        present = {name for name in TOUCHDOWN_FIELDS if getattr(self, name) is not None} - {"exponent"}
+        present = self.given.keys()
         if self.law == "rigid":
-            others = sorted(
-                name for name in present if (name in OF_LAW and name != "restitution") or name in BALL_FIELDS
-            )
+            others = sorted(name for name in present if name in OF_BALLS or (name in OF_LAW and name != "restitution"))
             refused = [self._not_of_law(name, "the law of a rigid wall has none") for name in others]
-            return refused + self._wrong_parts(present)
+            return refused + self._missing()
         own, other = ("damping", "dissipation") if self.law == "kelvin-voigt" else ("dissipation", "damping")
         errors = []
         if self.stiffness is None:
@@ -134,43 +141,35 @@ class TouchdownBearing(Table):
             errors.append(InputError(own, None, f"the law {self.law} needs it, or a restitution"))
         if self.law == "kelvin-voigt" and self.exponent != 1.0:
             errors.append(self._not_of_law("exponent", "the law kelvin-voigt has the exponent 1"))
-        return errors + self._wrong_restitution(present) + self._wrong_parts(present)
+        return errors + self._wrong_restitution() + self._missing()
 
-    def _wrong_restitution(self, present: set[str]) -> list[InputError]:
-        if "restitution" not in present:
-            return [
-                self._not_of_law("restitution_speed", "it belongs to a restitution")
-                for _ in present & {"restitution_speed"}
-            ]
-        if self.law == "hunt-crossley" and self.restitution_speed is None:
+    def _wrong_restitution(self) -> list[InputError]:
+        """What does not fit to a restitution, or to none."""
+        speed, has_speed = "restitution_speed", self.restitution_speed is not None
+        if self.restitution is None:
+            return [self._not_of_law(speed, "it belongs to a restitution")] if has_speed else []
+        if self.law == "hunt-crossley" and not has_speed:
             words = "the restitution of hunt-crossley changes with the speed of the impact: state that of this one"
-            return [InputError("restitution_speed", None, words)]
-        if self.law == "kelvin-voigt" and self.restitution_speed is not None:
-            return [self._not_of_law("restitution_speed", "the restitution of kelvin-voigt is the same at all speeds")]
-        if present & {"mount_mass", "mount_stiffness"}:
-            words = (
-                "it is that of the rotor on a fixed bearing; on a mount give the damping or dissipation of the bearing"
-            )
-            return [self._not_of_law("restitution", words)]
+            return [InputError(speed, None, words)]
+        if self.law == "kelvin-voigt" and has_speed:
+            return [self._not_of_law(speed, "the restitution of kelvin-voigt is the same at all speeds")]
+        if self.given.keys() & {"mount_mass", "mount_stiffness"}:
+            fixed = "it is that of the rotor on a fixed bearing"
+            return [
+                self._not_of_law("restitution", f"{fixed}; on a mount give the damping or dissipation of the bearing")
+            ]
         return []
 
-    def _wrong_parts(self, present: set[str]) -> list[InputError]:
-        errors = []
-        if "offset_direction" in present and self.offset is None:
-            errors.append(InputError("offset", None, "a direction needs the distance too"))
-        if "race_drag" in present and self.race_inertia is None:
-            errors.append(InputError("race_inertia", None, "a race with drag needs it"))
-        mount = {"mount_mass", "mount_stiffness", "mount_damping"} & present
-        errors += [
-            InputError(name, None, "a mount needs mount_mass and mount_stiffness")
-            for name in ("mount_mass", "mount_stiffness")
-            if mount and name not in mount
+    def _missing(self) -> list[InputError]:
+        """Entries without which others that are given mean nothing."""
+        present = self.given.keys()
+        return [
+            InputError(name, None, words)
+            for others, needed, words in _TOGETHER
+            if not present.isdisjoint(others)
+            for name in needed
+            if name not in present
         ]
-        needed = ("balls", "ball_diameter", "race_diameter")
-        missing = [name for name in needed if name not in present]
-        if missing and BALL_FIELDS.keys() & present:
-            errors.append(InputError(missing[0], None, f"the pressure of balls needs {', '.join(needed)}"))
-        return errors
 
     def _not_of_law(self, name: str, words: str) -> InputError:
         return InputError(name, getattr(self, name), f"must be left out: {words}")
