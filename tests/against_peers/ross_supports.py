@@ -1,4 +1,4 @@
-"""Write ``ross_supports.json``: what ROSS 2.3.0 computes for its first example on bearings that act differently in two directions.
+"""Write ``ross_supports.json``: what ROSS 2.3.0 computes for its first example on anisotropic bearings.
 
 It is run by hand, in an environment of its own (``pip install ross-rotordynamics==2.3.0 "plotly<7"``), never by the tests:
 

@@ -1,4 +1,4 @@
-"""A rotor of ROSS on bearings that act differently in two directions, by the numbers of ROSS itself: ``ross_supports.py`` has written them with ROSS 2.3.0."""
+"""A rotor of ROSS on anisotropic bearings, by the numbers of ROSS itself: ``ross_supports.py`` has written them with ROSS 2.3.0."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def test_text_and_files(carom, dimensionless, tmp_path):
     written = json.loads((tmp_path / "out" / "attractors.json").read_text())
     assert "exponents" not in written["attractors"][0]
     code, out, _ = carom("attractors", dimensionless, "--starts", "24", "--exponents")
-    assert "-inf: contact takes the direction away" in out
+    assert "-inf: contact removes this direction" in out
     assert "exact" in out
     assert f"of {written['share']['of']} up to 1 c_r Ω come back (" in " ".join(out.split())
     kicks = int(0.6 * 24)

@@ -110,7 +110,7 @@ def test_a_sweep_over_three_axes_has_no_maps(tmp_path, capsys):
 
 def test_a_kick_that_is_known_to_return_at_once_is_drawn_until_it_has_decayed(drawn, tmp_path, capsys):
     assert main(["simulate", "examples/tum-test-rig.toml", "--kick", "1 mm/s", "--out", str(tmp_path / "out")]) == 0
-    assert "Known at once" in capsys.readouterr().out
+    assert "Decided at once" in capsys.readouterr().out
     (path, radius) = drawn
     assert "no impact in" in path.get_suptitle()
     assert "returns to levitation" in path.get_suptitle()

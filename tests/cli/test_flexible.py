@@ -175,7 +175,7 @@ def test_orbits_tell_steady_motions(carom):
     assert whirl["normal_force_si"] == pytest.approx(1e7 * (whirl["radius_si"] - 0.2e-3), rel=1e-6)
     code, out, _ = carom("orbits", MACHINE)
     assert code == 0
-    assert "Under weight rubs and whirls are no steady motions" in " ".join(out.split())
+    assert "Under gravity, rubs and whirls are not steady motions" in " ".join(out.split())
     code, out, err = carom("orbits", MACHINE, "--longest-period", "3")
     assert (code, out, err.count("\n")) == (2, "", 1)
 

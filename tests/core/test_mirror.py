@@ -1,4 +1,4 @@
-"""What contact forces do where bearings act differently in two directions, against the equations of motion in the fixed frame."""
+"""What contact forces do where bearings are anisotropic, against the equations of motion in the fixed frame."""
 
 from __future__ import annotations
 

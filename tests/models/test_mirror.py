@@ -1,4 +1,4 @@
-"""Rotors whose bearings act differently in two directions, against the plain equations of motion in the fixed frame."""
+"""Rotors whose bearings are anisotropic, against the plain equations of motion in the fixed frame."""
 
 from __future__ import annotations
 
@@ -250,7 +250,7 @@ def test_such_bearings_stay_when_levitation_is_lost():
 
 @pytest.mark.parametrize("rotor", [rotor_of(), heavy(rotor_of())])
 def test_what_needs_alike_bearings_is_refused(rotor):
-    with pytest.raises(InputError, match="bearings that act differently in two directions"):
+    with pytest.raises(InputError, match="anisotropic bearings"):
         cm.find_equilibria(rotor)
 
 

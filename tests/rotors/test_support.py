@@ -1,4 +1,4 @@
-"""Supports that act differently in two directions, against the equations of two real planes written down anew."""
+"""Anisotropic supports, against the equations of two real planes written down anew."""
 
 from __future__ import annotations
 
@@ -234,7 +234,7 @@ def test_bad_supports_are_refused(changes, words):
     ],
 )
 def test_what_rests_on_alike_directions_is_refused(verb):
-    with pytest.raises(InputError, match="bearings that act differently in two directions"):
+    with pytest.raises(InputError, match="anisotropic bearings"):
         verb(MACHINE.with_modes(3).linear)
 
 
@@ -246,4 +246,4 @@ def test_steady_motions_are_told_without_rubs(capsys, tmp_path):
     assert main(["orbits", str(path)]) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "levitation" in told
-    assert "where bearings act differently in two directions; attractors finds" in told
+    assert "Where bearings are anisotropic, rubs and whirls are not steady" in told

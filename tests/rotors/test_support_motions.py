@@ -1,4 +1,4 @@
-"""Motions of flexible machines whose supports act differently in two directions, against a general integrator with forces of its own."""
+"""Motions of flexible machines whose supports are anisotropic, against a general integrator with forces of its own."""
 
 from __future__ import annotations
 

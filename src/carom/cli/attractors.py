@@ -71,7 +71,7 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()} of some disturbances ended: {found.transient.words}.")
     if exponents:
         screen.print()
-        note = "In Omega, +- standard errors; -inf: contact takes the direction away."
+        note = "In Omega, +- standard errors; -inf: contact removes this direction."
         headings = ("motion", "exponents", "impacts measured")
         print_table(screen, "Lyapunov exponents", headings, _exponents(found, known), note=note)
     screen.print()

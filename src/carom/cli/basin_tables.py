@@ -18,7 +18,7 @@ from carom.studies.wording import Wording
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
-    """Print the disturbances tried, where they end, and the smallest that is lost."""
+    """Print the disturbances tried, where they end, and the smallest that does not come back."""
     screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales, at=basin.instants)}.")
     drawn = basin.share_recovered.drawn
     headings, rows = ("where they end", "starts", "share", "95 % interval", "decision time (median)"), []
@@ -36,10 +36,10 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
     screen.print(_touching(basin))
     if basin.beyond_model:
         screen.print(
-            f"Beyond the model: {basin.beyond_model} of {basin.starts} starts; they count as lost. {Outcome.BEYOND_MODEL.meaning}"
+            f"Beyond the model: {basin.beyond_model} of {basin.starts} starts, which count as not coming back. {Outcome.BEYOND_MODEL.meaning}"
         )
     if basin.unresolved:
-        screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
+        screen.print(f"Undecided at the limit of work: {basin.unresolved} starts, which count as not coming back.")
     if rows := _losses(basin, smallest, harmless):
         print_rows(screen, "What is survived", rows)
 

@@ -26,19 +26,6 @@ _OTHERS = {
     "slice": "",
 }
 """Kinds of disturbances without an option of their own, and what may follow them."""
-KICK = option(
-    "SPEED",
-    "Kicks up to this speed in all directions, such as '50 mm/s'; by default up to the one to be survived: stated in [survive], or of a fall "
-    "through the clearance.",
-)
-SHOCK = option(
-    "PEAK[,DURATION]", "Half-sine shocks of the base in all directions with peaks up to this, such as '20 g, 5 ms'."
-)
-BLADE_LOSS = option(
-    "CHANGE[,0,NODE]",
-    "Losses of a blade at all phases that change the unbalance by this, such as '5000 g mm' or '0.1 mm', of a flexible machine at a node: "
-    "'5000 g mm, 0, 7'.",
-)
 OTHERS = option(
     "KIND[,SIZE]",
     "Other disturbances: kick-plane or state up to a speed, such as 'state, 50 mm/s'; release from the wall, fixed (the default), rotating or "
@@ -53,9 +40,9 @@ GAINS = option("NxM", "Map the share that comes back over the two parameters of 
 def basins(
     machine: str = options.MACHINE,
     settings: list[str] | None = options.SETTINGS,
-    kick: str | None = KICK,
-    shock: str | None = SHOCK,
-    blade_loss: str | None = BLADE_LOSS,
+    kick: str | None = options.KICKS,
+    shock: str | None = options.SHOCKS,
+    blade_loss: str | None = options.BLADE_LOSSES,
     disturbance: str | None = OTHERS,
     grid: str | None = GRID,
     instant: str | None = options.INSTANT,

@@ -1,4 +1,4 @@
-"""``carom drop``: what a drop asks of the touchdown bearing, once or over a plane of two numbers."""
+"""``carom drop``: the loads of a drop on the touchdown bearing, once or over a plane of two numbers."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def drop(
 ) -> None:
     """Drop a machine on its touchdown bearing: forces, depth, heat, whirl and race, against its limits.
 
-    Levitation is lost, and the rotor falls by its weight: by [gravity], or by 9.81 m/s² downward, which the bias currents carry before. With --out it also writes
+    Levitation is lost and the rotor falls under [gravity], by default 9.81 m/s² downward, carried by the bias currents until then. With --out it also writes
     figures, drop.json and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
     """
     from carom.basins.drops import RELEASED
@@ -139,7 +139,7 @@ def _map(case: Case, begins: Beginning, asked: dict[str, Any], out: str | None, 
 
 
 def _print_map(screen: Console, found: DropMap) -> None:
-    """Print how the drops end, what they ask of the bearing, and how many exceed its limits."""
+    """Print how the drops end, the loads on the bearing, and how many exceed its limits."""
     from carom.basins.drops import MEASURES
     from carom.cli.fitting import print_table
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
@@ -161,7 +161,7 @@ def _print_map(screen: Console, found: DropMap) -> None:
     screen.print(f"Hardest: {found.worst}.")
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())
-        said = f"exceeded by {over} of {int(exists.sum())}" if over else "kept by all"
+        said = f"exceeded by {over} of {int(exists.sum())}" if over else "met by all"
         screen.print(f"Limit of {LIMIT_FIELDS[load].words}, {LoadLimits.told(load, limit)}: {said}.")
     if not exists.all():
         screen.print(f"{int((~exists).sum())} of {exists.size} machines cannot levitate, and are not dropped.")

@@ -71,7 +71,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
-    followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
+    followed = f"Simulated {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Decided at once"
     console.print(f"{followed}: {_counts(motion)}.")
     for seen in motion.at_each:
         if seen.is_compliant or not len(seen.contacts):

@@ -44,10 +44,27 @@ BLADE_LOSS = option(
     "Begin with the loss of a blade at levitation: by how much the unbalance changes, at which phase relative to that before it, and at which "
     "node of a flexible machine, such as '5000 g mm,30 deg'.",
 )
+KICKS = option(
+    "SPEED",
+    "Kicks up to this speed in all directions, such as '100 mm/s'; by default the one stated in [survive], or the impact speed of a free fall across "
+    "the clearance.",
+    "--kick",
+)
+SHOCKS = option(
+    "PEAK[,DURATION]",
+    "Half-sine shocks of the base up to this peak in all directions, such as '5 g, 11 ms', the default duration.",
+    "--shock",
+)
+BLADE_LOSSES = option(
+    "CHANGE[,0,NODE]",
+    "Losses of a blade at any phase that change the unbalance by this, such as '2000 g mm' or '0.1 mm'; of a flexible machine at a node: "
+    "'2000 g mm, 0, 7'.",
+    "--blade-loss",
+)
 INSTANT = option(
     "ANGLE",
     "Angle by which the shaft has turned when it happens, such as '90 deg'. It matters under weight, with limits of the magnetic bearings and "
-    "where bearings act differently in two directions. By default 0 of one motion: then the x axis that turns with the shaft passes that of the "
+    "where bearings are anisotropic. By default 0 of one motion: then the x axis that turns with the shaft passes that of the "
     "room; of many each has an instant of its own.",
 )
 REGAINED_AFTER = option("T", "Time after the release at which levitation is back, such as '50 ms'; by default never.")

@@ -217,8 +217,8 @@ def _print_proof(proof: Proof, checked: bool) -> None:
         if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven" and claim is not chief:
             screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
-    screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")
-    screen.print("Not claimed:")
+    screen.print(f"{how}, with balls of {proof.bits} bits. Assumed exactly as written: {_assumed(proof)}.")
+    screen.print("Not proven here:")
     for words in proof.not_claimed:
         screen.print(f"- {words}")
 

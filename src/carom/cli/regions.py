@@ -113,7 +113,7 @@ def _tables(
         period = "" if point.period != point.period else told(point.period, "time", scales, 6)
         place = (f"{value:.8g}" for value in _usual(found, point.value))
         rows.append((" + ".join(map(named, point.kinds)), *place, period, "" if point.admissible else "virtual"))
-    yield "Where two happen at once, and resonances", ("kinds", *names, "period", "possible"), rows, []
+    yield "Codimension-2 points and resonances", ("kinds", *names, "period", "possible"), rows, []
     rows = []
     for number, region in enumerate(found.regions, start=1):
         share = f"{100 * region.share:.1f} %" if region.share else "thin"
@@ -121,7 +121,7 @@ def _tables(
         rows.append((str(number), share, _place(found, region.point), region.motions.region, own))
     yield "Regions", ("#", "share", f"for example {at}", "region", "motions"), rows, []
     rows = [(_place(found, change.point), change.words, change.reason) for change in found.unexplained]
-    yield "Changes of motions on no curve found", (at, "what changes", "why no curve"), rows, []
+    yield "Changes of motions that no curve explains", (at, "what changes", "why no curve"), rows, []
 
 
 def _place(found: RegionMap, point: Sequence[float]) -> str:
@@ -142,9 +142,9 @@ def _present_words(found: RegionMap) -> str:
     """Say in one sentence in which region the machine lies."""
     words = ", ".join(part for part in found.present_motions.parts if part not in found.everywhere)
     if found.present is None:
-        return f"The machine as it is lies outside this plane: {found.present_motions.words}"
+        return f"This machine lies outside the plane: {found.present_motions.words}"
     place = ", ".join(
         f"{axis.name} = {value:.6g} {axis.field.usual_unit}".rstrip()
         for axis, value in zip(found.axes, _usual(found, found.present), strict=True)
     )
-    return f"The machine as it is, {place}: region {found.present_region} ({words})"
+    return f"This machine, {place}, lies in region {found.present_region} ({words})"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 DROP = flag(
     "--drop",
-    "Levitation is lost at levitation, or at what --start or --kick gives, and the rotor falls, by 9.81 m/s² without [gravity].",
+    "Drop the rotor from levitation, or from the state of --start or --kick; gravity is 9.81 m/s² downward unless [gravity] states it.",
 )
 CSV = option("FILE", "Write the contact log as CSV.", "--csv")
 NETCDF = option("FILE", "Write the contact log as netCDF.", "--netcdf")

@@ -81,7 +81,7 @@ def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> f
         return 0.0
 
     if not rotor.depends_on_instant:
-        allowed = "allowed only under weight, with limits of the magnetic bearings, or where bearings act differently in two directions"
+        allowed = "allowed only under weight, with limits of the magnetic bearings, or where bearings are anisotropic"
         raise InputError(option, text, allowed)
     return read_angle(option, text, rotor.scales)
 

@@ -6,15 +6,6 @@ from carom.cli import options
 from carom.cli.options import flag, option
 from carom.cli.terminal import check_output, console, print_document, progress, read_machine
 
-KICK = option("SPEED", "A velocity kick that the machine must survive, such as '100 mm/s'.")
-SHOCK = option(
-    "PEAK,DURATION", "A half-sine shock of the base that it must survive, such as '5 g, 11 ms'; 11 ms if left out."
-)
-BLADE_LOSS = option(
-    "CHANGE[,0,NODE]",
-    "A loss of a blade that it must survive, at any phase: by how much it changes the unbalance, such as '2000 g mm', or the eccentricity; of a "
-    "flexible machine at a node: '2000 g mm, 0, 7'.",
-)
 OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
 PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")
 ALONG = option(
@@ -35,9 +26,9 @@ LONG = flag(
 def study(
     machine: str = options.MACHINE,
     settings: list[str] | None = options.SETTINGS,
-    kick: str | None = KICK,
-    shock: str | None = SHOCK,
-    blade_loss: str | None = BLADE_LOSS,
+    kick: str | None = options.KICKS,
+    shock: str | None = options.SHOCKS,
+    blade_loss: str | None = options.BLADE_LOSSES,
     out: str | None = OUT,
     prove: bool = PROVE,
     along: list[str] | None = ALONG,

@@ -136,18 +136,20 @@ def print_orbits(
     print_motions(console, title, rows)
     _print_left_out(console, orbits, most_virtual=40)
     _print_numbers(console, [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS])
-    console.print(orbits.argument if exact else f"{_why_only(rotor)} Orbits with impacts are searched by --impacts N.")
+    console.print(orbits.argument if exact else f"{_why_only(rotor)} --impacts N searches for orbits with impacts.")
 
 
 def _why_only(rotor: Rotor) -> str:
     """Which motions are no steady ones of a rotor without closed forms."""
     if rotor.system.is_anisotropic:
-        return "Rubs and whirls are no steady motions where bearings act differently in two directions; attractors finds where motions end."
+        return "Where bearings are anisotropic, rubs and whirls are not steady motions; carom attractors finds where motions end."
     if rotor.system.races is not None:
-        return "Rubs and whirls on a race that turns are steady only where its torques balance: they are orbits, if there are any."
+        return "On a spinning race, rubs and whirls are steady only where its torques balance: as orbits, if there are any."
     if rotor.system.forced is not None:
-        return "Under weight rubs and whirls are no steady motions: leave it out by --set gravity=0 to see them."
-    return "Whirls are those of the rotor without unbalance; in each only the bearing named touches, and others are not asked."
+        return "Under gravity, rubs and whirls are not steady motions; --set gravity=0 shows those without weight."
+    return (
+        "Whirls are those of the balanced rotor touching the bearing named alone; the other bearings are not checked."
+    )
 
 
 def _frequency(speed: float, scales: Scales | None) -> str:

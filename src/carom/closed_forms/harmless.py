@@ -113,7 +113,7 @@ def _watched(model: Rotor) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _is_shaken(model: Rotor) -> bool:
-    """Whether forces act that are not constant in the fixed frame, and may go on growing, or bearings act differently in two directions."""
+    """Whether forces act that are not constant in the fixed frame, and may go on growing, or bearings are anisotropic."""
     constant = np.abs(model.system.arrays["exponents"] - STEADY) <= ROUNDING
     return model.system.is_anisotropic or bool((model.system.outer[~constant] != 0.0).any())
 

@@ -29,7 +29,7 @@ def status_of(margin: float) -> Status:
 class Levitation(Result):
     """The steady motion without contact.
 
-    In the fixed frame the coordinates are ``sag + whirl·e^{it}``, and ``+ opposite·e^{−it}`` where bearings act differently in two directions: then each
+    In the fixed frame the coordinates are ``sag + whirl·e^{it}``, and ``+ opposite·e^{−it}`` where bearings are anisotropic: then each
     goes round an ellipse.
 
     Attributes

@@ -15,7 +15,7 @@
 ``linear``                :class:`LinearEquations`: the equations of any linear rotor
 ``linear_system``         its system
 ``by_matrices``           :func:`from_matrices`: any linear rotor, by its matrices
-``anisotropic``           its system where bearings act differently in two directions
+``anisotropic``           its system where bearings are anisotropic
 ``linear_parameters``     its named parameters
 ``limits``                :class:`Limit`: limits of magnetic bearings
 ``saturation``            what is asked of bearings beyond their limits

@@ -1,4 +1,4 @@
-"""Rotors whose bearings act differently in two directions, as systems of twice as many modes (:mod:`carom.core.mirror`).
+"""Rotors whose bearings are anisotropic, as systems of twice as many modes (:mod:`carom.core.mirror`).
 
 In the fixed frame, with matrices ``D′`` and ``K′`` of what depends on the direction,
 

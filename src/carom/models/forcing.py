@@ -8,7 +8,7 @@ With the amplitudes ``c`` of the free modes and a force of amplitude ``f`` and e
 others, and which no impulse changes.  In resonance, where ``σ`` is nearly an exponent of ``M``, the force stands before the mode
 it drives and forms a chain with it: weight, velocity and displacement in free fall.
 
-Where bearings act differently in two directions (:mod:`carom.models.anisotropic`), a force ``f e^{σt}`` is also a force ``f̄ e^{σ̄t − 2it}`` on
+Where bearings are anisotropic (:mod:`carom.models.anisotropic`), a force ``f e^{σt}`` is also a force ``f̄ e^{σ̄t − 2it}`` on
 conjugates; of one that is constant in the fixed frame both exponents are one.
 """
 
@@ -103,7 +103,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
 
 
 def _mirrored(modes: _Modes, columns: slice, states: slice) -> dict[str, Any]:
-    """What of a system acts on conjugates; nothing where bearings are alike in both directions."""
+    """What of a system acts on conjugates; nothing where bearings are isotropic."""
     if modes.mirror == ALIKE:
         return {}
     return {
@@ -139,7 +139,7 @@ class _Modes:
     right: np.ndarray
     left: np.ndarray
     mirror: int
-    """Which is the turn of bearings that act differently in two directions; ALIKE where there is none."""
+    """Which is the turn of anisotropic bearings; ALIKE where there is none."""
 
     @classmethod
     def of(cls, system: System) -> _Modes:

@@ -136,7 +136,7 @@ class LinearEquations(Definition, Result):
     def _check_shaft(self) -> None:
         """Refuse a shaft whose speed changes where the matrices would change with it, or where it has no response to its unbalance."""
         if self.conjugate is not None:
-            allowed = "None where bearings act differently in two directions: its speed stays as it is"
+            allowed = "None where bearings are anisotropic: its speed stays as it is"
             raise InputError("shaft", shown(self.shaft), allowed)
         if np.abs(self.matrices.gyroscopic).max() > GYROSCOPIC * np.abs(self.damping).max():
             raise InputError(

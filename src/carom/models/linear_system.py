@@ -69,7 +69,7 @@ def system_of(given: LinearEquations) -> System:
 
 
 def _anisotropic(given: LinearEquations, conjugate: np.ndarray) -> System:
-    """System where bearings act differently in two directions."""
+    """System where bearings are anisotropic."""
     from carom.models.linear import LinearEquations  # which are defined with their system
 
     doubled = Doubled.of(given.mass, given.damping, given.stiffness, conjugate)

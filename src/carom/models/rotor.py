@@ -178,7 +178,7 @@ class Rotor(Result):
 
     @property
     def is_anisotropic(self) -> bool:
-        """Whether its bearings act differently in two directions."""
+        """Whether its bearings are anisotropic."""
         return self.definition.system.is_anisotropic
 
     @property

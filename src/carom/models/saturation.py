@@ -33,7 +33,7 @@ def saturates(system: System, amplitudes: np.ndarray, forced: np.ndarray | None 
     rows, bounds = system.arrays["limit_rows"], system.arrays["limit_bounds"]
     whirl, sag = np.abs(rows @ amplitudes + system.arrays["limit_offsets"]), np.zeros(system.limits, complex)
     if forced is not None:
-        # Bearings that act differently in two directions stretch the whirl.
+        # Anisotropic bearings stretch the whirl.
         whirl += np.abs(rows[:, system.arrays["mirror"]]).sum(axis=1)
         sag = rows @ forced
     return bool((np.maximum(np.abs(sag.real), np.abs(sag.imag)) + whirl >= bounds).any())

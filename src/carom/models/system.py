@@ -18,10 +18,10 @@ from carom.parameters import Scales
 
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
-ANISOTROPIC = "bearings that act differently in two directions"
+ANISOTROPIC = "anisotropic bearings"
 """What a rotor has that is refused for it."""
 ISOTROPIC_ALONE = (
-    "bearings alike in both directions; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
+    "isotropic bearings; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
     "carom.find_orbits with impacts and carom.map_basins work"
 )
 
@@ -58,7 +58,7 @@ class System(ModeArrays):
     clearances : tuple of float, optional
         Clearance of each plane in the unit of length of the rotor's scales; ones by default.
     conjugate_modes : ndarray of complex, shape (N, 2n), optional
-        Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings act differently in two directions
+        Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings are anisotropic
         (:mod:`carom.models.anisotropic`); by default they do not.
     magnets : ndarray of complex, shape (G, n), optional
         Displacement at each magnet, in its air gap, per coordinate, where the gap is known.
@@ -91,7 +91,7 @@ class System(ModeArrays):
 
     @property
     def is_anisotropic(self) -> bool:
-        """Whether bearings act differently in two directions."""
+        """Whether bearings are anisotropic."""
         return self.conjugate_modes is not None
 
     @property
@@ -138,7 +138,7 @@ class System(ModeArrays):
 
     @cached_property
     def _turn(self) -> np.ndarray:
-        """The turn of bearings that act differently in two directions at time zero, zeros elsewhere; shape (N,)."""
+        """The turn of anisotropic bearings at time zero, zeros elsewhere; shape (N,)."""
         turn = np.zeros(self.modes, complex)
         turn[self.arrays["mirror"]] = 1.0
         return turn

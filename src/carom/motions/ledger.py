@@ -212,7 +212,7 @@ def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray, turning: np.n
 
 
 def _on_conjugates(rotor: Rotor) -> np.ndarray:
-    """Matrices of the forces ``−D′Z̄˙ − K′Z̄`` of bearings that act differently in two directions, (2, n, n)."""
+    """Matrices of the forces ``−D′Z̄˙ − K′Z̄`` of anisotropic bearings, (2, n, n)."""
     pair = rotor.equations.conjugate
     return np.zeros((2, len(rotor.system.rest), len(rotor.system.rest))) if pair is None else pair
 

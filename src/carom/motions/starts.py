@@ -148,7 +148,7 @@ def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.
         Its direction in the co-rotating frame, from its real axis: in rad, or text with a unit, such as ``"30 deg"``.
     instant : float or str
         Angle by which the shaft has turned when it comes, the same way: it matters under weight, with limits of the magnetic bearings,
-        and where bearings act differently in two directions.
+        and where bearings are anisotropic.
 
     See Also
     --------

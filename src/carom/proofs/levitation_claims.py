@@ -10,7 +10,7 @@ that of an unbalance of one, ``x``: it never reaches the wall for ``Δ < r / (|w
 modes, ``r / Σ_k |w V|_k |V⁻¹b|_k``.  Each wall has a form of its own.  In balls ``B = G A G⁻¹`` is enclosed; the form decays where the Hermitian matrix ``B + B*`` is negative definite, which
 Gershgorin's discs show.  ``G⁻¹`` in balls shows that ``G`` is not singular.
 
-Bearings that act differently in two directions make this a system of ``(z, z̄)``, with the same formulas for twice as many coordinates.
+Anisotropic bearings make this a system of ``(z, z̄)``, with the same formulas for twice as many coordinates.
 """
 
 from __future__ import annotations

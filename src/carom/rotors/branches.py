@@ -31,7 +31,7 @@ def followed(equations: Equations, speeds: np.ndarray) -> np.ndarray:
 
     Two motions are alike by ``|a b|``, where ``a`` is the share of the first in the second and ``b`` that of the second in the first: 1 of the
     same motion, whatever its size.  Where two whirls come near each other their shapes mix, and a whirl keeps its shape rather than its
-    place.  Where supports act differently in two directions, the exponent of each motion is that with the sense that prevails in it.
+    place.  Where supports are anisotropic, the exponent of each motion is that with the sense that prevails in it.
     """
     followed_of = equations.both if equations.is_anisotropic else equations
     here = _at(followed_of, float(speeds[0]))

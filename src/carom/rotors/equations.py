@@ -37,11 +37,11 @@ class Equations(NamedTuple):
     carried: np.ndarray
     """Coordinates, shape (n,), when rotor and mounts are displaced by 1 m."""
     across: np.ndarray
-    """``D′`` and ``K′``, shape (2, n, n): of supports that act differently in two directions, with and without magnetic bearings."""
+    """``D′`` and ``K′``, shape (2, n, n): of anisotropic supports, with and without magnetic bearings."""
 
     @property
     def is_anisotropic(self) -> bool:
-        """Whether a support acts differently in two directions."""
+        """Whether a support is anisotropic."""
         return bool(self.across.any())
 
     @property

@@ -73,7 +73,7 @@ def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None =
     """Compute the sensitivity of the loops of a flexible machine, from all its modes.
 
     With gyroscopic moments a direction, such as x, sees both whirls: ``S(iω)`` of the complex loop and the conjugate of ``S(−iω)``, half of each.
-    Where supports act differently in two directions, so are the two axes of a bearing; told is the one with the larger peak.
+    Where supports are anisotropic, so are the two axes of a bearing; told is the one with the larger peak.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class _Loop:
         softer = [bearing.ks * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)]
         self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
         self.spin = held.damping[vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
-        # Supports that act differently in two directions, where they hold the rotor.
+        # Anisotropic supports, where they hold the rotor.
         across = [each for each in machine.supports if each.stiffness.across or each.damping.across]
         rows = [machine.rotor.row_at(each.node) @ whole.basis.shapes for each in across]
         self.held = np.reshape(rows, (len(across), whole.vectors))

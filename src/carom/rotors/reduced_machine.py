@@ -85,7 +85,7 @@ class ReducedMachine(Result):
 
     @property
     def states(self) -> int:
-        """Number of complex states: displacements and velocities of all vectors, and states of controllers; twice that if a support acts differently in two directions."""
+        """Number of complex states: displacements and velocities of all vectors, and states of controllers; twice that if a support is anisotropic."""
         once = len(self.equations.mass) + int(self.equations.mass.any(axis=1).sum())
         return 2 * once if self.equations.is_anisotropic else once
 

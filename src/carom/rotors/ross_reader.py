@@ -112,9 +112,7 @@ def bearing_of(element: Any, speed: float | None) -> dict[str, Any]:
         np.unique(np.asarray(values, float)) for values in (element.ki, element.ks, element.k_amp, element.k_sense)
     ]
     if any(len(each) != 1 for each in gains):
-        raise RefusedError(
-            f"{element.tag}", "other numbers in x and y", "magnets and amplifiers alike in both directions"
-        )
+        raise RefusedError(f"{element.tag}", "other numbers in x and y", "isotropic magnets and amplifiers")
     ki, ks, amplifier, sensor = (float(each[0]) for each in gains)
     told |= {"ki": ki, "ks": ks}
     factor, numerator = amplifier * sensor, element.controller_transfer_function_num

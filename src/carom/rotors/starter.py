@@ -65,7 +65,7 @@ def _springs(found: ImportedRotor) -> list[Mapping[str, Any]]:
 
 
 def _is_support(bearing: Mapping[str, Any]) -> bool:
-    """Whether a bearing is taken over as it is: a seal, or one that acts differently in two directions."""
+    """Whether a bearing is taken over as it is: a seal, or an anisotropic one."""
     return "coefficients" in bearing and ("Seal" in bearing["kind"] or not bearing["alike"])
 
 

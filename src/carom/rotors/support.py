@@ -1,4 +1,4 @@
-"""Supports beside the magnetic bearings: seals, fluid-film bearings, springs, which may act differently in two directions."""
+"""Supports beside the magnetic bearings: seals, fluid-film bearings, springs, which may be anisotropic."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class Whirl(Result):
     shape : ndarray of complex, shape (N,)
         Displacement at all places of the rotor (:attr:`FlexibleRotor.places`: the ends of all elements), of which the largest is 1; the angle is where the rotor is at time zero.
     opposite : ndarray of complex, shape (N,)
-        What goes round the other way, where supports act differently in two directions: each place of the rotor follows an ellipse, with the axes
+        What goes round the other way, where supports are anisotropic: each place of the rotor follows an ellipse, with the axes
         ``|shape| ± |opposite|``.  Zeros otherwise.
     """
 
@@ -130,7 +130,7 @@ class Campbell(Result):
         rad/s.
     exponents : ndarray of complex, shape (m, k)
         1/s; a column is a whirl (:mod:`carom.rotors.branches`), in the order of the imaginary parts at the first speed, so backward whirls come
-        first.  NaN where it fades before it goes round.  Where supports act differently in two directions the sign of the imaginary part says
+        first.  NaN where it fades before it goes round.  Where supports are anisotropic the sign of the imaginary part says
         which sense prevails, and may change along a column.
     machine : FlexibleMachine
     levitates : ndarray of bool, shape (m,)
