@@ -6,16 +6,16 @@ A module for each command (``study``, ``simulate``, ``drop``, ``orbits``, ``attr
 =================  ==========================================================
 ``app``            all commands, and how errors are reported
 ``options``        options that commands share, and how one is declared
-``terminal``       output and progress
+``terminal``       output, progress, and the machine that is read
 ``screen``         output to the terminal, with control characters escaped
-``output``         the directory of ``--out``
-``fitting``        tables that fit into a narrow terminal
+``output``         figures and numbers in the directory of ``--out``; JSON or a text
+``fitting``        the one renderer of tables, whose cells never wrap
 ``tables``         tables of ``study`` and ``orbits``
 ``motion_tables``  one motion: its contacts, its loads, and where it is at the end
 ``basin_tables``   what ``basins`` prints
 ``starts``         starts, times, ranges and planes from text, with or without units
 ``beginnings``     how a motion begins: a start, a disturbance or a release
-``logs``           contact logs as files
+``logs``           contact logs as rows and as files
 =================  ==========================================================
 
 Modules here import only what the help needs; commands import the rest when they run.
