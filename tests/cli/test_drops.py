@@ -89,10 +89,10 @@ def test_a_drop_in_words_is_seen_from_the_fixed_frame(carom):
     words = " ".join(out.split())
     assert (code, err) == (0, "")
     assert "Release: rotor centre 0.0986 mm from the middle at -91.3°" in words
-    assert "under 9.81 m/s² at -90°; angles are those of the fixed frame" in words
+    assert "under 9.81 m/s² at -90°; angles count from the fixed x axis" in words
     assert "The rotor ends in rest on the touchdown bearing" in words
     assert "At the end, in the fixed frame: 1 c_r (0.25 mm) from the centre at -" in words
-    assert "-89.7°" in words  # the first impact, next to the bottom
+    assert "-89.71" in words  # the first impact, next to the bottom
 
 
 def test_a_drop_with_a_start_or_a_kick(carom):
@@ -147,13 +147,6 @@ def test_bad_drops_get_one_line(carom, arguments, words):
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize("options", [("--shock", "10 g, 5 ms, 30 deg"), ("--blade-loss", "200 g mm, 40 deg")])
-def test_other_disturbances_of_a_heavy_rotor_begin_at_its_levitation(carom, options):
-    found = document(carom("simulate", MACHINE, *options, "--json"))
-    assert found["outcome"] == "levitated"
-    assert found["gravity"]["acceleration_si"] == 9.81
-
-
 def test_orbits_of_a_heavy_rotor_say_how_many_turns_they_take(carom):
     bounces = ("gravity=100", "unbalance=400 g mm", "friction=0")
     settings = [text for each in bounces for text in ("--set", each)]
@@ -165,23 +158,6 @@ def test_orbits_of_a_heavy_rotor_say_how_many_turns_they_take(carom):
     code, out, _ = carom(*arguments)
     assert code == 0
     assert "13.3 ms, 2 turns" in out
-
-
-def test_motions_on_which_disturbances_of_a_heavy_rotor_end_are_told(carom):
-    settings = [text for each in ("gravity=100", "friction=0") for text in ("--set", each)]
-    found = document(carom("attractors", MACHINE, "--starts", "20", *settings, "--json"))
-    (rest,) = [each for each in found["attractors"] if each["count"]]
-    assert rest["outcome"] == "at-rest"
-    assert (rest["word"], rest["turns"]) == ("contact that never changes", 1)
-
-
-def test_kicks_of_a_heavy_rotor_are_mapped(carom):
-    found = document(
-        carom("basins", MACHINE, "--grid", "6x8", "--set", "damping=100 N s/m", "--kick", "500 mm/s", "--json")
-    )
-    assert found["starts"] == 48
-    assert found["fractions"]["levitation"] > 0.2
-    assert 0.0 < found["harmless_kick"] < found["smallest_unrecovered_kick"]
 
 
 BALLS = "examples/touchdown-balls.toml"
@@ -226,11 +202,3 @@ def test_what_is_hit_during_a_shock_counts(carom):
     assert whole["loads"]["force_si"] == first["loads"]["force_si"] > 2.0 * second["loads"]["force_si"]
     assert whole["force_at_si"] < 5e-3
     assert whole["fastest_race_si"] > whole["race_at_end_si"] > 0.0
-
-
-def test_a_bearing_on_a_mount_without_weight(carom):
-    mount = ("touchdown_mount_mass=1 kg", "touchdown_mount_stiffness=2e7 N/m", "touchdown_mount_damping=2000 N s/m")
-    settings = [part for setting in ("gravity=0", *mount) for part in ("--set", setting)]
-    code, out, err = carom("simulate", BALLS, *settings, "--kick", "100 mm/s", "--until", "10 ms")
-    assert (code, err) == (0, "")
-    assert "At the end, in the fixed frame:" in out

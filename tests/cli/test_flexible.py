@@ -68,13 +68,6 @@ def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
         assert entry["loads"]["force_si"] == seen.contacts.to_dataset()["peak_force"].max()
 
 
-@pytest.mark.parametrize("options", [("--shock", "5 g, 11 ms"), ("--blade-loss", "30 g mm"), ("--kick", "5 mm/s")])
-def test_without_weight_other_disturbances_work(carom, options):
-    code, out, err = carom("simulate", MACHINE, *options, "--until", "20 ms", "--set", "gravity=0")
-    assert (code, err) == (0, "")
-    assert "At the end at touchdown bearing 2, in the fixed frame" in " ".join(out.split())
-
-
 def test_a_study_writes_its_report(carom, tmp_path, monkeypatch):
     monkeypatch.setattr("carom.studies.questions.FEW_MODES", 0.2)
     code, out, _ = carom("study", MACHINE, "--set", "gravity=0", "--out", str(tmp_path))
@@ -186,16 +179,3 @@ def test_an_unstable_levitation_is_one_line(carom):
     )
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith("carom: levitation = unstable: a displacement to one side grows")
-
-
-@pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])
-def test_basins_of_kicks(carom, settings):
-    kicks = ("--grid", "1x2", "--kick", "10 mm/s", *settings)
-    code, out, _ = carom("basins", MACHINE, *kicks)
-    assert code == 0
-    assert "2 velocity kicks out of levitation" in out
-    _, out, _ = carom("basins", MACHINE, *kicks, "--json")
-    found = json.loads(out)
-    assert found["starts"] == 2
-    rotor = cm.models.rotor_from(found["rotor"])
-    assert rotor.scales == cm.load(MACHINE).parameters.scales

@@ -31,9 +31,8 @@ def test_shares_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
     _shares_grow(words, monkeypatch, capsys)
 
 
-@pytest.mark.parametrize("command", ["prove", "prove along"])
-def test_shares_of_a_check_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
-    assert main([*COMMANDS[command], "--out", str(tmp_path)]) == 0
+def test_shares_of_a_check_grow_to_the_end(monkeypatch, tmp_path, capsys):
+    assert main([*COMMANDS["prove"], "--out", str(tmp_path)]) == 0
     _shares_grow(["prove", "--check", str(tmp_path / "proof.json")], monkeypatch, capsys)
 
 

@@ -44,6 +44,8 @@ def write_output(
             if tell is not None:
                 tell(place / len(figures), "drawing")
             plots.save(draw(), directory / FIGURES / figure)
+        if tell is not None:
+            tell(1.0, "writing")
         for file, write in files.items():
             write(directory / file)
         write_json(directory / f"{name}.json", document)

@@ -147,7 +147,9 @@ def _proven(
     more = {name.removeprefix("--").replace("-", "_"): value for name, value in given.items()}
     if not theorem:
         if len(box) > 1:
-            raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
+            raise InputError(
+                "--along", shown(list(box)), "must be one parameter; several are allowed only with --kicks-up-to"
+            )
         along, interval = next(iter(box.items()), (None, None))
         return proofs.prove(machine, settings, along=along, interval=interval, progress=tell, **more)
     if theorem == "--states-up-to":
