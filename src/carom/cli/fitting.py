@@ -6,7 +6,7 @@ import re
 import textwrap
 from collections.abc import Sequence
 
-from rich.cells import cell_len, set_cell_size
+from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
@@ -51,13 +51,11 @@ def print_table(
     }
 
     def line(cells: Sequence[str]) -> str:
-        sized = [
-            " " * max(0, width - cell_len(cell)) + cell
-            if heading in flush
-            else set_cell_size(cell, max(width, cell_len(cell)))
-            for (heading, width), cell in zip(widths.items(), cells, strict=True)
-        ]
-        return (" " * gap).join(sized).rstrip()
+        padded = []
+        for (heading, width), cell in zip(widths.items(), cells, strict=True):
+            blank = " " * (width - cell_len(cell))
+            padded.append(blank + cell if heading in flush else cell + blank)
+        return (" " * gap).join(padded).rstrip()
 
     if title:
         screen.print(Text(title, style="bold"))
