@@ -32,7 +32,7 @@ def attractors(
     """List the motions on which disturbances end: rest, rub, periodic orbits and irregular bouncing.
 
     Irregular bouncing is followed further to measure how long it lasts: it may be a
-    transient.  A sample of disturbances proves nothing about motions that none of them reaches.
+    transient.  A sample of disturbances says nothing about motions that none of them reaches.
     """
     case = read_machine(machine, settings)
     check_output(out)

@@ -55,9 +55,9 @@ def basins(
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.
+    """Find where disturbances end: what share comes back, the smallest that does not, and the gains that help.
 
-    Every start is followed to where it settles. Values need units, such as '50 mm/s', unless the machine file is
+    Every start is simulated until it settles. Values need units, such as '50 mm/s', unless the machine file is
     dimensionless. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
     """
     case = read_machine(machine, settings)

@@ -30,7 +30,7 @@ PHASE = option(
     "ANGLE",
     "Angle from the direction of the fall to the unbalance at the release, in the sense of rotation, such as '90 deg'; by default that of the machine.",
 )
-RACE_SPEED = option("SPEED", "Speed of the race at the release, such as '500 rpm'; by default it stands still.")
+RACE_SPEED = option("SPEED", "Speed of the race at the release, such as '500 rpm'; by default 0.")
 MAP = option(
     "NAME,NAME",
     "Drop it at each point of a plane: phase, regained_after or race_speed of the release, or parameters of the machine, such as 'phase,speed'.",
@@ -107,7 +107,7 @@ def _drop_once(case: Case, begins: Beginning, end: float | None, out: str | None
 
 
 def _print_drop(screen: Console, found: DropStudy) -> None:
-    """Print what was done, how it ended, the loads of each plane, and the limits."""
+    """Print what was done, how it ended, the loads of each touchdown bearing, and the limits."""
     from rich.text import Text
 
     from carom.cli.motion_tables import print_checks

@@ -63,14 +63,11 @@ BLADE_LOSSES = option(
 )
 INSTANT = option(
     "ANGLE",
-    "Angle by which the shaft has turned when it happens, such as '90 deg'. It matters under weight, with limits of the magnetic bearings and "
-    "where bearings are anisotropic. By default 0 of one motion: then the x axis that turns with the shaft passes that of the "
-    "room; of many each has an instant of its own.",
+    "Angle by which the shaft has turned when the disturbance comes, such as '90 deg'; it matters under gravity, with limits of the magnetic bearings "
+    "and where bearings are anisotropic. Default: 0 for one motion, when the axes that turn with the shaft pass those of the room; any for many.",
 )
-REGAINED_AFTER = option("T", "Time after the release at which levitation is back, such as '50 ms'; by default never.")
-UNTIL = option(
-    "T", "Follow a motion to this time, in 1/Omega or with a unit; by default until it is known where it ends."
-)
+REGAINED_AFTER = option("T", "Time after the release at which levitation returns, such as '50 ms'; by default never.")
+UNTIL = option("T", "Follow a motion to this time, in 1/Omega or with a unit; by default until the outcome is certain.")
 
 ALONG = option("NAME", "Parameter to vary, such as gamma, speed, damping or stiffness.", default=...)
 PLANE = option(

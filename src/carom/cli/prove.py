@@ -49,13 +49,16 @@ ALONG = option(
 FROM = option("A", "First value of the parameter, dimensionless or with a unit.", "--from")
 TO = option("B", "Last value of the parameter.", "--to")
 KICKS = option("SPEED", "Prove instead which kicks out of levitation up to SPEED come back.")
-SHOCKS = option("PEAK,TIME", "The same of half-sine shocks of the base with peaks up to PEAK, such as '20 g, 0.5 ms'.")
+SHOCKS = option(
+    "PEAK,TIME",
+    "Prove instead which half-sine shocks of the base with peaks up to PEAK come back, such as '20 g, 0.5 ms'.",
+)
 STEPS = option(
     "CHANGE",
-    "The same of steps to the unbalance of the machine, by changes up to CHANGE, such as '20 um' or '500 g mm'.",
+    "Prove instead which steps of the unbalance by changes up to CHANGE come back, such as '20 um' or '500 g mm'.",
 )
 STATES = option("SPEED", "Prove instead that all states inside the clearance up to SPEED come back.")
-MOST_IMPACTS = option("N", "Leave open what may have more than N impacts; by default 12.")
+MOST_IMPACTS = option("N", "Leave undecided what may take more than N impacts; by default 12.")
 TIME_LIMIT = option("T", "End the search after T, such as '2 h'; by default 10 min, along a parameter never.")
 OUT = option(
     "DIR",

@@ -10,12 +10,12 @@ OUT = option("DIR", "Write figures, study.json and report.html to this directory
 PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")
 ALONG = option(
     "NAME",
-    "A parameter along which recovery is searched and a change is looked for, such as 'speed', 'friction' or 'derivative'; may be repeated. By "
+    "A parameter along which to search for recovery and for a change to advise, such as 'speed', 'friction' or 'derivative'; may be repeated. By "
     "default damping and stiffness, or the gains of the magnetic bearings.",
 )
 TIME_LIMIT = option(
     "T",
-    "Follow no further motions after T, such as '2 min', and say what was not reached; with --prove it also ends the proof of kicks, by "
+    "Stop simulating after T, such as '2 min', and report what was not reached; with --prove it also ends the proof of kicks, by "
     "default after 30 s.",
 )
 LONG = flag(
