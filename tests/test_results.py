@@ -15,7 +15,7 @@ from machines import PAPER
 import carom
 from carom.base.outcome import InputError
 from carom.base.results import WIDEST, Result, fields_of, in_a_line, in_si
-from carom.parameters.told import told_along
+from carom.parameters.formats import format_along
 
 
 class Colour(enum.Enum):
@@ -163,7 +163,7 @@ def test_ranges_are_told_in_the_units_of_people():
     assert in_a_line(plane) == "gamma 0.1 to 0.2, speed 1,700 to 1,850 rpm"
     scales = machine.parameters.scales
     # 50 kg times 184.2 rad/s
-    assert told_along("gamma", (0.1, 0.2), scales) == "damping 921 to 1,842 N s/m"
+    assert format_along("gamma", (0.1, 0.2), scales) == "damping 921 to 1,842 N s/m"
     gains = carom.map_gains(machine, FEW, ("stiffness", "damping"), shape=(2, 2))
     assert "plane          stiffness 490,000 to 1,960,000 N/m, damping 700 to 2,800 N s/m\n" in repr(gains)
     assert "present        stiffness 980,000 N/m, damping 1,400 N s/m\n" in repr(gains)

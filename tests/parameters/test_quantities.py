@@ -29,8 +29,8 @@ from carom.parameters import (
 )
 from carom.parameters.common_units import COMMON_UNITS
 from carom.parameters.exact import read_exact
+from carom.parameters.formats import format_entry
 from carom.parameters.quantities import read_decimal, without_separators
-from carom.parameters.told import told_entry
 
 ALLOWED = {
     "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
@@ -301,7 +301,7 @@ def test_commas_separate_thousands_where_no_other_reading_is_left(name, text, nu
 @pytest.mark.parametrize("value", [1234.0, 50540.0, 98765.4, 2495000.0, 9.8e6, 2.5e9, 7e-7])
 @pytest.mark.parametrize("name", ["damping", "stiffness", "speed", "proportional_gain"])
 def test_what_carom_writes_can_be_read(name, value):
-    text = told_entry(name, value, 8)
+    text = format_entry(name, value, 8)
 
     assert "," in text or "×" in text
     assert read_quantity(replace(ENTRIES[name], lowest=0.0, highest=1e30), text) == pytest.approx(

@@ -11,7 +11,7 @@ from sweep_tasks import Failing, basins_plan
 from carom import plots
 from carom.base.outcome import InputError
 from carom.parameters import Case, Machine, Zones
-from carom.parameters.told import shown_from_si
+from carom.parameters.formats import shown_from_si
 from carom.plots.maps import cell_edges
 from carom.sweeps import GridAxis, open_sweep, run_sweep
 from carom.sweeps.plan import SweepPlan

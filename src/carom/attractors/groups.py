@@ -19,7 +19,7 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
 from carom.parameters import Scales
-from carom.parameters.told import told
+from carom.parameters.formats import format_quantity
 
 FADING = "It still bounces as far as it was followed: friction stops its slip in every impact, and the bounces provably fade."
 """What is said of rolling that is reached only after more impacts than are followed, or in the limit of infinitely many."""
@@ -147,7 +147,7 @@ def _words(settled: SettledMotion, name: MotionName) -> str:
         if not settled.multiplicity:
             return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
         impacts = "one impact" if settled.multiplicity == 1 else f"{settled.multiplicity} impacts"
-        period = told(settled.period or 0.0, "time", settled.motion.rotor.scales, 4)
+        period = format_quantity(settled.period or 0.0, "time", settled.motion.rotor.scales, 4)
         return f"The rotor {doing} ({name}): {impacts} in each period of {period}."
     if settled.outcome is Outcome.FORWARD_RUB:
         how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"

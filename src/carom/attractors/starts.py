@@ -23,7 +23,7 @@ from carom.models import Rotor, Subject, rotor_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.parameters import Scales, own_size, usual_kick
-from carom.parameters.told import told
+from carom.parameters.formats import format_quantity
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
 
@@ -150,7 +150,7 @@ class DisturbanceSet:
             parts.append(f"{kicks} kicks of the levitating rotor")
         if self.count > kicks:
             parts.append(f"{self.count - kicks} starts anywhere in the clearance")
-        found = f"{' and '.join(parts)}, at up to {told(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
+        found = f"{' and '.join(parts)}, at up to {format_quantity(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
         if rotor.depends_on_instant:
             found += f", each {ITS_INSTANT}"
         return f"{self.count} disturbances (seed {self.seed}): {found}"
@@ -159,7 +159,7 @@ class DisturbanceSet:
         """Describe the disturbances for rotors in general, whether they can levitate or not."""
         return (
             f"{self.count} disturbances (seed {self.seed}): kicks of the levitating rotor and starts anywhere in the clearance, "
-            f"at up to {told(self.fastest, 'velocity', scales)} in the fixed frame"
+            f"at up to {format_quantity(self.fastest, 'velocity', scales)} in the fixed frame"
         )
 
 

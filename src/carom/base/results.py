@@ -74,7 +74,7 @@ class Result(Tabular):
 
     def line_of(self, name: str, value: object) -> str:
         """An attribute in a line: in units of the equations, behind it in SI units if the machine is known."""
-        return told_as(self.kind_of(name), value, self.known_scales)
+        return format_value(self.kind_of(name), value, self.known_scales)
 
     def kind_of(self, name: str) -> str:
         """Property of the scales by which an attribute is converted, ``"angle"``, or nothing."""
@@ -131,10 +131,10 @@ class Members(Result, Sequence[Member]):
         return [getattr(member, "name", "") for member in self.members]
 
 
-def told_as(kind: str, value: object, scales: Any) -> str:
+def format_value(kind: str, value: object, scales: Any) -> str:
     """A value of a kind in a line, behind it in SI units if the scales are known."""
     # The layers forbid imports from above.
-    beside = import_module("carom.parameters.told").told_beside(value, kind, scales) if kind and scales else ""
+    beside = import_module("carom.parameters.formats").format_beside(value, kind, scales) if kind and scales else ""
     return f"{in_a_line(value, scales)}{beside}"
 
 
@@ -275,7 +275,7 @@ def _text(value: object, name: str) -> str:
 def _parts(value: Any, scales: Any) -> str:
     fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
     told = [
-        f"{name}={told_as(KINDS.get(name, ''), entry, scales)}"
+        f"{name}={format_value(KINDS.get(name, ''), entry, scales)}"
         for name, entry in fields
         if entry is not None and not callable(entry)
     ]

@@ -26,7 +26,7 @@ from carom.motions import Drop, State, Whirl, follow_loads
 from carom.motions.loads import DropLoads
 from carom.motions.starts import Until
 from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
-from carom.parameters.told import number
+from carom.parameters.formats import number
 
 if TYPE_CHECKING:
     import xarray

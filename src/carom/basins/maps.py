@@ -18,7 +18,7 @@ from carom.base.progress import Reporter
 from carom.basins.dataset import Stored
 from carom.models import Axis, Rotor, axis
 from carom.models.axes import Ends, read_interval, usual_range
-from carom.parameters.told import told_entry, told_range
+from carom.parameters.formats import format_entry, format_range
 
 if TYPE_CHECKING:
     import xarray
@@ -121,7 +121,7 @@ class OverPlane(Stored):
     @property
     def plane(self) -> str:
         """Both with their ranges, in words."""
-        return _said(self.axes, [told_range(axis.field, self.dataset[axis.name].values) for axis in self.axes])
+        return _said(self.axes, [format_range(axis.field, self.dataset[axis.name].values) for axis in self.axes])
 
     @property
     def present(self) -> tuple[float, float]:
@@ -131,7 +131,7 @@ class OverPlane(Stored):
     def at(self, values: Sequence[float]) -> str:
         """Values of both with their names and units."""
         pairs = zip(self.axes, values, strict=True)
-        return _said(self.axes, [told_entry(axis.field, value) for axis, value in pairs])
+        return _said(self.axes, [format_entry(axis.field, value) for axis, value in pairs])
 
     def line_of(self, name: str, value: object) -> str:
         """Present values are told in the units of both."""

@@ -21,8 +21,8 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, unpack
 from carom.orbits.word import Word
 from carom.parameters import Numbers, Scales
+from carom.parameters.formats import format_range
 from carom.parameters.scaling import SCALING
-from carom.parameters.told import told_range
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,7 +78,7 @@ class OrbitBranch(Result):
     def line_of(self, name: str, value: object) -> str:
         """Values are told in the unit of the parameter."""
         if name == "values" and len(self):
-            return f"{len(self)} from {told_range(self.axis.field, self.values)}"
+            return f"{len(self)} from {format_range(self.axis.field, self.values)}"
         return super().line_of(name, value)
 
     @property

@@ -13,7 +13,7 @@ from carom.base.results import Result
 from carom.bifurcations.conditions import RESONANCES
 from carom.bifurcations.planes import Plane
 from carom.orbits.names import CountedName, OrbitName, combined
-from carom.parameters.told import told_along
+from carom.parameters.formats import format_along
 
 _SUBJECTS = {
     "boundary-equilibrium": STEADY_WORDS["contact-free"],
@@ -99,7 +99,7 @@ class Curve(Result):
         """Points are told in the units of both parameters."""
         if name == "points" and len(self.points):
             ranges = zip((self.plane.first, self.plane.second), self.points.T, strict=True)
-            return f"{len(self.points)}, {', '.join(told_along(axis, ends) for axis, ends in ranges)}"
+            return f"{len(self.points)}, {', '.join(format_along(axis, ends) for axis, ends in ranges)}"
         return super().line_of(name, value)
 
     @cached_property

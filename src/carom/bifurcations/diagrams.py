@@ -33,8 +33,8 @@ from carom.orbits.search import Impacts
 from carom.orbits.searched import Searched
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
+from carom.parameters.formats import shown_in
 from carom.parameters.scaling import SCALING
-from carom.parameters.told import shown_in
 
 SAMPLES = 13
 """Number of values of the parameter at which all orbits are searched."""

@@ -12,7 +12,7 @@ from carom.continuation import Watch
 from carom.models import Rotor
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.parameters import Numbers, Parameters
-from carom.parameters.told import told_along
+from carom.parameters.formats import format_along
 
 EDGE = "edge of the plane"
 """Why curves end that leave the plane."""
@@ -54,7 +54,7 @@ class Plane:
     def words(self) -> str:
         """Both parameters with their ranges: ``damping 500 to 2,000 N s/m, speed 1,700 to 1,850 rpm``."""
         ranges = ((self.first, self.first_range), (self.second, self.second_range))
-        return ", ".join(told_along(name, ends) for name, ends in ranges)
+        return ", ".join(format_along(name, ends) for name, ends in ranges)
 
     @property
     def widths(self) -> np.ndarray:

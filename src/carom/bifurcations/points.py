@@ -16,7 +16,7 @@ from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.parameters import Numbers, Scales
-from carom.parameters.told import told_entry
+from carom.parameters.formats import format_entry
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 HALVING = "period-halving"
@@ -97,7 +97,7 @@ class Bifurcation(Result):
         """The value is told in the unit of the parameter."""
         if name == "value" and self.parameter and isinstance(value, float):
             known = self.shot.rotor.varied if self.shot is not None else {}
-            return told_entry(known.get(self.parameter, self.parameter), value, 6)
+            return format_entry(known.get(self.parameter, self.parameter), value, 6)
         return super().line_of(name, value)
 
     @property

@@ -88,7 +88,7 @@ def _lasting(entry: Attractor) -> str:
 def _numbers(entry: Attractor, exponents: LyapunovExponents | None, total: int) -> tuple[str, ...]:
     """Share of all disturbances, impacts, period and largest exponent across the motion, as text."""
     from carom.attractors import exact_interval
-    from carom.parameters.told import told
+    from carom.parameters.formats import format_quantity
 
     low, high = exact_interval(entry.count, total) if total else (0.0, 1.0)
     largest = "-"
@@ -99,7 +99,7 @@ def _numbers(entry: Attractor, exponents: LyapunovExponents | None, total: int) 
     return (
         f"{100.0 * entry.share_of_disturbances:.3g} % ({_end(low)} to {_end(high)})",
         str(impacts) if impacts else "-",
-        told(entry.period, "time", entry.scales, 6) if entry.period else "-",
+        format_quantity(entry.period, "time", entry.scales, 6) if entry.period else "-",
         largest,
     )
 

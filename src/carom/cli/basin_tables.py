@@ -13,7 +13,7 @@ from carom.cli.fitting import print_table
 from carom.cli.tables import print_rows
 from carom.disturbances.echo import plan_words
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.parameters.told import told, told_angle
+from carom.parameters.formats import format_angle, format_quantity
 from carom.studies.wording import Wording
 
 
@@ -27,7 +27,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         share = basin.share_of(name)
         when = float(np.median(times[index == basin.motions.index(name)]))
         interval = f"{100 * share.low:.3g} to {100 * share.high:.3g} %" if drawn else ""
-        fraction, decided = f"{100 * share.fraction:.4g} %", told(when, "time", basin.scales)
+        fraction, decided = f"{100 * share.fraction:.4g} %", format_quantity(when, "time", basin.scales)
         rows.append((name.words, str(share.count), fraction, interval, decided))
     print_table(screen, "", headings, rows, note="Decision time: when the outcome was certain.")
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
@@ -106,10 +106,12 @@ def _where(smallest: SmallestLoss) -> str:
     """The direction of the smallest disturbance that does not come back."""
     if smallest.size is None:
         return ""
-    where = f"at {told_angle(smallest.angle or 0.0)}"
+    where = f"at {format_angle(smallest.angle or 0.0)}"
     if smallest.kind == "blade-loss":
         return f"{where} from the unbalance before it"
-    return where if smallest.instant is None else f"{where} when the shaft has turned by {told_angle(smallest.instant)}"
+    return (
+        where if smallest.instant is None else f"{where} when the shaft has turned by {format_angle(smallest.instant)}"
+    )
 
 
 def _value(case: Case, name: str, value: float) -> str:

@@ -86,7 +86,7 @@ def _shown(varied: Axis, value: float) -> str:
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.cli.fitting import print_table
     from carom.cli.regions import named
-    from carom.parameters.told import shown_in
+    from carom.parameters.formats import shown_in
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)

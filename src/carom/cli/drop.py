@@ -142,8 +142,8 @@ def _print_map(screen: Console, found: DropMap) -> None:
     """Print how the drops end, the loads on the bearing, and how many exceed its limits."""
     from carom.basins.drops import MEASURES
     from carom.cli.fitting import print_table
+    from carom.parameters.formats import number
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
-    from carom.parameters.told import number
 
     index, exists = found.dataset["motion"].values, found.exists
     screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
@@ -162,6 +162,6 @@ def _print_map(screen: Console, found: DropMap) -> None:
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())
         said = f"exceeded by {over} of {int(exists.sum())}" if over else "met by all"
-        screen.print(f"Limit of {LIMIT_FIELDS[load].words}, {LoadLimits.told(load, limit)}: {said}.")
+        screen.print(f"Limit of {LIMIT_FIELDS[load].words}, {LoadLimits.format(load, limit)}: {said}.")
     if not exists.all():
         screen.print(f"{int((~exists).sum())} of {exists.size} machines cannot levitate, and are not dropped.")

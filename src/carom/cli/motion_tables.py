@@ -18,8 +18,8 @@ from carom.cli.fitting import print_table
 from carom.cli.logs import contact_rows
 from carom.cli.tables import TEXT_WIDTH, complex_words, print_rows
 from carom.motions import Trajectory, drop_loads
+from carom.parameters.formats import format_angle, format_quantity, number, shown_from_si
 from carom.parameters.indentation import indentation_of_hit
-from carom.parameters.told import number, shown_from_si, told, told_angle
 from carom.studies import LoadCheck, Wording
 from carom.studies.load_checks import checks_of_planes
 from carom.studies.load_tables import load_tables
@@ -43,7 +43,7 @@ def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> 
     for part in motion.parts:
         if len(motion.parts) > 1:
             console.print()
-            begun = f"From {told(part.begins, 'time', case.parameters.scales)}:"
+            begun = f"From {format_quantity(part.begins, 'time', case.parameters.scales)}:"
             console.print(begun if part.begins else _FIRST.get(kind, "From the beginning:"))
         print_motion(console, case, part)
     found = drop_loads(motion)
@@ -118,8 +118,8 @@ def _final_words(say: Wording, seen: Trajectory) -> str:
     place, speed = seen.end()
     say = dataclasses.replace(say, scales=seen.scales)
     return (
-        f"At the end{_where(seen)}, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, "
-        f"moving with {say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"
+        f"At the end{_where(seen)}, in the fixed frame: {say.radius(abs(place))} from the centre at {format_angle(cmath.phase(place))}, "
+        f"moving with {say.velocity(abs(speed))} at {format_angle(cmath.phase(speed))}"
     )
 
 

@@ -180,7 +180,7 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
     from carom import plots
     from carom.basins import map_cells
     from carom.disturbances import Grid, KickPlane
-    from carom.parameters.told import number
+    from carom.parameters.formats import number
     from carom.proofs import ProvenKicks
 
     kicks, given = ProvenKicks.of(proof), {**proof.hypotheses.values, **proof.hypotheses.settings}

@@ -97,7 +97,7 @@ def _tables(
     found: RegionMap, names: tuple[str, ...]
 ) -> Iterator[tuple[str, tuple[str, ...], list[tuple[str, ...]], list[str]]]:
     """Title, headings, rows and styles of each table."""
-    from carom.parameters.told import told
+    from carom.parameters.formats import format_quantity
 
     rows, styles, at = [], [], f"at {', '.join(names)}"
     for curve in found.curves:
@@ -110,7 +110,7 @@ def _tables(
     rows = []
     for point in found.codimension2:
         scales = found.plane.at(found.model.parameters, *point.value).scales
-        period = "" if point.period != point.period else told(point.period, "time", scales, 6)
+        period = "" if point.period != point.period else format_quantity(point.period, "time", scales, 6)
         place = (f"{value:.8g}" for value in _usual(found, point.value))
         rows.append((" + ".join(map(named, point.kinds)), *place, period, "" if point.admissible else "virtual"))
     yield "Codimension-2 points and resonances", ("kinds", *names, "period", "possible"), rows, []

@@ -109,7 +109,7 @@ def _print_bearings(screen: Console, found: UnbalanceResponse) -> None:
     import numpy as np
 
     from carom.cli.fitting import print_table
-    from carom.parameters.told import number
+    from carom.parameters.formats import number
     from carom.studies.response_words import micrometres, rpm
 
     now = found.now

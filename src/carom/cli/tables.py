@@ -15,7 +15,7 @@ from rich.text import Text
 
 from carom.base.outcome import Outcome
 from carom.cli.fitting import print_table
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs

@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.arguments import Infinity, Kind, Truths, checked
 from carom.base.outcome import InputError, Outcome
 from carom.parameters import UNITS, Scales
-from carom.parameters.told import number, shown_in
+from carom.parameters.formats import number, shown_in
 
 if TYPE_CHECKING:
     from carom.models import Rotor

@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.results import in_si
 from carom.disturbances.plans import Grid, Plan
 from carom.parameters import MACHINE_FIELDS, Scales
-from carom.parameters.told import number, told, told_angle
+from carom.parameters.formats import format_angle, format_quantity, number
 
 if TYPE_CHECKING:
     from carom.disturbances.single import Single
@@ -64,7 +64,7 @@ class Echo:
 
 def angles_words(phase: float, when: str = "") -> str:
     """From where angles count: the real axis of the co-rotating frame, from which the phase of the unbalance counts too."""
-    return f"angles count from the x axis that turns with the shaft{when}, in the sense of rotation (the unbalance lies at {told_angle(phase)})"
+    return f"angles count from the x axis that turns with the shaft{when}, in the sense of rotation (the unbalance lies at {format_angle(phase)})"
 
 
 def echo_of(single: Single, rotor: Rotor) -> Echo:
@@ -78,7 +78,7 @@ def _echo_of_any(single: Single, rotor: Rotor) -> Echo:
     axes = single.model.coordinates
     sizes = {each.name: (value, each.scale) for each, value in zip(axes, single.values, strict=True)}
     told_sizes = (
-        f"{each.words} {told(value, each.scale, rotor.scales) if each.scale else told_angle(value)}"
+        f"{each.words} {format_quantity(value, each.scale, rotor.scales) if each.scale else format_angle(value)}"
         for each, value in zip(axes, single.values, strict=True)
     )
     return Echo(single.model.kind, f"Disturbance, {single.model.kind}: {', '.join(told_sizes)}", sizes)
@@ -86,9 +86,7 @@ def _echo_of_any(single: Single, rotor: Rotor) -> Echo:
 
 def _echo_of_kick(single: Single, rotor: Rotor) -> Echo:
     speed, angle = single.values
-    words = (
-        f"Kick: {told(speed, 'velocity', rotor.scales)} at {told_angle(angle)}; {angles_words(rotor.unbalance_phase)}"
-    )
+    words = f"Kick: {format_quantity(speed, 'velocity', rotor.scales)} at {format_angle(angle)}; {angles_words(rotor.unbalance_phase)}"
     return Echo("kick", words, {"speed": (speed, "velocity"), "angle": (angle, "")})
 
 
@@ -96,7 +94,7 @@ def echo_at(echo: Echo, rotor: Rotor, instant: float) -> Echo:
     """The same, with the instant of the turn where that matters."""
     if not rotor.depends_on_instant:
         return echo
-    words = f"{echo.words}; the shaft has turned by {told_angle(instant)} since the x axis that turns with it passed that of the room"
+    words = f"{echo.words}; the shaft has turned by {format_angle(instant)} since the x axis that turns with it passed that of the room"
     return replace(echo, words=words, sizes={**echo.sizes, "instant": (instant, "")})
 
 
@@ -104,7 +102,7 @@ def _echo_of_shock(single: Single, rotor: Rotor) -> Echo:
     """A half-sine shock of the base, with which the motion begins."""
     (peak, angle), duration = single.values, float(single.model.describe()["duration"])  # type: ignore[arg-type]
     scales = rotor.scales
-    size = f"{told(peak, 'acceleration', scales)} for {told(duration, 'time', scales)} at {told_angle(angle)}"
+    size = f"{format_quantity(peak, 'acceleration', scales)} for {format_quantity(duration, 'time', scales)} at {format_angle(angle)}"
     words = (
         f"Shock of the base: half-sine, {size}; {angles_words(rotor.unbalance_phase, ', as it lies when the shock begins')}; "
         "times count from then"
@@ -121,13 +119,13 @@ def _echo_of_blade_loss(single: Single, rotor: Rotor) -> Echo:
     kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
     where = "" if loss.node is None else f" at node {loss.node}"
     words = (
-        f"Loss of a blade: the {noun}{where} changes by {told(loss.change, kind, scales)} at {told_angle(phase)} from that before it, "
+        f"Loss of a blade: the {noun}{where} changes by {format_quantity(loss.change, kind, scales)} at {format_angle(phase)} from that before it, "
         "in the sense of rotation"
     )
     sizes = {"change": (loss.change, kind), "phase": (phase, "")}
     if before is not None:
         after = before + cmath.rect(loss.change, phase)
-        words += f": from {told(before, kind, scales)} to {told(abs(after), kind, scales)}, turned by {told_angle(cmath.phase(after))}"
+        words += f": from {format_quantity(before, kind, scales)} to {format_quantity(abs(after), kind, scales)}, turned by {format_angle(cmath.phase(after))}"
         sizes |= {"before": (before, kind), "after": (abs(after), kind)}
     return Echo("blade-loss", words, sizes)
 
@@ -136,7 +134,7 @@ def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales
     """The unbalance at every speed of a range, by the eccentricity in clearances and speeds in rad/s."""
     shown = MACHINE_FIELDS["speed"]
     low, high = (f"{number(shown.in_usual_unit(speed), 6)} {shown.usual_unit}" for speed in interval)
-    words = f"Unbalance: {told(eccentricity, 'unbalance', scales)}, eccentricity {told(eccentricity, 'length', scales)}, at speeds from {low} to {high}"
+    words = f"Unbalance: {format_quantity(eccentricity, 'unbalance', scales)}, eccentricity {format_quantity(eccentricity, 'length', scales)}, at speeds from {low} to {high}"
     sizes = {"unbalance": (eccentricity, "unbalance"), "eccentricity": (eccentricity, "length")}
     ends = zip(("lowest_speed", "highest_speed"), interval, strict=True)
     return Echo("unbalance", words, {**sizes, **{name: (speed / scales.speed, "speed") for name, speed in ends}})
@@ -156,14 +154,14 @@ def echo_of_drop(
     Of a rotor in several touchdown bearings ``planes`` are displacement and rate at each: its coordinates are no places.
     """
     begun = _moving_in_planes(planes, scales) if len(planes) > 1 else _moving(state, scales)
-    back = f"; levitation returns after {told(regained, 'time', scales)}" if regained is not None else ""
+    back = f"; levitation returns after {format_quantity(regained, 'time', scales)}" if regained is not None else ""
     if race_speed is not None:
         shown = MACHINE_FIELDS["speed"]
         turning = number(shown.in_usual_unit(race_speed * scales.speed), 6)
         back = f"; the race turns at {turning} {shown.usual_unit}{back}"
     words = (
         f"Release: {'' if len(planes) > 1 else 'rotor centre '}{begun.words}, under {gravity.words}; angles count from the fixed x axis in the "
-        f"sense of rotation (unbalance at the release: {told_angle(phase)}){back}"
+        f"sense of rotation (unbalance at the release: {format_angle(phase)}){back}"
     )
     sizes = {**begun.sizes, "unbalance_angle": (phase, "")}
     given = {"regained_after": (regained, "time"), "race_speed": (race_speed, "speed")}
@@ -196,10 +194,8 @@ def _moving_in_planes(planes: Sequence[tuple[complex, complex]], scales: Scales 
 def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
     """A displacement and its rate in the frame that turns with the shaft; the velocity is told in the fixed frame."""
     speed = rate + 1j * place
-    at = f"{told(abs(place), 'length', scales)} from the middle at {told_angle(cmath.phase(place))}"
-    moves = (
-        f"moving at {told(abs(speed), 'velocity', scales)} towards {told_angle(cmath.phase(speed))} in the fixed frame"
-    )
+    at = f"{format_quantity(abs(place), 'length', scales)} from the middle at {format_angle(cmath.phase(place))}"
+    moves = f"moving at {format_quantity(abs(speed), 'velocity', scales)} towards {format_angle(cmath.phase(speed))} in the fixed frame"
     return Echo(
         "start",
         f"{at}, {moves}",
@@ -217,7 +213,7 @@ def instants_words(rotor: Rotor, plan: Plan | None = None) -> str:
     if not rotor.depends_on_instant:
         return ""
     if isinstance(plan, Grid) and plan.instant is not None:
-        return f"at the instant at which the shaft has turned by {told_angle(plan.instant)}"
+        return f"at the instant at which the shaft has turned by {format_angle(plan.instant)}"
     return ANY_INSTANT
 
 
@@ -247,18 +243,18 @@ def plan_words(
         change = told_eccentricity(float(str(given["change"])), scales)
         return f"{', '.join(parts)}; eccentricity{node} changes{start} by {change}"
     if model.kind == "shock":
-        parts[-1] += f" for {told(float(str(given['duration'])), 'time', scales)}"
+        parts[-1] += f" for {format_quantity(float(str(given['duration'])), 'time', scales)}"
     return ", ".join(parts)
 
 
 def _both(value: float, kind: str, scales: Scales | None) -> str:
-    own = told(value, kind, None, 4)
-    return own if scales is None else f"{told(value, kind, scales, 4)} ({own})"
+    own = format_quantity(value, kind, None, 4)
+    return own if scales is None else f"{format_quantity(value, kind, scales, 4)} ({own})"
 
 
 def told_eccentricity(value: float, scales: Scales | None) -> str:
     """Write an eccentricity given in clearances, with the unbalance that it is if the mass is known."""
-    own = told(value, "length", None, 5)
+    own = format_quantity(value, "length", None, 5)
     if scales is None:
         return own
-    return f"{told(value, 'length', scales, 5)} ({own}, {told(value, 'unbalance', scales, 5)})"
+    return f"{format_quantity(value, 'length', scales, 5)} ({own}, {format_quantity(value, 'unbalance', scales, 5)})"

@@ -18,7 +18,7 @@ import numpy as np
 
 from carom.base.results import Result
 from carom.motions.trajectories import Trajectory
-from carom.parameters.told import number
+from carom.parameters.formats import number
 
 PER_TURN, SAMPLES = 1000, 5000
 """Instants, beside those of events, at which the place of a rotor at its magnets is looked at: in a turn, and at most in a stage or piece of one."""

@@ -19,7 +19,7 @@
 ``restitution``           restitution and what a compliant wall dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
-``told``                  sizes and numbers as people write them: mm/s, g, degrees
+``formats``               sizes and numbers as people write them: mm/s, g, degrees
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
 ========================  ========================================================================================================================
 """

@@ -10,13 +10,13 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from carom.base.arguments import checked, whole
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field
+from carom.parameters.formats import RAISED, own_entry
+from carom.parameters.formats import number as short
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
 from carom.parameters.resolution import DECIMALS
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
-from carom.parameters.told import RAISED, own_entry
-from carom.parameters.told import number as short
 
 Side = Literal["up", "down", "nearest"]
 _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}

@@ -16,11 +16,11 @@ from carom.base.arguments import NotNegative, Positive, checked
 from carom.base.outcome import CaromWarning, InputError, shown
 from carom.base.tabular import Tabular
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
+from carom.parameters.formats import format_entry, number
 from carom.parameters.numbers import Parameters
 from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import CONVERSIONS, Scales
 from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
-from carom.parameters.told import number, told_entry
 
 LEAST_RADIUS = 5.0
 """Rotor radius in clearances below which a machine file probably has a wrong unit; touchdown bearings have 20 to 1000."""
@@ -131,7 +131,7 @@ class Machine(Tabular, pydantic.BaseModel):
         super().__init__(**resolved.values)
         self._resolved = resolved
         if self.air_gap is not None and self.air_gap <= self.clearance:
-            allowed = f"larger than the clearance, {told_entry('clearance', self.clearance, 6)}: a rotor in contact would strike the magnets"
+            allowed = f"larger than the clearance, {format_entry('clearance', self.clearance, 6)}: a rotor in contact would strike the magnets"
             raise InputError("air_gap", shown(entries.get("air_gap", self.air_gap)), allowed)
         try:
             self.parameters  # noqa: B018
@@ -165,7 +165,7 @@ class Machine(Tabular, pydantic.BaseModel):
         return [(ENTRIES[name].words, self._row(name)) for name in shown_names]
 
     def _row(self, name: str) -> str:
-        text, numbers = told_entry(name, getattr(self, name), 6), self.parameters
+        text, numbers = format_entry(name, getattr(self, name), 6), self.parameters
         beside = [
             f"{DIMENSIONLESS_FIELDS[own].symbol} = {number(getattr(numbers, own))}"
             for own, partner in PHYSICAL_PARTNER.items()

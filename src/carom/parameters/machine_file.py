@@ -11,15 +11,15 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
 from carom.base.tabular import Tabular
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors, unknown_names
+from carom.parameters.formats import format_quantity, number, shown_in
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.numbers import Named, Parameters, own_numbers
 from carom.parameters.quantities import Written, read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
-from carom.parameters.settings import GRAVITY_NAME, check_settings
+from carom.parameters.settings import GRAVITY_NAME, SETTINGS
 from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits
-from carom.parameters.terms import ENTRIES
-from carom.parameters.told import number, shown_in, told
+from carom.parameters.terms import ENTRIES, check_names
 from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
 
@@ -169,11 +169,11 @@ class Case(Tabular):
         scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
-            f"{field.words} {LoadLimits.told(name, value, 4)}"
+            f"{field.words} {LoadLimits.format(name, value, 4)}"
             for name, field in LIMIT_FIELDS.items()
             if (value := getattr(self.limits, name)) is not None
         ]
-        units = [f"{shown_in(kind, None)[1]} = {told(1.0, kind, scales)}" for kind in _UNITS_TOLD]
+        units = [f"{shown_in(kind, None)[1]} = {format_quantity(1.0, kind, scales)}" for kind in _UNITS_TOLD]
         rows = {
             "touchdown bearing": self.touchdown and self.touchdown.words,
             "drive": self.drive and self.drive.words,
@@ -214,13 +214,15 @@ class Case(Tabular):
         scales, stated = self.parameters.scales, self.requirement
         required = stated.own(scales)
         usual = " (default: impact speed of a free fall across the clearance)" if stated.kick is None else ""
-        parts = [f"kicks up to {told(required.kick, 'velocity', scales)}{usual}"]
+        parts = [f"kicks up to {format_quantity(required.kick, 'velocity', scales)}{usual}"]
         if required.shock:
             peak, duration = required.shock.peak, required.shock.duration
-            parts.append(f"shocks up to {told(peak, 'acceleration', scales)}, {told(duration, 'time', scales)}")
+            parts.append(
+                f"shocks up to {format_quantity(peak, 'acceleration', scales)}, {format_quantity(duration, 'time', scales)}"
+            )
         if required.blade_loss:
             kind = "unbalance" if scales else "length"
-            parts.append(f"a loss of a blade of {told(required.blade_loss, kind, scales)}")
+            parts.append(f"a loss of a blade of {format_quantity(required.blade_loss, kind, scales)}")
         return "; ".join(parts)
 
     def replace(self, /, **changes: Any) -> Case:
@@ -304,7 +306,8 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     # If the machine cannot be read any scales do, so that all errors are told.
     scales = (Scales(1.0, 1.0, 1.0) if of_machine else None) if base is None else base.scales
     requirement = problems.attempt(Requirement.of_table, tables.survive, scales) or Requirement()
-    problems.attempt(check_settings, {name: text for name, text in texts.items() if not name.startswith(PREFIX)})
+    own = {name: text for name, text in texts.items() if not name.startswith(PREFIX)}
+    problems.attempt(check_names, own, SETTINGS)
     problems.raise_all()
     machine = base if isinstance(base, Machine) else None
     numbers = base if machine is None else machine.parameters

@@ -12,10 +12,10 @@ from typing import Annotated, Any, NamedTuple, Protocol, Self, runtime_checkable
 from carom.base.arguments import checked, having
 from carom.base.outcome import InputError, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
+from carom.parameters.formats import format_entry
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import CONVERSIONS, Scales, plain_number, root
 from carom.parameters.terms import no_such_parameter
-from carom.parameters.told import told_entry
 
 # Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
 # the equilibrium lies so far out that rounding leaves no digits for positions inside the clearance.
@@ -125,7 +125,7 @@ class Parameters:
     def words(self) -> str:
         """In a line: what a machine has in SI units, or the dimensionless numbers."""
         names = DIMENSIONLESS_FIELDS if self.scales is None else MACHINE_FIELDS
-        return ", ".join(f"{PARAMETERS[name].symbol} {told_entry(name, self.value(name))}" for name in names)
+        return ", ".join(f"{PARAMETERS[name].symbol} {format_entry(name, self.value(name))}" for name in names)
 
     def as_dict(self) -> dict[str, float]:
         """Return the seven numbers by name, without the scales."""

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from carom.base.arguments import checked
-from carom.base.outcome import Problems
-from carom.parameters.fields import Field, unknown_name, unknown_names
+from carom.parameters.fields import Field, unknown_name
 from carom.parameters.tables import GRAVITY_FIELDS
-from carom.parameters.terms import SETTABLE, check_names
+from carom.parameters.terms import SETTABLE
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS
 
 GRAVITY_NAME = "gravity"
@@ -30,12 +28,3 @@ def field_to_set(name: str) -> Field:
     if name not in SETTINGS:
         raise unknown_name(name, "to vary", SETTINGS, "the parameters")
     return SETTINGS[name]
-
-
-def check_settings(changes: Iterable[str] | Mapping[str, Any]) -> None:
-    """Check that names can be set, and that no two set the same thing; with a mapping the errors show the values."""
-    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
-    problems = Problems()
-    problems.errors += unknown_names(values, SETTINGS, "a machine or its parameters")
-    problems.attempt(check_names, {name: value for name, value in values.items() if name in SETTABLE})
-    problems.raise_all()

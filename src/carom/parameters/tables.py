@@ -12,9 +12,9 @@ from typing import Any, ClassVar, Self
 from carom.base.arguments import Count, Infinity, checked
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, unknown_names
+from carom.parameters.formats import format_angle, number
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Scales
-from carom.parameters.told import number, told_angle
 
 DOWN = -0.5 * math.pi
 """Down the y axis, as an angle from the x axis."""
@@ -183,7 +183,7 @@ class Gravity(Table):
     @property
     def words(self) -> str:
         """Both in the units of people."""
-        return f"{number(self.acceleration)} m/s\N{SUPERSCRIPT TWO} at {told_angle(self.direction)}"
+        return f"{number(self.acceleration)} m/s\N{SUPERSCRIPT TWO} at {format_angle(self.direction)}"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -265,7 +265,7 @@ class LoadLimits(Table):
 
     @staticmethod
     @checked
-    def told(name: str, value: float | Infinity, digits: Count = 3) -> str:
+    def format(name: str, value: float | Infinity, digits: Count = 3) -> str:
         """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
         if name not in LIMIT_FIELDS:
             raise InputError("name", name, "a load that can be limited")

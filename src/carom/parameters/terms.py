@@ -21,7 +21,7 @@ from decimal import Decimal
 from typing import Any, NamedTuple
 
 from carom.base.arguments import checked
-from carom.base.outcome import InputError, Problems, shown
+from carom.base.outcome import InputError, shown, together
 from carom.parameters.fields import (
     MACHINE_FIELDS,
     PARAMETERS,
@@ -175,13 +175,13 @@ def conflicts(entries: Mapping[str, Any]) -> list[InputError]:
     return found
 
 
-def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
+def check_names(changes: Iterable[str] | Mapping[str, Any], known: Mapping[str, Field] = SETTABLE) -> None:
     """Check that names can be set, and that no two set the same thing, such as ``damping`` and ``gamma``.
 
     All errors are reported at once; with a mapping they show the values.
     """
     values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
-    problems = Problems()
-    problems.errors += unknown_names(values, SETTABLE, "a machine or its parameters")
-    problems.errors += conflicts({name: value for name, value in values.items() if name in SETTABLE})
-    problems.raise_all()
+    errors = unknown_names(values, known, "a machine or its parameters")
+    errors += conflicts({name: value for name, value in values.items() if name in SETTABLE})
+    if errors:
+        raise together(errors)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from carom.base.outcome import InputError, shown, together
+from carom.parameters.formats import number
 from carom.parameters.tables import DOWN, Table, entries_of, entry
-from carom.parameters.told import number
 
 LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
 """Laws of contact that a machine file may name."""

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.parameters.told import number as plain
+from carom.parameters.formats import number as plain
 from carom.plots.cells import finish, looks_of, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.maps import BLANKS, cell_edges, draw_map, mark_cells, mark_present

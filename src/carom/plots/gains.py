@@ -15,8 +15,8 @@ from matplotlib.ticker import PercentFormatter
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.parameters import in_terms_of
+from carom.parameters.formats import shown_in
 from carom.parameters.in_terms import EXACT
-from carom.parameters.told import shown_in
 from carom.plots.maps import cell_edges, draw_map, mark_present
 from carom.plots.plane import Floats, key, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled

@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.parameters.told import rounded_down, shown_in
+from carom.parameters.formats import rounded_down, shown_in
 from carom.plots.basins import draw_cells
 from carom.plots.cells import MotionLook, around, finish, looks_of
 from carom.plots.figure import StyledFigure, narrow

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from carom.parameters.fields import MACHINE_FIELDS, PHYSICAL_PARTNER, Field
+from carom.parameters.formats import number as plain
 from carom.parameters.scaling import CONVERSIONS
-from carom.parameters.told import number as plain
 from carom.plots.words import number, parameter_label
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFor
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, InputError
 from carom.parameters import SETTINGS, Field
-from carom.parameters.told import shown_from_si
+from carom.parameters.formats import shown_from_si
 from carom.plots.maps import BLANKS, SHADES, cell_edges, draw_map, mark_present
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled

@@ -6,7 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from carom.parameters.told import shown_in
+from carom.parameters.formats import shown_in
 from carom.plots.style import LOOKS
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.closed_forms import harmless_kick
 from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
-from carom.parameters.told import number, rounded_down, shown_in
+from carom.parameters.formats import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
 from carom.proofs.families import KICKS
 from carom.proofs.hypotheses import Hypotheses

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from carom.motions import Trajectory
 from carom.motions.courses import FOLLOWED, Blows, Course, course_of, first_contacts, shown_until
 from carom.parameters import Scales
-from carom.parameters.told import shown_in
+from carom.parameters.formats import shown_in
 from carom.studies.wording import Wording
 
 TURNS = 40.0

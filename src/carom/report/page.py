@@ -10,7 +10,7 @@ from carom.base.arguments import checked
 from carom.base.files import staged_directory, write_json
 from carom.base.files.directory import MANIFEST
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.plots.sheet import drawing
 from carom.report.basins import drawable
 from carom.report.figure_files import draw_figures

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.base.outcome import InputError
 from carom.parameters import Field
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
 from carom.rotors.free_modes import FreeModes, free_modes

@@ -10,7 +10,7 @@ from carom.base.results import Result
 from carom.models import Rotor
 from carom.motions.load_sums import follow_loads
 from carom.motions.loads import DropLoads, FirstContact
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.rotors import ReducedMachine
 
 BEYOND = 3.0

@@ -37,7 +37,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Case, ControlLimit
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.studies.trials import coordinates_at_largest
 
 STEP = 0.05

@@ -9,7 +9,7 @@ from functools import partial
 from carom.base.outcome import Outcome
 from carom.models import Edge
 from carom.parameters import in_terms_of
-from carom.parameters.told import number, told_entry
+from carom.parameters.formats import format_entry, number
 from carom.studies.advice import GAIN_FACTOR, Change, evidence_of
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
@@ -45,7 +45,9 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         [present_values(study.case)],
     )
     if machine is not None:
-        told += [f"{name} {told_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")]
+        told += [
+            f"{name} {format_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
+        ]
     yield _fact(", ".join(told), "Machine")
     kind = recommended.kind
     if kind in _NO_CHANGE:

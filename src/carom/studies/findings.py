@@ -12,8 +12,8 @@ from carom.closed_forms.whirl import Rolling, Runaway
 from carom.motions.magnets import pull_words
 from carom.orbits.orbit import Orbit
 from carom.parameters import GRAVITY
+from carom.parameters.formats import number
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
-from carom.parameters.told import number
 from carom.studies.advice_facts import advice_facts
 from carom.studies.coverage import not_covered
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, touching

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.rotors import Campbell, Whirl
 from carom.rotors.synchronous import SynchronousResponse
 from carom.studies.facts import Fact

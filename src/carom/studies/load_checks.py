@@ -12,7 +12,7 @@ from carom.base.outcome import InputError
 from carom.base.results import record
 from carom.motions import DropLoads, TouchdownLoads
 from carom.parameters import LIMIT_FIELDS, LoadLimits
-from carom.parameters.told import number
+from carom.parameters.formats import number
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class LoadCheck:
     @property
     def words(self) -> str:
         """The check in words."""
-        value, limit = (LoadLimits.told(self.name, each) for each in (self.value, self.limit))
+        value, limit = (LoadLimits.format(self.name, each) for each in (self.value, self.limit))
         where = "" if self.touchdown_bearing is None else f" at touchdown bearing {self.touchdown_bearing}"
         text = f"{LIMIT_FIELDS[self.name].words}{where}: {value}, limit {limit}"
         if self.value > self.limit:

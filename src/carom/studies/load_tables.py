@@ -10,7 +10,7 @@ from carom.base.results import record
 from carom.motions import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.loads import MEASURED
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.studies.load_checks import check_loads
 from carom.studies.wording import Wording, counted
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from carom.parameters import Case, Field
 from carom.parameters.fields import RPM
-from carom.parameters.told import number, told_angle, told_entry
+from carom.parameters.formats import format_angle, format_entry, number
 from carom.rotors import PID, FlexibleMachine
 from carom.rotors.attachments import PLANE_FIELDS
 from carom.rotors.controllers import PID_FIELDS
@@ -38,18 +38,18 @@ def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     for place, support in enumerate(machine.supports, start=1):
         yield f"support {place}", f"at {at(support.node)}: {_entries(support, SUPPORT_FIELDS)}"
     for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):
-        room = told_entry(PLANE_FIELDS["clearance"], clearance)
+        room = format_entry(PLANE_FIELDS["clearance"], clearance)
         others = {name: field for name, field in PLANE_FIELDS.items() if name != "clearance"}
         told = f"clearance {room}, {_entries(plane, others)}; {plane.bearing.words}"
         yield f"touchdown bearing {place}", f"at {at(plane.node)}: {told}"
     for place, unbalance in enumerate(machine.unbalances, start=1):
         yield (
             f"unbalance {place}",
-            f"at {at(unbalance.node)}: {number(1e6 * unbalance.size)} g mm, at {told_angle(unbalance.angle)}",
+            f"at {at(unbalance.node)}: {number(1e6 * unbalance.size)} g mm, at {format_angle(unbalance.angle)}",
         )
 
 
 def _entries(part: object, fields: Mapping[str, Field]) -> str:
     """Entries of a part by their names in the file, without those that are zero or not there."""
     given = ((name, getattr(part, name), field) for name, field in fields.items())
-    return ", ".join(f"{name.replace('_', ' ')} {told_entry(field, value)}" for name, value, field in given if value)
+    return ", ".join(f"{name.replace('_', ' ')} {format_entry(field, value)}" for name, value, field in given if value)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from carom.base.results import record
-from carom.parameters.told import number, rounded_down, shown_in
+from carom.parameters.formats import number, rounded_down, shown_in
 from carom.studies.facts import Fact
 from carom.studies.study_data import StudyData
 from carom.studies.wording import counted, listed

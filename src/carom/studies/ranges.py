@@ -24,7 +24,7 @@ from carom.models.axes import usual_range
 from carom.models.spans import spans_where
 from carom.orbits.single_impact import longest_within_reach
 from carom.parameters import PHYSICAL_PARTNER
-from carom.parameters.told import own_entry
+from carom.parameters.formats import own_entry
 
 Motion = Steady | Literal["single-impact", "stable-single-impact"]
 

@@ -25,8 +25,8 @@ from carom.models import Axis, Edge, Rotor, Span, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.models.spans import paired, spans_where
 from carom.motions.budget import BudgetSpentError
+from carom.parameters.formats import format_along
 from carom.parameters.scaling import CONVERSIONS
-from carom.parameters.told import told_along
 from carom.studies.ranges import Motion, MotionRange, motion_ranges
 from carom.studies.trials import Check, Trial
 
@@ -80,7 +80,7 @@ class Recovery(Result):
         if name not in ("searched", "spans"):
             return super().line_of(name, value)
         ranges = ((span.low.value, span.high.value) for span in getattr(self, name))
-        return "; ".join(told_along(self.along.name, ends, self.known_scales) for ends in ranges) or "none"
+        return "; ".join(format_along(self.along.name, ends, self.known_scales) for ends in ranges) or "none"
 
     @property
     def clear(self) -> tuple[Check, ...]:

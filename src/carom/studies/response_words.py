@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.base.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.studies.critical_speeds import Critical
 from carom.studies.response_data import ResponseData, Steady, Stretch
 from carom.studies.standards import CRITICALLY_DAMPED, vibration_limit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.rotors import ReducedMachine
 from carom.studies.facts import Fact
 from carom.studies.full_size import AtBearing

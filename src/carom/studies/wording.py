@@ -10,9 +10,9 @@ from typing import Any
 from carom.base.arguments import checked
 from carom.models import Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
+from carom.parameters.formats import format_entry, format_quantity, number, own_entry
 from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import own_numbers
-from carom.parameters.told import number, own_entry, told, told_entry
 
 SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
 """What the size of a kick, a shock or a loss of a blade is."""
@@ -87,15 +87,15 @@ class Wording:
 
     def velocity(self, value: float) -> str:
         """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
-        return told(value, "velocity", self.scales)
+        return format_quantity(value, "velocity", self.scales)
 
     def acceleration(self, value: float) -> str:
         """An acceleration of the housing given in ``c_r Ω²``, in multiples of that of free fall."""
-        return told(value, "acceleration", self.scales)
+        return format_quantity(value, "acceleration", self.scales)
 
     def unbalance(self, value: float) -> str:
         """An unbalance given as an eccentricity in ``c_r``, in g mm; without scales as it is."""
-        return told(value, "unbalance" if self.scales else "length", self.scales)
+        return format_quantity(value, "unbalance" if self.scales else "length", self.scales)
 
     def size_of(self, kind: str) -> Callable[[float], str]:
         """How the size of a kick, a shock or a loss of a blade is written."""
@@ -104,17 +104,21 @@ class Wording:
 
     def slip(self, value: float) -> str:
         """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
-        return f"{number(value * self.scales.velocity, 3)} m/s" if self.scales else told(value, "velocity", None)
+        return (
+            f"{number(value * self.scales.velocity, 3)} m/s"
+            if self.scales
+            else format_quantity(value, "velocity", None)
+        )
 
     def force(self, value: float) -> str:
         """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as bearing loads are usually given in N."""
         if self.scales is not None and abs(value) * self.scales.force >= 1e5:
             return _with_prefix(value * self.scales.force, "N", least=1.0)
-        return told(value, "force", self.scales)
+        return format_quantity(value, "force", self.scales)
 
     def impulse(self, value: float) -> str:
         """An impulse given in ``m c_r Ω``."""
-        return told(value, "impulse", self.scales)
+        return format_quantity(value, "impulse", self.scales)
 
     def energy(self, value: float) -> str:
         """An energy given in ``m c_r² Ω²``."""
@@ -133,7 +137,7 @@ class Wording:
     def value(self, name: str, value: float) -> str:
         """A value of a parameter; of a dimensionless one that of the entry of the machine, with its unit, if it is known."""
         entry, own = own_entry(name, value, self.of_machine)
-        return told_entry(self.fields.get(entry, entry), own)
+        return format_entry(self.fields.get(entry, entry), own)
 
     def name(self, name: str) -> str:
         """Return what people call a parameter: ``damping`` for ``gamma``, or the symbol ``γ`` if the machine is not known."""
@@ -178,7 +182,7 @@ class Wording:
 
     def _quantity(self, value: float, kind: str, least: float = 0.1) -> str:
         if self.scales is None:
-            return told(value, kind, None)
+            return format_quantity(value, kind, None)
         return _with_prefix(value * getattr(self.scales, kind), UNITS[kind][1], least)
 
 
@@ -186,14 +190,14 @@ def present_values(case: Case) -> str:
     """Return the present values of a machine in a line: ``damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm``."""
     if case.machine is None and "speed" in case.parameters.varied:
         scales = case.parameters.scales
-        speed = told_entry("speed", case.parameters.value("speed"))
-        return f"mass {told_entry('mass', scales.mass)}, speed {speed}, clearance {told_entry('clearance', scales.clearance)}"
+        speed = format_entry("speed", case.parameters.value("speed"))
+        return f"mass {format_entry('mass', scales.mass)}, speed {speed}, clearance {format_entry('clearance', scales.clearance)}"
     if case.machine is None:
         own = own_numbers(case.parameters).items()
         shown = [(case.parameters.varied[name].symbol, value) for name, value in own if not name.startswith(_UNTOLD)]
         return ", ".join(f"{symbol} = {number(value)}" for symbol, value in shown)
     return ", ".join(
-        f"{name} {told_entry(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
+        f"{name} {format_entry(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
     )
 
 

@@ -15,7 +15,8 @@ from carom.base.arguments import Count, Seed, Whole, checked
 from carom.base.outcome import InputError, shown
 from carom.disturbances import Grid, Plan, Sample
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Parameters, Zones
-from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, check_settings
+from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, SETTINGS
+from carom.parameters.terms import check_names
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.studies import StudyTask
@@ -287,7 +288,7 @@ def plan_sweep(
     if not names or len(set(names)) < len(names):
         raise InputError("axes", ", ".join(names) or None, "must be one or more, each for another parameter")
     if isinstance(case, Case) and isinstance(case.parameters, Parameters):
-        check_settings(dict.fromkeys(names, "varied"))
+        check_names(dict.fromkeys(names, "varied"), SETTINGS)
     for name in names:
         check_varied(case, name)
     scales = rotor_of(case).scales

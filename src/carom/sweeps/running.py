@@ -89,7 +89,7 @@ class Tally:
 
 def rate_words(rate: float, noun: str) -> str:
     """Write a number per second."""
-    from carom.parameters.told import number
+    from carom.parameters.formats import number
 
     return f"{number(rate, 3)} {noun}/s"
 

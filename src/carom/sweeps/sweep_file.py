@@ -29,7 +29,7 @@ from carom.parameters import (
     usual_kick,
 )
 from carom.parameters.fields import nearest_name
-from carom.parameters.settings import check_settings
+from carom.parameters.terms import check_names
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis
 from carom.sweeps.basins import BasinsTask
@@ -186,8 +186,9 @@ def _check_varied(axes: list[str], settings: list[str], planar: bool) -> None:
     if planar:
         unknown = [name for name in names if name not in SETTINGS]  # reported as an error of the settings
         problems.attempt(
-            check_settings,
+            check_names,
             {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
+            SETTINGS,
         )
     problems.raise_all()
 

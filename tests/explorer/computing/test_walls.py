@@ -70,5 +70,5 @@ def test_a_limit_of_the_force_is_told_beside_the_largest():
     force = 0.5 * SCALES.force
     stated = LoadLimits(force=force)
     assert COMPLIANT.beside(0.4, stated, SCALES).endswith(": kept")
-    assert COMPLIANT.beside(0.6, stated, SCALES) == f"; limit {LoadLimits.told('force', force)}: exceeded"
+    assert COMPLIANT.beside(0.6, stated, SCALES) == f"; limit {LoadLimits.format('force', force)}: exceeded"
     assert COMPLIANT.beside(0.6, LoadLimits(), SCALES) == RIGID.beside(0.6, stated, SCALES) == ""

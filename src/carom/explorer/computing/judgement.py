@@ -16,7 +16,7 @@ from carom.explorer.computing.walls import hits_of, wall_at
 from carom.models import Rotor
 from carom.motions import simulate
 from carom.parameters import Case, LoadLimits
-from carom.parameters.told import told
+from carom.parameters.formats import format_quantity
 from carom.studies import study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import about
@@ -66,11 +66,15 @@ def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
     if found.size is None:
         return Loss(
-            None, "none found", f"up to {told(largest, plane.scale, scales)}, {found.tried:,} {plane.nouns[1]} tried"
+            None,
+            "none found",
+            f"up to {format_quantity(largest, plane.scale, scales)}, {found.tried:,} {plane.nouns[1]} tried",
         )
     below = f"; {found.fresh:,} fresh {plane.nouns[1]} below it came back" if found.fresh else ""
     return Loss(
-        found.size, told(found.size, plane.scale, scales), f"smallest of {found.tried:,} {plane.nouns[1]} tried{below}"
+        found.size,
+        format_quantity(found.size, plane.scale, scales),
+        f"smallest of {found.tried:,} {plane.nouns[1]} tried{below}",
     )
 
 

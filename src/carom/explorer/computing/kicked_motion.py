@@ -16,7 +16,7 @@ from carom.explorer.computing.walls import Hits, hits_of, wall_at
 from carom.models import Rotor
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
-from carom.parameters.told import shown_in
+from carom.parameters.formats import shown_in
 from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.studies.wording import counted, listed

@@ -9,7 +9,7 @@ from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress
 from carom.models import rotor_of
 from carom.parameters import Case
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.rotors.reduced_machine import UNHELD
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies import unbalance_response

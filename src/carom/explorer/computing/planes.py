@@ -19,7 +19,7 @@ from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Rotor, rotor_of
 from carom.motions import State
 from carom.parameters import SHOCK_DURATION, Case, Scales
-from carom.parameters.told import shown_in, told, told_angle
+from carom.parameters.formats import format_angle, format_quantity, shown_in
 from carom.studies.survives import largest_change
 
 Name = Literal["kick", "shock", "blade-loss"]
@@ -105,7 +105,7 @@ class Plane:
 
     def words_up_to(self, size: float, scales: Scales | None) -> str:
         """All of them up to a size in units of the equations, such as ``kicks up to 166 mm/s``."""
-        return f"{self.nouns[1]} up to {told(size, self.scale, scales)}"
+        return f"{self.nouns[1]} up to {format_quantity(size, self.scale, scales)}"
 
     def by_size(self, rotor: Rotor, size: float) -> Disturbance:
         """Disturbances by size and direction, for searches; the size is in units of the equations."""
@@ -124,18 +124,18 @@ class Plane:
         size, angle = math.hypot(first, second), math.atan2(second, first)
         if self.name == "kick":
             velocity = rest.velocity(first, second)
-            turned = told_angle(cmath.phase(velocity) % math.tau)
-            told_size = told(abs(velocity), "velocity", rotor.scales)
+            turned = format_angle(cmath.phase(velocity) % math.tau)
+            told_size = format_quantity(abs(velocity), "velocity", rotor.scales)
             return rotor, rest.kicked(first, second), f"A kick of {told_size} at {turned}"
-        words = f"{told(size, self.scale, rotor.scales)}"
-        turned = told_angle(angle % math.tau)
+        words = f"{format_quantity(size, self.scale, rotor.scales)}"
+        turned = format_angle(angle % math.tau)
         if self.name == "shock":
             lasting = self.lasting(rotor)
             state = BaseShock(size, lasting).release(rotor, angle)
             return (
                 rotor,
                 state,
-                f"A shock of {words} for {told(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
+                f"A shock of {words} for {format_quantity(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
             )
         after, state = BladeLoss(size).apply(rotor, angle)
         return after, state, f"A loss of a blade that changes the unbalance by {words} at {turned}"

@@ -10,7 +10,7 @@ from carom.base.outcome import InputError
 from carom.base.progress import ShowProgress
 from carom.explorer.computing.planes import Plane
 from carom.models import Rotor, exact_rotor_of
-from carom.parameters.told import number, rounded_down
+from carom.parameters.formats import number, rounded_down
 
 LIMIT = "30 s"
 """Time for the search."""

@@ -10,7 +10,7 @@ from carom.models import Rotor
 from carom.motions import Trajectory
 from carom.motions.kinematics import is_compliant
 from carom.parameters import LoadLimits, Scales
-from carom.parameters.told import number
+from carom.parameters.formats import number
 from carom.studies import Wording
 
 
@@ -104,7 +104,7 @@ class Wall:
         if not self.compliant or limits.force is None or scales is None:
             return ""
         kept = "kept" if hardest * scales.force <= limits.force else "exceeded"
-        return f"; limit {LoadLimits.told('force', limits.force)}: {kept}"
+        return f"; limit {LoadLimits.format('force', limits.force)}: {kept}"
 
 
 RIGID = Wall(

@@ -20,7 +20,7 @@ from carom.explorer.computing.planes import Plane
 from carom.models import Rotor
 from carom.parameters import Case, Scales
 from carom.parameters.fields import RPM
-from carom.parameters.told import number, shown_in, told
+from carom.parameters.formats import format_quantity, number, shown_in
 from carom.plots.style import LOOKS
 from carom.rotors.synchronous import SynchronousResponse
 
@@ -48,7 +48,11 @@ def _typed(value: float) -> str:
 
 def plane_message(plane: Plane, scales: Scales | None) -> Message:
     """A kind of disturbances, as the page offers it."""
-    lasting = f" of {told(plane.duration / (scales.time if scales else 1.0), 'time', scales)}" if plane.duration else ""
+    lasting = (
+        f" of {format_quantity(plane.duration / (scales.time if scales else 1.0), 'time', scales)}"
+        if plane.duration
+        else ""
+    )
     return {"name": plane.name, "words": f"{plane.nouns[1]}{lasting}"}
 
 
@@ -90,7 +94,7 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
         else f"It cannot levitate with these values. The kicks disturb {found.rest.words}.",
         "harmless": plane_harmless(found, rotor) / found.largest,
         "lost_size": 0.0 if lost is None else factor * lost,
-        "lost": "–" if coarse else "none" if lost is None else told(lost, plane.scale, scales),
+        "lost": "–" if coarse else "none" if lost is None else format_quantity(lost, plane.scale, scales),
         "lost_remark": WAITS if coarse else f"of {found.share.total:,} {plane.nouns[1]} tried; a finer search follows",
         "rest_position": [found.rest.place.real, found.rest.place.imag],
         "outward": [found.rest.outward.real, found.rest.outward.imag] if plane.name == "kick" else [1.0, 0.0],

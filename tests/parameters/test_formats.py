@@ -9,7 +9,7 @@ from carom.disturbances.echo import echo_of
 from carom.disturbances.single import Single
 from carom.models import jeffcott
 from carom.parameters import Parameters, Scales
-from carom.parameters.told import number, rounded_down, told, told_angle
+from carom.parameters.formats import format_angle, format_quantity, number, rounded_down
 from carom.studies.wording import Wording
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
@@ -28,13 +28,13 @@ NUMBERS = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95
     ],
 )
 def test_sizes_are_told_in_the_units_of_people(value, kind, text):
-    assert told(value, kind, SCALES) == text
+    assert format_quantity(value, kind, SCALES) == text
 
 
 def test_without_scales_units_are_those_of_the_equations():
-    assert told(0.5, "velocity", None) == "0.5 c_r Ω"
-    assert told(0.5, "acceleration", None) == "0.5 c_r Ω²"
-    assert told(0.5, "time", None) == "0.5/Ω"
+    assert format_quantity(0.5, "velocity", None) == "0.5 c_r Ω"
+    assert format_quantity(0.5, "acceleration", None) == "0.5 c_r Ω²"
+    assert format_quantity(0.5, "time", None) == "0.5/Ω"
 
 
 @pytest.mark.parametrize(
@@ -47,14 +47,14 @@ def test_what_is_proven_is_rounded_down(value, least):
 
 
 def test_angles_and_numbers():
-    assert told_angle(0.5235987755982988) == "30°"
+    assert format_angle(0.5235987755982988) == "30°"
     assert number(1400.0) == "1,400"
 
 
 @pytest.mark.parametrize("scales", [None, SCALES])
 @pytest.mark.parametrize("speed", [0.0123456, 0.5, 12.3456, 98765.4])
 def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
-    text = told(speed, "velocity", scales)
+    text = format_quantity(speed, "velocity", scales)
 
     assert text.endswith("mm/s" if scales else "c_r Ω")
     assert Wording(scales).velocity(speed) == text

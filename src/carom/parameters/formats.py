@@ -65,13 +65,13 @@ def shown_from_si(unit: str) -> tuple[float, str]:
     return _SHOWN[kinds[unit]] if unit in kinds else (1.0, unit)
 
 
-def told(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str:
+def format_quantity(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str:
     """Write a size given in units of the equations in this unit: ``60 mm/s``, ``5 g``; a time without scales as ``0.5/Ω``."""
     factor, unit = shown_in(kind, scales)
     return f"{number(factor * value, digits)}{unit[1:] if unit.startswith('1/') else f' {unit}'}"
 
 
-def told_beside(value: object, kind: str, scales: Scales | None) -> str:
+def format_beside(value: object, kind: str, scales: Scales | None) -> str:
     """What stands behind numbers in units of the equations for people: `` (60 mm/s)``; nothing without scales.
 
     Of an array of more than one number it is the range of the finite ones; nothing if there are none, or if they are complex.
@@ -83,31 +83,31 @@ def told_beside(value: object, kind: str, scales: Scales | None) -> str:
         return ""
     if numbers.size == 1:
         (one,) = numbers.ravel().tolist()
-        return f" ({_told_number(one, kind, scales)})" if np.isfinite(one) else ""
+        return f" ({_format_number(one, kind, scales)})" if np.isfinite(one) else ""
     if numbers.dtype.kind == "c" or not np.isfinite(numbers).any():
         return ""
     known = numbers[np.isfinite(numbers)]
-    low, high = (_told_number(float(end), kind, scales) for end in (known.min(), known.max()))
-    return f" ({told_between(low, high)})"
+    low, high = (_format_number(float(end), kind, scales) for end in (known.min(), known.max()))
+    return f" ({format_interval(low, high)})"
 
 
-def _told_number(value: complex, kind: str, scales: Scales) -> str:
+def _format_number(value: complex, kind: str, scales: Scales) -> str:
     """A real or complex number, or an angle in rad, with its unit."""
     if kind == "angle":
-        return told_angle(value.real)
+        return format_angle(value.real)
     if not isinstance(value, complex):
-        return told(value, kind, scales)
+        return format_quantity(value, kind, scales)
     factor, unit = shown_in(kind, scales)
     up = number(factor * value.imag, 3)
     return f"{number(factor * value.real, 3)}{up if up.startswith('-') else f'+{up}'}i {unit}"
 
 
-def told_angle(angle: float) -> str:
+def format_angle(angle: float) -> str:
     """Write an angle given in rad in degrees: ``30°``."""
     return f"{number(math.degrees(angle), 3)}°"
 
 
-def told_entry(parameter: str | Field, value: float, digits: int = 4) -> str:
+def format_entry(parameter: str | Field, value: float, digits: int = 4) -> str:
     """Write a parameter given in SI units in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``, ``0.152``.
 
     One that is none of the planar rotor is given by its field.
@@ -118,10 +118,10 @@ def told_entry(parameter: str | Field, value: float, digits: int = 4) -> str:
     return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
 
 
-def told_range(parameter: str | Field, values: Iterable[float]) -> str:
+def format_range(parameter: str | Field, values: Iterable[float]) -> str:
     """Write the range of some values of a parameter: ``500 to 2,000 N s/m``."""
     ends = list(values)
-    return told_between(told_entry(parameter, min(ends)), told_entry(parameter, max(ends)))
+    return format_interval(format_entry(parameter, min(ends)), format_entry(parameter, max(ends)))
 
 
 def own_entry(name: str, value: Any, scales: Scales | None) -> tuple[str, Any]:
@@ -131,13 +131,13 @@ def own_entry(name: str, value: Any, scales: Scales | None) -> tuple[str, Any]:
     return PHYSICAL_PARTNER[name], CONVERSIONS[name].value(value, scales)
 
 
-def told_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
+def format_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
     """Write a parameter with the range of some values; with scales what a machine has in place of a dimensionless one."""
     (entry, *_), own = zip(*(own_entry(name, value, scales) for value in values), strict=True)
-    return f"{entry} {told_range(entry, own)}"
+    return f"{entry} {format_range(entry, own)}"
 
 
-def told_between(low: str, high: str) -> str:
+def format_interval(low: str, high: str) -> str:
     """Write a range of two sizes with one unit, where both have the same."""
     unit = high.partition(" ")[2]
     return f"{low.removesuffix(f' {unit}') if unit else low} to {high}"
