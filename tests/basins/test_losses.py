@@ -13,7 +13,7 @@ import carom
 from carom.base.outcome import InputError, Outcome
 from carom.basins import smallest_loss
 from carom.basins.brackets import Bracket, Found
-from carom.basins.losses import DIRECTIONS, SIZES
+from carom.basins.losses import FULL
 from carom.disturbances import StateSlice, VelocityKick
 
 pytestmark = pytest.mark.jit_only
@@ -52,7 +52,7 @@ def test_a_finer_scan_finds_no_smaller_one():
 def test_sizes_beyond_the_first_that_is_lost_are_not_tried():
     """They cannot be the smallest, and motions that are lost are those that take long to follow."""
     found = smallest_loss(carom.models.jeffcott(MACHINE), VelocityKick(1.0))
-    assert found.fresh < found.tried < DIRECTIONS * SIZES
+    assert found.fresh < found.tried < FULL.directions * FULL.sizes
 
 
 def test_a_machine_that_always_comes_back():

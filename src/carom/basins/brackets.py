@@ -4,24 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
-
-import numpy as np
+from typing import ClassVar
 
 from carom.base.outcome import Outcome
 from carom.base.results import Result
 from carom.basins.shares import CONFIDENCE
-from carom.disturbances.coordinates import TURN
-from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 from carom.parameters import Scales
 
-TOLERANCE = 1e-3
-ROUND = 720
-"""Directions over a full turn among the fresh starts, at the upper end of their sizes."""
 NEIGHBOURS, BESIDE_LOST = 32, 1e-9
 """Disturbances beside the smallest lost one that are followed to see whether it is lost for itself, and how far from it relative to its size."""
-MOST_CHECKS = 8
-"""Number of times that fresh starts may reduce the smallest loss."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -142,80 +133,3 @@ class SmallestLoss(Result):
         ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
         """
         return -math.expm1(math.log(1.0 - CONFIDENCE) / self.drawn) if self.drawn else 1.0
-
-
-class Found(NamedTuple):
-    """A bracket in one direction, and at one instant where that matters."""
-
-    recovered: float
-    size: float
-    angle: float
-    outcome: Outcome
-    instant: float | None = None
-
-
-class Bracket:
-    """What a search has tried, and the best bracket: a recovered size, the smallest lost size, its direction and its outcome.
-
-    Parameters
-    ----------
-    **given
-        What the search is of: attributes of :class:`SmallestLoss`.
-    """
-
-    def __init__(self, **given: Any) -> None:
-        self.given = given
-        self.tried = 0
-        self.best: Found | None = None
-        self.back = 0.0  # up to here all directions scanned came back
-
-    def unfinished(self) -> SmallestLoss:
-        """Result of a search that was ended."""
-        below = self.back > self.given["harmless"] and (self.best is None or self.best.size > self.back)
-        return self.result(self.back if below else None, complete=False)
-
-    def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
-        """Which disturbances of these sizes and angles, at the instant of the best one, are lost."""
-        raise NotImplementedError
-
-    def _neighbours_lost(self) -> int:
-        """How many of the neighbours of the best one are lost."""
-        if self.best is None:
-            return 0
-        away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
-        return int(np.count_nonzero(self.lost_at(self.best.size * (1.0 + away[0]), self.best.angle + away[1])))
-
-    def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0, *, complete: bool = True) -> SmallestLoss:
-        """Result of the search so far; ``all_back`` is the largest size up to which all came back.
-
-        The neighbours are followed only where the search came to its end: otherwise nothing is left to follow them with.
-        """
-        recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
-        return SmallestLoss(
-            **self.given,
-            neighbours_lost=self._neighbours_lost() if complete else 0,
-            neighbours=NEIGHBOURS if complete and self.best is not None else 0,
-            size=size,
-            angle=None if angle is None else math.remainder(angle, TURN),
-            instant=None if instant is None else instant % TURN,
-            outcome=outcome,
-            recovered=recovered,
-            all_back=all_back,
-            fresh=fresh,
-            drawn=drawn,
-            tried=self.tried,
-            complete=complete,
-        )
-
-
-def lost(outcomes: np.ndarray) -> np.ndarray:
-    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost.
-
-    Raises
-    ------
-    BudgetSpentError
-        Some were not followed.
-    """
-    if (outcomes == NOT_FOLLOWED).any():
-        raise BudgetSpentError("the events of this question are spent")
-    return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)

@@ -2,30 +2,33 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
-from carom.closed_forms.harmless import harmless_kick, harmless_shock
-from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, KickPlane, VelocityKick
+from carom.closed_forms.harmless import harmless_blade_loss, harmless_kick, harmless_shock
+from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, KickPlane, Starts, VelocityKick
+from carom.disturbances.blade_loss import starts_after
 from carom.models import Rotor
 
-UNBALANCE = "unbalance"
-"""Quantity of eccentricities that change: people state them as an unbalance, which is that times the mass."""
+
+def size_coordinate(model: Disturbance) -> Coordinate | None:
+    """Size of a disturbance that varies by a size from 0 and a direction; of a loss of a blade the change.  ``None`` of others."""
+    if isinstance(model, BladeLoss):
+        return Coordinate("change", "change of the unbalance", 0.0, model.change, "unbalance", over_disc=True)
+    return model.size if type(model) is KickPlane or model.size == model.coordinates[0] else None
 
 
-def has_sizes(model: Disturbance) -> bool:
-    """Whether :func:`smallest_loss` can search a model: a loss of a blade, or one by size from 0 and direction."""
-    return type(model) in (KickPlane, BladeLoss) or model.size == model.coordinates[0]
+def starts_by_size(rotor: Rotor, model: Disturbance, sizes: np.ndarray, *at: np.ndarray) -> Starts:
+    """Starts after disturbances of these sizes in these directions, at these instants where they matter."""
+    if isinstance(model, BladeLoss):
+        phases, *instants = at
+        return starts_after(rotor, sizes, phases, model.node, *instants)
+    return model.starts_on(rotor, sizes, *at)
 
 
 def harmless_size(rotor: Rotor, model: Disturbance) -> float:
     """Size up to which contact is proven to be impossible; nothing is proven of a subclass, which may start anywhere."""
     if type(model) is VelocityKick:
         return harmless_kick(rotor)
-    return harmless_shock(rotor, model.duration) if type(model) is BaseShock else 0.0
-
-
-def size_coordinate(model: Disturbance) -> Coordinate:
-    """Coordinate with the description and unit of the size of a disturbance."""
     if isinstance(model, BladeLoss):
-        return Coordinate("change", "change of the unbalance", 0.0, math.inf, UNBALANCE)
-    return model.coordinates[0]
+        return harmless_blade_loss(rotor, model.node)
+    return harmless_shock(rotor, model.duration) if type(model) is BaseShock else 0.0

@@ -7,40 +7,61 @@ the smallest size found that does not.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.basins.blade_losses import smallest_blade_loss
-from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, Found, SmallestLoss, lost
-from carom.basins.families import harmless_size, has_sizes
-from carom.disturbances import BladeLoss, Disturbance, KickPlane, Starts, VelocityKick
+from carom.basins.brackets import BESIDE_LOST, NEIGHBOURS, SmallestLoss
+from carom.basins.families import harmless_size, size_coordinate, starts_by_size
+from carom.disturbances import Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 
-DIRECTIONS, SIZES = 96, 96
-COARSE, COARSEST, MANY_MODES = (48, 48), (12, 24), 16
-"""The same for rotors whose motions are followed one after another, and for those of more modes than that."""
+TOLERANCE = 1e-3
+MOST_CHECKS = 8
+"""Number of times that fresh starts may reduce the smallest loss."""
+
+
+class Effort(NamedTuple):
+    """How many disturbances a search tries."""
+
+    directions: int = 96
+    sizes: int = 96
+    """Directions all around, and sizes in each, that are scanned."""
+    beside: int = 8
+    """Directions to each side of the best one so far, in each round."""
+    below: int = 24
+    """Sizes up to the best one so far, tried in each direction."""
+    near: int = 32
+    """Pairs of direction and instant about the best one so far in each round."""
+    drawn: int = 2000
+    """Fresh starts below the smallest loss."""
+    around: int = 720
+    """Directions over a full turn among the fresh starts, at the upper end of their sizes."""
+
+
+FULL = Effort()
+COARSE, COARSEST, MANY_MODES = Effort(48, 48), Effort(12, 24), 16
+"""For rotors whose motions are followed one after another, and for those of more modes than that."""
+ONE_EACH = Effort(24, 12, beside=3, below=4, near=12, drawn=300, around=96)
+"""Where each disturbance leads to a machine of its own, the exact results of which take milliseconds."""
 TOGETHER = 768
 """About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them is lost."""
 NARROWED = 4
 """Factor by which the spacing of directions is reduced from one round of refinement to the next."""
 GOLDEN = (5.0**0.5 - 1.0) / 2.0
 """Share of a turn between instants of neighbouring directions: pairs are then spread evenly over both."""
-BESIDE = 8
-"""Directions to each side of the best one so far, in each round."""
-BELOW = 24
-"""Sizes up to the best one so far, tried in each direction."""
 PAIRS, COARSER = 4, 4
 """Where the instant matters, as many times more pairs of direction and instant are scanned than directions else, at fewer sizes."""
-NEAR, CLOSER = 32, 2.5
-"""Pairs about the best one so far in each round, and the factor by which their distance from it is reduced to the next."""
-DRAWN, FEWEST = 2000, 60
-"""Fresh starts below the smallest loss, and fewest of them for which the budget of a study must suffice: 95 of 100 such samples show a loss of one in twenty."""
+CLOSER = 2.5
+"""Factor by which the distance of pairs from the best one so far is reduced from one round to the next."""
+FEWEST = 60
+"""Fewest fresh starts for which the budget of a study must suffice: 95 of 100 such samples show a loss of one in twenty."""
 
 
 @checked
@@ -100,19 +121,20 @@ def smallest_loss(
     if rotor.system.decay < 0.0:
         grows = f"whirl that grows at a rate of {-rotor.system.decay:.6g} Ω"
         raise InputError("machine", grows, "stable levitation to come back to; this takes damping (gamma)")
-    if isinstance(model, BladeLoss):
-        return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
     if type(model) is KickPlane:
         model = VelocityKick(model.fastest)
-    if not has_sizes(model):
-        raise InputError("disturbance", model.kind, "one with a size from 0 and a direction")
-    usual = (DIRECTIONS, SIZES) if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
-    directions, sizes = directions or usual[0], sizes or usual[1]
-    search = _Search(rotor, model, tolerance, threads)
+    search = _Search(rotor, model, tolerance, threads, _effort(rotor, model))
+    chosen = directions or search.effort.directions, sizes or search.effort.sizes
     try:
-        return _searched(search, directions, sizes, Reporter.of(progress, "looking for the smallest that is lost"))
+        return _searched(search, *chosen, Reporter.of(progress, "looking for the smallest that is lost"))
     except BudgetSpentError:
         return search.unfinished()
+
+
+def _effort(rotor: Rotor, model: Disturbance) -> Effort:
+    if model.changes_machine:
+        return ONE_EACH
+    return FULL if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
 
 
 def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> SmallestLoss:
@@ -151,15 +173,29 @@ def _all_round(directions: int, timed: bool) -> np.ndarray:
     return np.stack([angles, TURN * (GOLDEN * np.arange(count) % 1.0)]) if timed else angles[None]
 
 
-class _Search(Bracket):
-    """Search among the disturbances of a model by size and direction."""
+class Found(NamedTuple):
+    """A bracket in one direction, and at one instant where that matters."""
 
-    def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None) -> None:
-        self.size, self.harmless = model.coordinates[0], harmless_size(rotor, model)
-        self.largest, self.timed = self.size.high, rotor.depends_on_instant
-        sizes = {"quantity": self.size.scale, "harmless": self.harmless, "largest": self.largest}
-        super().__init__(kind=model.kind, **sizes, tolerance=tolerance, scales=rotor.scales)
-        self.rotor, self.model, self.tolerance, self.threads = rotor, model, tolerance, threads
+    recovered: float
+    size: float
+    angle: float
+    outcome: Outcome
+    instant: float | None = None
+
+
+class _Search:
+    """Search among the disturbances of a model by size and direction; ``best`` is the smallest lost one so far."""
+
+    def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None, effort: Effort) -> None:
+        size = size_coordinate(model)
+        if size is None:
+            raise InputError("disturbance", model.kind, "one with a size from 0 and a direction")
+        self.rotor, self.model, self.size, self.effort = rotor, model, size, effort
+        self.tolerance, self.threads = tolerance, threads
+        self.harmless, self.largest, self.timed = harmless_size(rotor, model), size.high, rotor.depends_on_instant
+        self.tried = 0
+        self.best: Found | None = None
+        self.back = 0.0  # up to here all directions scanned came back
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
         """Scan angles (k, n) at increasing sizes, the first of which is known to recover, up to that at which some are lost.
@@ -167,8 +203,9 @@ class _Search(Bracket):
         These are bisected below it; what is lost farther out cannot be smaller.  A single size is only tried, not bisected.
         """
         bisect = len(levels) > 1
-        # Where motions are followed one after another, larger sizes are dear that a smaller one makes needless.
-        together = max(1, TOGETHER // angles.shape[1]) if self.rotor.system.is_planar else 1
+        # Where motions are followed one after another, or machines are many, larger sizes are dear that a smaller one makes needless.
+        dear = self.model.changes_machine or not self.rotor.system.is_planar
+        together = 1 if dear else max(1, TOGETHER // angles.shape[1])
         sizes, known = levels[bisect:], self.best is not None
         for begin in range(0, len(sizes), together):
             outcomes, gone = self._follow(sizes[None, begin : begin + together], angles[:, :, None])
@@ -187,8 +224,9 @@ class _Search(Bracket):
         while ((high - low) > self.tolerance * high).any():
             middle = 0.5 * (low + high)
             found, gone = self._follow(middle, angles)
-            low, high = np.where(gone, low, middle), np.where(gone, middle, high)
-            ends = np.where(gone, found, ends)
+            low, high, ends = np.where(gone, low, middle), np.where(gone, middle, high), np.where(gone, found, ends)
+            least = low < high.min()  # the others have brackets above the smallest
+            low, high, ends, angles = low[least], high[least], ends[least], angles[:, least]
         self._note(low, high, angles, ends)
 
     def _note(self, low: np.ndarray, high: np.ndarray, angles: np.ndarray, ends: np.ndarray) -> None:
@@ -203,18 +241,21 @@ class _Search(Bracket):
         if self.timed:
             self._refine_pairs(apart)
             return
+        beside = self.effort.beside
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
-            beside = self.best.angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
-            self.scan(beside[None], np.linspace(self.harmless, self.best.size, BELOW + 1))
+            angles = self.best.angle + apart * np.delete(np.arange(-beside, beside + 1), beside)
+            self.scan(angles[None], np.linspace(self.harmless, self.best.size, self.effort.below + 1))
 
     def _refine_pairs(self, apart: float) -> None:
         """Scan pairs spread over discs about the best one, from two distances between pairs of the first scan down to the tolerance."""
-        reach, number = 2.0 * math.sqrt(apart * TURN / PAIRS), np.arange(NEAR) + 0.5
-        spread = np.sqrt(number / NEAR) * np.array([np.cos(TURN * GOLDEN * number), np.sin(TURN * GOLDEN * number)])
+        reach, number = 2.0 * math.sqrt(apart * TURN / PAIRS), np.arange(self.effort.near) + 0.5
+        spread = np.sqrt(number / self.effort.near) * np.array(
+            [np.cos(TURN * GOLDEN * number), np.sin(TURN * GOLDEN * number)]
+        )
         while self.best is not None and reach > self.tolerance:
             at = np.array([[self.best.angle], [self.best.instant]])
-            self.scan(at + reach * spread, np.linspace(self.harmless, self.best.size, BELOW // 2 + 1))
+            self.scan(at + reach * spread, np.linspace(self.harmless, self.best.size, self.effort.below // 2 + 1))
             reach /= CLOSER
 
     def draw(self, below: float, seed: int) -> tuple[int, int]:
@@ -222,31 +263,64 @@ class _Search(Bracket):
 
         Where the budget of a study does not suffice for all of them, those that were followed count.
         """
-        random = np.random.default_rng(seed)
-        low, shares = self.harmless, random.random(DRAWN)
+        random, drawn, around = np.random.default_rng(seed), self.effort.drawn, self.effort.around
+        low, shares = self.harmless, random.random(drawn)
         area = np.sqrt(low**2 + (below**2 - low**2) * shares)
-        sizes = np.append(area if self.size.over_disc else low + (below - low) * shares, np.full(ROUND, below))
-        angles = np.append(TURN * random.random(DRAWN), TURN * (np.arange(ROUND) + random.random()) / ROUND)[None]
+        sizes = np.append(area if self.size.over_disc else low + (below - low) * shares, np.full(around, below))
+        angles = np.append(TURN * random.random(drawn), TURN * (np.arange(around) + random.random()) / around)[None]
         if self.timed:
             angles = np.append(angles, TURN * random.random(angles.shape), axis=0)
         outcomes = self._outcomes(sizes, angles)
         followed = outcomes != NOT_FOLLOWED
-        if np.count_nonzero(followed[:DRAWN]) < min(FEWEST, DRAWN):
+        if np.count_nonzero(followed[:drawn]) < min(FEWEST, drawn):
             raise BudgetSpentError("too few fresh starts could be followed")
         gone = lost(np.where(followed, outcomes, Outcome.GRAZING))
         for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
             if self.best is None or sizes[place] < self.best.size:
-                self.scan(angles[:, place : place + 1], np.linspace(self.harmless, sizes[place], BELOW + 1))
-        return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:DRAWN]))
+                self.scan(angles[:, place : place + 1], np.linspace(self.harmless, sizes[place], self.effort.below + 1))
+        return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:drawn]))
 
-    def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
-        """Which disturbances of these sizes and angles, at the instant of the best one, are lost."""
-        at = (
-            [angles]
-            if self.best is None or self.best.instant is None
-            else [angles, np.full(angles.shape, self.best.instant)]
+    def unfinished(self) -> SmallestLoss:
+        """Result of a search that was ended."""
+        below = self.back > self.harmless and (self.best is None or self.best.size > self.back)
+        return self.result(self.back if below else None, complete=False)
+
+    def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0, *, complete: bool = True) -> SmallestLoss:
+        """Result of the search so far; ``all_back`` is the largest size up to which all came back.
+
+        The neighbours are followed only where the search came to its end: otherwise nothing is left to follow them with.
+        """
+        recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
+        return SmallestLoss(
+            kind=self.model.kind,
+            quantity=self.size.scale,
+            harmless=self.harmless,
+            largest=self.largest,
+            tolerance=self.tolerance,
+            scales=self.rotor.scales,
+            neighbours_lost=self._neighbours_lost() if complete else 0,
+            neighbours=NEIGHBOURS if complete and self.best is not None else 0,
+            size=size,
+            angle=None if angle is None else math.remainder(angle, TURN),
+            instant=None if instant is None else instant % TURN,
+            outcome=outcome,
+            recovered=recovered,
+            all_back=all_back,
+            fresh=fresh,
+            drawn=drawn,
+            tried=self.tried,
+            complete=complete,
         )
-        return self._follow(sizes, np.array(at))[1]
+
+    def _neighbours_lost(self) -> int:
+        """How many of the neighbours of the best one, at its instant, are lost."""
+        if self.best is None:
+            return 0
+        away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
+        at = [self.best.angle + away[1]]
+        if self.best.instant is not None:
+            at.append(np.full(NEIGHBOURS, self.best.instant))
+        return int(np.count_nonzero(self._follow(self.best.size * (1.0 + away[0]), np.array(at))[1]))
 
     def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Outcomes, and which starts are lost; impossible and undecided starts do not count as lost."""
@@ -256,12 +330,25 @@ class _Search(Bracket):
     def _outcomes(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
         """Outcomes; of impossible starts as of undecided ones."""
         sizes, *at = np.broadcast_arrays(sizes, *angles)
-        starts = self.model.starts_on(self.rotor, sizes, *at)
+        starts = starts_by_size(self.rotor, self.model, sizes, *at)
         outcomes = follow(self.rotor, starts, threads=self.threads).outcomes
         outcomes[~starts.exists] = Outcome.GRAZING
         counted = starts.exists & (starts.ended == Outcome.CLEAR) & (outcomes != NOT_FOLLOWED)
         self.tried += int(np.count_nonzero(counted))
         return outcomes
+
+
+def lost(outcomes: np.ndarray) -> np.ndarray:
+    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost.
+
+    Raises
+    ------
+    BudgetSpentError
+        Some were not followed.
+    """
+    if (outcomes == NOT_FOLLOWED).any():
+        raise BudgetSpentError("the events of this question are spent")
+    return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
 
 
 def smallest_lost(rotor: Rotor, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float, float] | None:

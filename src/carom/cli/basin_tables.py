@@ -7,7 +7,7 @@ from rich.console import Console
 
 from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.basins import Basin, GainMap, SmallestLoss
-from carom.basins.families import has_sizes
+from carom.basins.families import size_coordinate
 from carom.basins.gains import WANTED
 from carom.cli.fitting import print_table
 from carom.cli.tables import print_rows
@@ -84,7 +84,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     from carom.studies.verdict import SURVIVED, size_cells
 
     system = basin.rotor.system
-    if not has_sizes(basin.plan.model):
+    if size_coordinate(basin.plan.model) is None:
         return []
     if smallest is None or harmless <= 0.0:
         levitates = system.rest_radius < 1.0 and system.decay > 0.0

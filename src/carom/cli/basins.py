@@ -70,7 +70,7 @@ def basins(
             refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y})
         from carom.basins import map_basins, map_gains, smallest_loss
         from carom.basins.document import basin_document
-        from carom.basins.families import has_sizes
+        from carom.basins.families import size_coordinate
         from carom.basins.gains import usual_gains
         from carom.closed_forms import harmless_kick
         from carom.models import rotor_of
@@ -84,7 +84,7 @@ def basins(
         step = tell.part(0.0, share, f"following {plan.count} starts")
         basin = map_basins(rotor, plan, source=source, progress=step)
         harmless, smallest = harmless_kick(rotor), None
-        if harmless > 0.0 and has_sizes(plan.model):
+        if harmless > 0.0 and size_coordinate(plan.model) is not None:
             smallest = smallest_loss(rotor, plan.model, progress=tell.part(share, 2.0 * share))
         over: tuple[Any, ...] = ()
         if gains is not None:
