@@ -86,7 +86,7 @@ def test_damaged_metadata_are_one_line(carom, sweep_file, store):
     code, out, err = carom("sweep", sweep_file, "--out", store, "--threads")
 
     assert (code, out, err.count("\n")) == (BAD_INPUT, "", 1)
-    assert err.startswith(f"carom: --out = {store}: its file zarr.json is damaged or missing")
+    assert err.startswith(f"carom: --out = {store}: its file zarr.json is damaged, missing or not of a sweep")
 
 
 def test_json_is_one_object(carom, sweep_file, store):

@@ -120,7 +120,7 @@ def test_the_smallest_kick_that_is_lost_and_its_direction():
     from carom.base.outcome import Outcome
 
     plan = basins_plan(starts=40, damping=(0.1, 0.2))
-    (starts,) = plan.task._batches(_rotor(plan), plan.seed_of((0, 0)))
+    starts = plan.task.plan(None, plan.seed_of((0, 0))).starts(_rotor(plan))
     outcomes = settle(_rotor(plan), starts.positions, starts.velocities).outcomes
     gone = starts.velocities[~np.isin(outcomes, (Outcome.LEVITATED, Outcome.GRAZING))]
     smallest = gone[np.abs(gone).argmin()]
@@ -128,19 +128,6 @@ def test_the_smallest_kick_that_is_lost_and_its_direction():
     assert found["smallest_unrecovered_kick"] == abs(smallest)
     assert found["smallest_unrecovered_kick_angle"] == np.angle(smallest)
     assert "smallest_unrecovered_kick_si" not in found
-
-
-@pytest.mark.jit_only
-def test_batches_bound_memory_and_change_nothing_else(monkeypatch):
-    import carom.sweeps.basins
-
-    plan = basins_plan(starts=40)
-    monkeypatch.setattr(carom.sweeps.basins, "BATCH", 16)
-    batches = [len(starts.positions) for starts in plan.task._batches(_rotor(plan), plan.seed_of((0, 0)))]
-    found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))
-
-    assert batches == [16, 16, 8]
-    assert found["possible"] == 40
 
 
 def _rotor(plan):

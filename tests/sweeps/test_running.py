@@ -17,7 +17,7 @@ from sweep_tasks import Deadly, Drawn, Failing, Warned, basins_plan, plan_of, st
 
 from carom.base.outcome import CaromError, CaromWarning, InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
-from carom.sweeps.local import AHEAD, _put_off, on_processes, on_threads
+from carom.sweeps.local import AHEAD, on_processes, on_threads
 from carom.sweeps.studies import StudyTask
 
 SWEEP = """
@@ -125,24 +125,6 @@ def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
     assert len(workers) == 4
 
 
-def test_interrupt_while_workers_start_is_put_off():
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    reached = []
-
-    def start_workers():
-        with _put_off():
-            signal.raise_signal(signal.SIGINT)
-            reached.append("the end")
-
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            start_workers()
-        assert reached == ["the end"]
-        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
 @pytest.mark.parametrize("moment", [0.0, 0.05, 0.3])
 @posix
 def test_interrupt_says_how_to_go_on(tmp_path, moment):
@@ -211,7 +193,7 @@ def test_chunk_that_kills_every_process_fails_and_the_others_go_on(tmp_path):
     assert (tally.done, tally.failed) == (8, 2)
     np.testing.assert_array_equal(data.status, [1] * 8 + [2] * 2)
     told = (tmp_path / "s.zarr" / "records" / "0000004.json").read_text()
-    assert "the process that computed it ended (signal 9), 2 times" in told
+    assert "the process that computed it ended (SIGKILL(-9)), 3 times" in told
 
 
 @posix
@@ -251,7 +233,7 @@ def test_chunks_are_taken_from_the_plan_as_they_are_needed(compute):
 
 
 def test_process_that_cannot_start_is_an_error(monkeypatch):
-    monkeypatch.setattr("carom.sweeps.local._serve", os._exit)  # takes one argument, gets two: ends at once
+    monkeypatch.setattr("carom.sweeps.local._end_with", lambda pipe: os._exit(3))
 
     with pytest.raises(CaromError, match="worker processes end before they begin"):
         list(on_processes(plan_of(Drawn()), iter(range(5)), 1))

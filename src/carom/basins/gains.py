@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import tee
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -28,13 +28,11 @@ from carom.models.axes import Ends
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 
-if TYPE_CHECKING:
-    from carom.parameters import Scales
-
 Node: TypeAlias = tuple[Plan, tuple[float, float]]
 """Disturbances, and values of the two parameters."""
 WANTED = 0.99
 """Share that machines of a map are counted by."""
+KICK = "smallest_unrecovered_kick"
 CHUNK = 50_000
 """Approximate number of starts in memory at a time."""
 
@@ -163,10 +161,11 @@ def measured(
     there, back = tee(_machine(rotor, plan, axes, node) for plan, node in nodes)
     followed = zip(nodes, there, follow_machines(back, CHUNK, **limits), strict=True)
     for (plan, _), (moved, starts), ends in followed:
-        measures = _measures(plan, ends.outcomes, rotor.scales, instants_words(moved, plan))
-        if isinstance(plan.model, VelocityKick | KickPlane):
-            measures |= _smallest(rotor.scales, moved, starts, ends.outcomes)
-        yield measures
+        own = plan.rescaled(rotor.scales, moved.scales)
+        found = dict.fromkeys(SHARES, 0.0) | recovery(own, moved, starts, ends.outcomes)
+        if KICK in found and rotor.scales is not None and moved.scales is not None:
+            found[KICK] *= moved.scales.velocity / rotor.scales.velocity
+        yield found | {"levitates": float((ends.outcomes != NO_START).any())}
 
 
 def _machine(rotor: Rotor, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]) -> tuple[Rotor, Starts]:
@@ -178,48 +177,34 @@ def _machine(rotor: Rotor, plan: Plan, axes: tuple[Axis, Axis], node: tuple[floa
     return moved, plan.rescaled(rotor.scales, moved.scales).starts(moved)
 
 
-def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None, at: str) -> dict[str, Any]:
-    """Measures of one machine from the outcomes of its starts."""
-    exists, back = outcomes != NO_START, outcomes == Outcome.LEVITATED
+def recovery(plan: Plan, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> dict[str, Any]:
+    """What is measured of the disturbances of a plan: :data:`SHARES`, of kicks :data:`KICKS`, and the share itself."""
+    exists, at = outcomes != NO_START, instants_words(rotor, plan)
     if not exists.any():
-        population = Population.of_model(plan.model, present, at)
-        none = Share(0.0, 0.0, 0.0, 0, plan.count, isinstance(plan, Sample), population)
-        return dict.fromkeys(_SHARES, 0.0) | {"share": none}
-    share = Share.over(plan, back, exists, present, at=at)
-    given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, present)
-    return {
-        "recovered": share.fraction,
-        "recovered_low": share.low,
-        "recovered_high": share.high,
-        "unresolved": given_up.fraction,
-        "levitates": 1.0,
-        "share": share,
-    }
+        population = Population.of_model(plan.model, rotor.scales, at)
+        return {"share": Share(0.0, 0.0, 0.0, 0, plan.count, isinstance(plan, Sample), population)}
+    share = Share.over(plan, outcomes == Outcome.LEVITATED, exists, rotor.scales, at=at)
+    given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, rotor.scales)
+    shares = share.fraction, share.low, share.high, given_up.fraction
+    found: dict[str, Any] = {"share": share} | dict(zip(SHARES, shares, strict=True))
+    if isinstance(plan.model, VelocityKick | KickPlane):
+        smallest = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan, math.nan)
+        found |= dict(list(zip(KICKS, smallest, strict=True))[: 3 if rotor.depends_on_instant else 2])
+    return found
 
 
-def _smallest(present: Scales | None, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
-    """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
-    speed, direction, instant = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan, math.nan)
-    if rotor.scales is not None and present is not None:
-        speed *= rotor.scales.velocity / present.velocity
-    found = {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
-    return found | ({"smallest_unrecovered_kick_instant": instant} if rotor.depends_on_instant else {})
-
-
-_SHARES = {
+SHARES = {
     "recovered": Told("1", "share of the disturbances that comes back to levitation, by area"),
     "recovered_low": Told("1", "lower end of its 95 % confidence interval (of a grid: the share)"),
     "recovered_high": Told("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
     "unresolved": Told("1", "share given up, or gone beyond the model, before it was known where it ends"),
-    "levitates": Told("1", "1 where the rotor levitates without contact and no motion about that grows, else 0"),
 }
-_KICKS = {
-    "smallest_unrecovered_kick": Told(
-        "1", "smallest kick tried that does not come back, in c_r Omega of the present machine"
-    ),
+KICKS = {
+    "smallest_unrecovered_kick": Told("c_r Omega", "smallest kick tried that does not come back", "velocity"),
     "smallest_unrecovered_kick_angle": Told("rad", "its direction, from the real axis of the co-rotating frame"),
     "smallest_unrecovered_kick_instant": Told("rad", INSTANT.words),
 }
+_LEVITATES = Told("1", "1 where the rotor levitates without contact and no motion about that grows, else 0")
 
 
 @dataclass(frozen=True)
@@ -229,7 +214,7 @@ class Recovery(Measure):
     plan: Plan
     limits: Mapping[str, Any]
 
-    told: ClassVar[Mapping[str, Told]] = _SHARES | _KICKS
+    told: ClassVar[Mapping[str, Told]] = SHARES | {"levitates": _LEVITATES} | KICKS
 
     def entries(
         self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]

@@ -32,10 +32,11 @@ Entry: TypeAlias = Mapping[str, Any]
 
 
 class Told(NamedTuple):
-    """Unit and words of a variable of a map."""
+    """Unit and words of what is measured, and the property of the scales that converts it to SI units, if that is not 1."""
 
     unit: str
     words: str
+    scale: str = ""
 
 
 class Measure:
@@ -95,7 +96,7 @@ def map_over(
             np.array([entry.get(name, np.nan) for entry in entries], float).reshape(counts),
             {"units": unit, "long_name": words},
         )
-        for name, (unit, words) in measure.told.items()
+        for name, (unit, words, _) in measure.told.items()
         if name in known
     }
     along = {

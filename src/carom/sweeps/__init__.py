@@ -11,8 +11,6 @@
 ``chunk_record``    the record of a chunk, which says which files are its own
 ``layout``          creates the store, without chunks
 ``store``           the Zarr store, :func:`open_sweep`
-``checked_store``   the same as Zarr reads it, with damage detected
-``integrity``       checksums of the files of a store
 ``versions``        versions of software and kinds of processors, on which the last bits of results depend
 ``local``           chunks computed by processes and threads of this machine
 ``cluster``         chunks computed by Dask workers

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -15,7 +14,6 @@ from carom.disturbances.echo import plan_words
 from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
-    from carom.disturbances import Disturbance, Starts
     from carom.models import Rotor
     from carom.parameters import Case, Scales
 
@@ -30,9 +28,8 @@ OUTCOMES = Dimension(
     "where the motion ends",
     tuple(ending.label for ending in ENDINGS),
 )
-BATCH = 65_536
-"""Starts followed at a time, so that memory use does not grow with their total number."""
 _COST, _COST_OF_START = 0.002, 1e-4
+_KICK = "smallest_unrecovered_kick"
 
 
 @dataclass(frozen=True)
@@ -53,29 +50,16 @@ class BasinsTask:
     @property
     def variables(self) -> tuple[Variable, ...]:
         """What is stored for each point."""
-        found: tuple[Variable, ...] = (
+        from carom.basins.gains import KICKS, SHARES
+
+        measured = SHARES | (KICKS if isinstance(self.tried.model, VelocityKick | KickPlane) else {})
+        found = (
             LEVITATES,
             Variable("possible", "disturbances that are possible", "count"),
             Variable("counts", "disturbances that ended so", "count", along=OUTCOMES),
-            Variable("recovered", f"share of {self.tried.model.noun} that came back to levitation, by area"),
-            Variable("recovered_low", "lower end of its 95 % confidence interval (Clopper and Pearson)"),
-            Variable("recovered_high", "upper end of its 95 % confidence interval (Clopper and Pearson)"),
+            *(Variable(name, each.words, unit=each.unit, scale=each.scale) for name, each in measured.items()),
             Variable("mean_impacts", "impacts until it was known where the motion ends, mean"),
         )
-        if self._kicks:
-            found += (
-                Variable("smallest_unrecovered_kick", "smallest kick tried that does not come back", scale="velocity"),
-                Variable(
-                    "smallest_unrecovered_kick_angle",
-                    "its direction, from the real axis of the co-rotating frame",
-                    unit="rad",
-                ),
-                Variable(
-                    "smallest_unrecovered_kick_instant",
-                    "angle by which the shaft has turned then, where the instant matters",
-                    unit="rad",
-                ),
-            )
         return with_si(found, self.scales is not None)
 
     @property
@@ -93,10 +77,6 @@ class BasinsTask:
         """Estimated computing time of a point, in seconds."""
         return _COST + _COST_OF_START * self.starts
 
-    @property
-    def _kicks(self) -> bool:
-        return isinstance(self.tried.model, VelocityKick | KickPlane)
-
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
         number = (
@@ -106,51 +86,32 @@ class BasinsTask:
         )
         return {"kind": self.kind, **number, "disturbance": self.tried.model.describe(), "in_si": list(self.in_si)}
 
-    def model(self, scales: Scales | None) -> Disturbance:
-        """Return the disturbance model for a machine with these scales."""
-        return self.tried.model.rescaled(self.scales, scales, self.in_si)
+    def plan(self, scales: Scales | None, seed: np.random.SeedSequence) -> Plan:
+        """The disturbances of a machine with these scales; of a sample its own."""
+        model = self.tried.model.rescaled(self.scales, scales, self.in_si)
+        if isinstance(self.tried, Grid):
+            return replace(self.tried, model=model)
+        own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, 0))
+        return Sample(model, self.starts, int(own.generate_state(1, np.uint64)[0]))
 
     def evaluate(self, case: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out."""
-        from carom.basins.losses import smallest_lost
-        from carom.basins.shares import Share
-        from carom.disturbances.following import NO_START, follow
+        from carom.basins.gains import recovery
+        from carom.disturbances.following import follow
         from carom.models import rotor_of
 
         rotor = rotor_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
         if rotor.system.decay < 0.0 and not rotor.system.levitates:
             return {"levitates": False, "possible": 0, "counts": counts}
-        impacts, kicks = 0, []
-        for starts in self._batches(rotor, seed):
-            endings = follow(rotor, starts, threads=1)
-            counts += np.array([endings.count(ending) for ending in ENDINGS])
-            impacts += int(endings.impacts.sum())
-            if self._kicks and (kick := smallest_lost(rotor, starts, endings.outcomes)):
-                kicks.append(kick)
+        plan = self.plan(rotor.scales, seed)
+        starts = plan.starts(rotor)
+        endings = follow(rotor, starts, threads=1)
+        counts += np.array([endings.count(ending) for ending in ENDINGS])
         possible = int(counts.sum())
-        found: dict[str, Any] = {"levitates": rotor.system.levitates, "possible": possible, "counts": counts}
+        found = {"levitates": rotor.system.levitates, "possible": possible, "counts": counts}
         if possible:
-            share = Share.of(int(counts[0]), possible, drawn=True)
-            if isinstance(self.tried, Grid):  # one batch
-                exists, back = endings.outcomes != NO_START, endings.outcomes == Outcome.LEVITATED
-                share = Share.over(self.tried, back, exists, rotor.scales)
-            found |= {"recovered": share.fraction, "recovered_low": share.low, "recovered_high": share.high}
-            found["mean_impacts"] = impacts / possible
-        if kicks:
-            smallest, direction, instant = min(kicks)
-            found |= {"smallest_unrecovered_kick": smallest, "smallest_unrecovered_kick_angle": direction}
-            if rotor.depends_on_instant:
-                found["smallest_unrecovered_kick_instant"] = instant
-            found |= in_si(found, rotor.scales, smallest_unrecovered_kick="velocity")
-        return found
-
-    def _batches(self, rotor: Rotor, seed: np.random.SeedSequence) -> Iterator[Starts]:
-        model = self.model(rotor.scales)
-        if isinstance(self.tried, Grid):
-            yield Grid(model, self.tried.shape, self.tried.instant).starts(rotor)
-            return
-        for batch, first in enumerate(range(0, self.starts, BATCH)):
-            own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, batch))
-            number = int(own.generate_state(1, np.uint64)[0])
-            yield Sample(model, min(BATCH, self.starts - first), number).starts(rotor)
+            found |= recovery(plan, rotor, starts, endings.outcomes)
+            found["mean_impacts"] = int(endings.impacts.sum()) / possible
+            del found["share"]
+        return found | in_si(found, rotor.scales, **{name: "velocity" for name in found if name == _KICK})

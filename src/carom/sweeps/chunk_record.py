@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from carom.sweeps.integrity import DamagedError, is_intact, read_record, record, seal_of
-
 RECORDS = "records"
 """Directory of the records in a store."""
-_KIND = "a finished chunk"
 
 
 @dataclass(frozen=True)
@@ -24,8 +23,8 @@ class ChunkRecord:
     plan: str
     """Digest of the plan."""
     number: int
-    seals: Mapping[str, str]
-    """Checksum at the end of each file of the chunk, by the variable's name."""
+    sums: Mapping[str, str]
+    """Checksum of each file of the chunk, by the variable's name."""
     processor: str
     """Kind of the processor that computed it; empty if it was not computed."""
     failures: list[dict[str, Any]]
@@ -34,19 +33,22 @@ class ChunkRecord:
     @property
     def data(self) -> bytes:
         """Content of its file."""
-        return record(_KIND, vars(self))
+        return json.dumps(vars(self), indent=1).encode()
 
     @classmethod
-    def read(cls, store: Path, plan: str, number: int) -> ChunkRecord:
-        """Return the record of a chunk of a plan; DamagedError if it is damaged or another's, OSError if there is none."""
-        found: ChunkRecord = cls(**read_record(_KIND, record_file(store, number)))
-        if (found.plan, found.number) != (plan, number):
-            raise DamagedError
-        return found
+    def read(cls, store: Path, plan: str, number: int) -> ChunkRecord | None:
+        """Return the record of a chunk of a plan; ``None`` if it is damaged or another's, OSError if there is none."""
+        try:
+            found = cls(**json.loads(record_file(store, number).read_bytes()))
+        except (ValueError, TypeError, RecursionError):
+            return None
+        whole = isinstance(found.sums, dict) and isinstance(found.failures, list)
+        return found if whole and (found.plan, found.number) == (plan, number) else None
 
-    def agrees(self, name: str, sealed: bytes, size: int) -> bool:
-        """Whether a file is intact, and that of this variable in this chunk; `size` is its length without checksum."""
-        return is_intact(sealed, size) and seal_of(sealed) == self.seals.get(name)
+
+def checksum(data: bytes) -> str:
+    """Checksum of the content of a file."""
+    return hashlib.sha256(data).hexdigest()
 
 
 def record_file(store: Path, number: int) -> Path:

@@ -15,7 +15,7 @@ import numpy as np
 from carom.base.files import sync_directory, unfinished
 from carom.base.outcome import InputError
 from carom.base.results import flags
-from carom.sweeps.integrity import SUMS, damaged_metadata, sums
+from carom.sweeps.chunk_record import RECORDS
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.versions import other_version, versions
 
@@ -39,23 +39,21 @@ def is_new(path: Path) -> bool:
 
 def _is_store(path: Path) -> bool:
     """Whether a directory holds a store, intact or damaged."""
-    if (path / SUMS).exists():
-        return True
-    return (path / ROOT).exists() and '"plan_digest"' in (path / ROOT).read_text("utf-8", "replace")
+    return (path / ROOT).exists() or (path / RECORDS).exists()
 
 
 def attributes_of(path: Path, option: str) -> dict[str, Any]:
     """Return the attributes of a store; refuse a directory without one, or with damaged metadata."""
     if not _is_store(path):
         raise InputError(option, path, "must be a directory that a sweep was written to")
-    if name := damaged_metadata(path):
-        remedy = "restore it from a backup, or start anew in another directory"
-        raise InputError(
-            option,
-            path,
-            f"its file {name} is damaged or missing, and its numbers cannot be interpreted without it; {remedy}",
-        )
-    return json.loads((path / ROOT).read_bytes())["attributes"]
+    try:
+        attributes = json.loads((path / ROOT).read_bytes())["attributes"]
+        if attributes["plan_digest"] and attributes["versions"]:
+            return dict(attributes)
+    except (FileNotFoundError, ValueError, LookupError, TypeError, RecursionError):
+        pass
+    remedy = "restore it from a backup, or start anew in another directory"
+    raise InputError(option, path, f"its file {ROOT} is damaged, missing or not of a sweep; {remedy}")
 
 
 def check_same(path: Path, plan: SweepPlan) -> None:
@@ -93,7 +91,6 @@ def create(path: Path, plan: SweepPlan) -> None:
     try:
         with unfinished(home, folder=True) as made:
             _lay_out(made, plan)
-            (made / SUMS).write_bytes(sums(made))
             made.rename(path)
             sync_directory(home)
     except OSError:

@@ -1,15 +1,14 @@
 """The Zarr store of a sweep: one process writes it, each chunk completely or not at all; any process can read it.
 
 Every variable is an uncompressed array over the grid in the Zarr 3 format.  A chunk of it is one file that holds the
-bytes of the numbers and their checksum.  ``records/<chunk>.json`` binds the files of a chunk to their place, and has its
-failures and the kind of its processor.  The file of ``status`` is written last: a chunk counts as finished as soon as
+bytes of the numbers and their checksum, as Zarr's codec ``crc32c`` writes and checks it.  ``records/<chunk>.json`` has the checksums of
+the files of a chunk, its failures and the kind of its processor.  The file of ``status`` is written last: a chunk counts as finished as soon as
 this file exists.  Before a sweep is resumed, finished chunks are compared with their records; a chunk of which a file is
 damaged, missing or another's is computed again.
 """
 
 from __future__ import annotations
 
-import math
 import os
 import warnings
 from collections.abc import Iterator
@@ -22,13 +21,13 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from filelock import FileLock, Timeout
+from google_crc32c import value as crc32c
 
 from carom.base.arguments import checked
 from carom.base.files import sync_directory, write_whole
 from carom.base.outcome import CaromWarning, InputError
 from carom.sweeps.chunk import MOST_FAILURES, Chunk
-from carom.sweeps.chunk_record import RECORDS, ChunkRecord, record_file
-from carom.sweeps.integrity import DamagedError, seal, seal_of
+from carom.sweeps.chunk_record import RECORDS, ChunkRecord, checksum, record_file
 from carom.sweeps.layout import OPTION, PARTS, attributes_of, check_same, create, is_new
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS
@@ -69,8 +68,6 @@ class SweepStore:
         self._failed: dict[int, int] = {}
         self._digest = plan.digest
         self._processors: set[str] = set()
-        points = math.prod(plan.chunk_shape)
-        self._sizes = [points * math.prod(one.shape) * one.dtype.itemsize for one in plan.variables]
         try:
             if is_new(self.path):
                 create(self.path, plan)
@@ -101,14 +98,10 @@ class SweepStore:
         """Return the record of a finished chunk, or None if it or a file of the chunk is damaged, missing or another's."""
         try:
             found = ChunkRecord.read(self.path, self._digest, number)
-            files = self._files(number).items()
-            agree = all(
-                found.agrees(name, file.read_bytes(), size)
-                for (name, file), size in zip(files, self._sizes, strict=True)
-            )
-        except (DamagedError, FileNotFoundError):
+            sums = {name: checksum(file.read_bytes()) for name, file in self._files(number).items()}
+        except FileNotFoundError:
             return None
-        return found if agree else None
+        return found if found is not None and found.sums == sums else None
 
     def _note(self, found: ChunkRecord) -> None:
         """Keep what the record of a finished chunk says."""
@@ -194,11 +187,11 @@ class SweepStore:
         plan, number = self.plan, chunk.number
         fills = {variable.name: variable.fill for variable in plan.variables}
         files = {
-            file: seal(_padded(plan, chunk.arrays[name], fills[name])) for name, file in self._files(number).items()
+            file: _sealed(_padded(plan, chunk.arrays[name], fills[name])) for name, file in self._files(number).items()
         }
-        seals = {name: seal_of(files[file]) for name, file in self._files(number).items()}
+        sums = {name: checksum(files[file]) for name, file in self._files(number).items()}
         failures = [asdict(failure) for failure in chunk.failures]
-        kept = ChunkRecord(self._digest, number, seals, chunk.processor, failures)
+        kept = ChunkRecord(self._digest, number, sums, chunk.processor, failures)
         status = list(files)[-1]
         status_data = files.pop(status)
         files[record_file(self.path, number)] = kept.data
@@ -260,8 +253,7 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     -------
     xarray.Dataset
         Variables over the axes of the sweep; data are read when needed.  ``status`` says which points were computed.
-        Reading a chunk of which a file is damaged, missing or another's raises an
-        :class:`~carom.base.outcome.InputError` that names the file.
+        Zarr refuses to read a damaged file; :func:`run_sweep` compares all files with their records before it goes on.
 
     Raises
     ------
@@ -287,12 +279,10 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     """
     import xarray
 
-    from carom.sweeps.checked_store import CheckedStore
-
     path = Path(path)
     try:
         attributes_of(path, "store")
-        data = xarray.open_zarr(CheckedStore.at(path), chunks=None, consolidated=True)
+        data = xarray.open_zarr(path, chunks=None, consolidated=True)
     except OSError as problem:
         raise InputError("store", path, f"cannot be read ({problem.strerror or problem}: {problem.filename})") from None
     return data
@@ -329,6 +319,11 @@ def _points(finished: np.ndarray, plan: SweepPlan) -> int:
         sizes[-1] = count - chunk * (chunks - 1)
         weights = weights @ sizes
     return int(weights)
+
+
+def _sealed(data: bytes) -> bytes:
+    """Data with their checksum, as Zarr's codec appends it."""
+    return data + crc32c(data).to_bytes(4, "little")
 
 
 def _padded(plan: SweepPlan, values: np.ndarray, fill: float) -> bytes:

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 _WHAT = "sweep file"
 _REMEDY = 'must hold machine = "...", a table [axes.NAME] for each axis, and a [study] or a [basins] table'
-_MOST_STARTS = 10**12
+_MOST_STARTS = 1_000_000
 _ANY_SCALES = Scales(1.0, 1.0, 1.0)
 """Scales used to check sizes if the machine file has errors, so that the scales of the machine are unknown."""
 
