@@ -130,7 +130,9 @@ def drop_map_document(found: DropMap) -> dict[str, Any]:
     dataset, first = found.dataset, found.dataset["outcome"]
     labels = ["no-start" if code < 0 else Outcome(int(code)).label for code in first.values.ravel()]
     columns = first.shape[1]
-    grids = {f"{name}_si" if unit != "1" else name: _grid(dataset[name].values) for name, (unit, _) in MEASURES.items()}
+    grids = {
+        f"{name}_si" if unit != "1" else name: _grid(dataset[name].values) for name, (unit, *_) in MEASURES.items()
+    }
     return {
         "plane": {name: dataset[name].values.tolist() for name in map(str, first.dims)},
         "units": {name: str(dataset[name].attrs["units"]) for name in map(str, first.dims)},

@@ -17,9 +17,10 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import STEADY_WORDS, InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.dataset import outcome_flags, programs
-from carom.basins.maps import Entry, Measure, OverPlane, Several, Told, map_over
+from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
 from carom.core.processors import available_cores
 from carom.disturbances.following import NO_START
+from carom.disturbances.measures import Told
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, follow_loads
@@ -153,7 +154,7 @@ class DropMap(OverPlane):
         where = self.at(
             [float(self.dataset[axis.name].values[place]) for axis, place in zip(self.axes, at, strict=True)]
         )
-        unit, words = MEASURES[self.hardest]
+        unit, words, _ = MEASURES[self.hardest]
         return f"{words} {number(float(values[at]), 4)} {unit} at {where}"
 
 

@@ -17,12 +17,12 @@ from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import fields_of
 from carom.basins.dataset import Mapped, provenance
 from carom.basins.losses import smallest_lost
-from carom.basins.maps import Measure, OverPlane, Several, Told, map_over
+from carom.basins.maps import Measure, OverPlane, Several, map_over
 from carom.basins.shares import Population, Share
 from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
-from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
+from carom.disturbances.measures import KICKS, SHARES, SMALLEST, Told
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions.ensembles import MOST_EVENTS
@@ -32,7 +32,6 @@ Node: TypeAlias = tuple[Plan, tuple[float, float]]
 """Disturbances, and values of the two parameters."""
 WANTED = 0.99
 """Share that machines of a map are counted by."""
-KICK = "smallest_unrecovered_kick"
 CHUNK = 50_000
 """Approximate number of starts in memory at a time."""
 
@@ -163,8 +162,8 @@ def measured(
     for (plan, _), (moved, starts), ends in followed:
         own = plan.rescaled(rotor.scales, moved.scales)
         found = dict.fromkeys(SHARES, 0.0) | recovery(own, moved, starts, ends.outcomes)
-        if KICK in found and rotor.scales is not None and moved.scales is not None:
-            found[KICK] *= moved.scales.velocity / rotor.scales.velocity
+        if SMALLEST in found and rotor.scales is not None and moved.scales is not None:
+            found[SMALLEST] *= moved.scales.velocity / rotor.scales.velocity
         yield found | {"levitates": float((ends.outcomes != NO_START).any())}
 
 
@@ -178,7 +177,7 @@ def _machine(rotor: Rotor, plan: Plan, axes: tuple[Axis, Axis], node: tuple[floa
 
 
 def recovery(plan: Plan, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> dict[str, Any]:
-    """What is measured of the disturbances of a plan: :data:`SHARES`, of kicks :data:`KICKS`, and the share itself."""
+    """What is measured of the disturbances of a plan: :data:`~carom.disturbances.measures.SHARES`, of kicks ``KICKS``, and the share itself."""
     exists, at = outcomes != NO_START, instants_words(rotor, plan)
     if not exists.any():
         population = Population.of_model(plan.model, rotor.scales, at)
@@ -193,17 +192,6 @@ def recovery(plan: Plan, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> 
     return found
 
 
-SHARES = {
-    "recovered": Told("1", "share of the disturbances that comes back to levitation, by area"),
-    "recovered_low": Told("1", "lower end of its 95 % confidence interval (of a grid: the share)"),
-    "recovered_high": Told("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
-    "unresolved": Told("1", "share given up, or gone beyond the model, before it was known where it ends"),
-}
-KICKS = {
-    "smallest_unrecovered_kick": Told("c_r Omega", "smallest kick tried that does not come back", "velocity"),
-    "smallest_unrecovered_kick_angle": Told("rad", "its direction, from the real axis of the co-rotating frame"),
-    "smallest_unrecovered_kick_instant": Told("rad", INSTANT.words),
-}
 _LEVITATES = Told("1", "1 where the rotor levitates without contact and no motion about that grows, else 0")
 
 

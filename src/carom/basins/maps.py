@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from carom.base.arguments import whole
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter
 from carom.basins.dataset import Stored
+from carom.disturbances.measures import Told
 from carom.models import Axis, Rotor, axis
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.parameters.formats import format_entry, format_range
@@ -29,14 +30,6 @@ Node: TypeAlias = tuple[float, float]
 """Values of the two numbers."""
 Entry: TypeAlias = Mapping[str, Any]
 """What is measured at a node, by name."""
-
-
-class Told(NamedTuple):
-    """Unit and words of what is measured, and the property of the scales that converts it to SI units, if that is not 1."""
-
-    unit: str
-    words: str
-    scale: str = ""
 
 
 class Measure:

@@ -147,7 +147,7 @@ def _print_map(screen: Console, found: DropMap) -> None:
 
     index, exists = found.dataset["motion"].values, found.exists
     screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
-    unit, words = MEASURES[found.hardest]
+    unit, words, _ = MEASURES[found.hardest]
     rows = []
     for name, share in found.fractions.items():
         here = index == found.motions.index(name)

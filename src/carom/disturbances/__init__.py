@@ -19,7 +19,7 @@ A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``blows``
 (with ``shocks``, which follows a rotor through a pulse), ``states`` and ``blade_loss``, by name in ``kinds``.  ``plans`` has
-grids and samples, ``single`` is one disturbance, read from text, ``following`` follows their starts to where they end, ``echo`` says in a sentence what was done.
+grids and samples, ``single`` is one disturbance, read from text, ``following`` follows their starts to where they end, ``measures`` says what is measured of many, ``echo`` says in a sentence what was done.
 
 Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
 Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  ``VelocityKick.of(machine, "50 mm/s")`` takes text with

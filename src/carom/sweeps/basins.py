@@ -11,9 +11,11 @@ from carom.base.outcome import Outcome
 from carom.base.results import in_si
 from carom.disturbances import Grid, KickPlane, Plan, Sample, VelocityKick
 from carom.disturbances.echo import plan_words
+from carom.disturbances.measures import KICKS, SHARES, SMALLEST
 from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
+    from carom.disturbances import Disturbance
     from carom.models import Rotor
     from carom.parameters import Case, Scales
 
@@ -29,7 +31,6 @@ OUTCOMES = Dimension(
     tuple(ending.label for ending in ENDINGS),
 )
 _COST, _COST_OF_START = 0.002, 1e-4
-_KICK = "smallest_unrecovered_kick"
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,6 @@ class BasinsTask:
     @property
     def variables(self) -> tuple[Variable, ...]:
         """What is stored for each point."""
-        from carom.basins.gains import KICKS, SHARES
-
         measured = SHARES | (KICKS if isinstance(self.tried.model, VelocityKick | KickPlane) else {})
         found = (
             LEVITATES,
@@ -86,9 +85,13 @@ class BasinsTask:
         )
         return {"kind": self.kind, **number, "disturbance": self.tried.model.describe(), "in_si": list(self.in_si)}
 
+    def model(self, scales: Scales | None) -> Disturbance:
+        """Return the disturbance model for a machine with these scales."""
+        return self.tried.model.rescaled(self.scales, scales, self.in_si)
+
     def plan(self, scales: Scales | None, seed: np.random.SeedSequence) -> Plan:
         """The disturbances of a machine with these scales; of a sample its own."""
-        model = self.tried.model.rescaled(self.scales, scales, self.in_si)
+        model = self.model(scales)
         if isinstance(self.tried, Grid):
             return replace(self.tried, model=model)
         own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, 0))
@@ -114,4 +117,4 @@ class BasinsTask:
             found |= recovery(plan, rotor, starts, endings.outcomes)
             found["mean_impacts"] = int(endings.impacts.sum()) / possible
             del found["share"]
-        return found | in_si(found, rotor.scales, **{name: "velocity" for name in found if name == _KICK})
+        return found | in_si(found, rotor.scales, **{name: "velocity" for name in found if name == SMALLEST})
