@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from compilation import sized
 from damage import KINDS, damage, misplace
-from sweep_tasks import Drawn, Failing, plan_of, stored_bytes
+from sweep_tasks import Failing, plan_of, stored_bytes
 
-from carom.base.outcome import CaromWarning, InputError
+from carom.base.outcome import InputError
 from carom.sweeps import open_sweep, run_sweep
 from carom.sweeps.store import SweepStore
 
@@ -247,25 +247,3 @@ def test_loser_of_two_is_told(store):
         (store / f"status/c/{number}").unlink()
     assert run(store, progress=start_another).done == 8
     assert len(told) == 1
-
-
-# ------------------------------------------------------------------------------------------------------------ processors
-
-
-def on(monkeypatch, kind):
-    monkeypatch.setattr("carom.sweeps.chunk.processor", lambda: kind)
-
-
-def test_another_kind_of_processor_is_warned_of_once(tmp_path, monkeypatch):
-    path = tmp_path / "s.zarr"
-    plan = plan_of(Drawn(), count=9, chunk=3)
-    on(monkeypatch, "x86_64 avx2 fma")
-    run(path, plan)
-    (path / "status/c/0").unlink()
-    (path / "status/c/1").unlink()
-    on(monkeypatch, "x86_64 avx2 avx512f fma")
-    with pytest.warns(CaromWarning, match=r"a processor of another kind \(only here: avx512f\).*last bits") as told:
-        run(path, plan)
-    assert len(told) == 1
-    (path / "status/c/1").unlink()
-    run(path, plan)  # both kinds are known

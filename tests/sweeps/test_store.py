@@ -79,10 +79,10 @@ def test_other_readers_of_zarr_see_numbers_too(tmp_path):
 @pytest.mark.parametrize(
     ("other", "words"),
     [
-        (dataclasses.replace(PLAN, seed=6), "its seed is 5, not 6"),
-        (dataclasses.replace(PLAN, chunk_shape=(3,)), "its chunk is 2, not 3"),
-        (plan_of(Drawn(), count=8, chunk=2), "its axes gamma count is 9, not 8"),
-        (dataclasses.replace(PLAN, fixed={"mu": 0.1}), "its fixed is {}, not {'mu': 0.1}"),
+        (dataclasses.replace(PLAN, seed=6), "another seed"),
+        (dataclasses.replace(PLAN, chunk_shape=(3,)), "another chunk"),
+        (plan_of(Drawn(), count=8, chunk=2), "another axes"),
+        (dataclasses.replace(PLAN, fixed={"mu": 0.1}), "another fixed"),
     ],
 )
 def test_store_of_another_plan_is_refused(tmp_path, other, words):

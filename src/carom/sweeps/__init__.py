@@ -11,7 +11,7 @@
 ``chunk_record``    the record of a chunk, which says which files are its own
 ``layout``          creates the store, without chunks
 ``store``           the Zarr store, :func:`open_sweep`
-``versions``        versions of software and kinds of processors, on which the last bits of results depend
+``versions``        versions of software on which the last bits of results depend
 ``local``           chunks computed by processes and threads of this machine
 ``cluster``         chunks computed by Dask workers
 ``running``         :func:`run_sweep`

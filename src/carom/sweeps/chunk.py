@@ -8,7 +8,6 @@ import numpy as np
 
 from carom.base.outcome import CaromError
 from carom.base.results import Result
-from carom.core.compiling.target import processor
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import Status
 
@@ -37,8 +36,6 @@ class Chunk(Result):
     arrays: dict[str, np.ndarray]
     """One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension."""
     failures: tuple[Failure, ...]
-    processor: str = ""
-    """Kind of the processor that computed the chunk; empty if it was not computed."""
 
 
 def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
@@ -62,7 +59,7 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
         for name, value in found.items():
             arrays[name][place] = value
         arrays["status"][place] = Status.DONE
-    return Chunk(number, arrays, tuple(failures), processor())
+    return Chunk(number, arrays, tuple(failures))
 
 
 def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:

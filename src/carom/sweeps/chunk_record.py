@@ -1,4 +1,4 @@
-"""The record of a finished chunk: what binds its files to their place, who computed it, and what failed."""
+"""The record of a finished chunk: what binds its files to their place, and what failed."""
 
 from __future__ import annotations
 
@@ -25,8 +25,6 @@ class ChunkRecord:
     number: int
     sums: Mapping[str, str]
     """Checksum of each file of the chunk, by the variable's name."""
-    processor: str
-    """Kind of the processor that computed it; empty if it was not computed."""
     failures: list[dict[str, Any]]
     """Index in the grid, parameters and error of each failed point."""
 

@@ -15,6 +15,7 @@ import numpy as np
 from carom.base.files import sync_directory, unfinished
 from carom.base.outcome import InputError
 from carom.base.results import flags
+from carom.core.compiling.target import processor
 from carom.sweeps.chunk_record import RECORDS
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.versions import other_version, versions
@@ -61,27 +62,13 @@ def check_same(path: Path, plan: SweepPlan) -> None:
     attributes = attributes_of(path, OPTION)
     there, wanted = json.loads(attributes["plan"]), json.loads(json.dumps(plan.describe()))
     if there != wanted:
-        where = _difference(there, wanted)
-        raise InputError(OPTION, path, f"belongs to another plan (its {where}); give another directory")
+        where = ", ".join(key for key in {**there, **wanted} if there.get(key) != wanted.get(key))
+        raise InputError(OPTION, path, f"belongs to another plan (another {where}); give another directory")
     if other := other_version(attributes["versions"], versions()):
         name, then, now = other
         raise InputError(
             OPTION, path, f"was begun with {name} {then}, this is {now}; resume it with {then}, or start anew"
         )
-
-
-def _difference(there: Any, wanted: Any, where: str = "") -> str:
-    """Describe the first entry in which two plans differ."""
-    if isinstance(there, dict) and isinstance(wanted, dict) and there.keys() == wanted.keys():
-        for key in there:
-            if there[key] != wanted[key]:
-                return _difference(there[key], wanted[key], f"{where} {key}".strip())
-    if isinstance(there, list) and isinstance(wanted, list) and len(there) == len(wanted):
-        for first, second in zip(there, wanted, strict=True):
-            if first != second:
-                name = first.get("name", "") if isinstance(first, dict) else ""
-                return _difference(first, second, f"{where} {name}".strip())
-    return f"{where} is {there}, not {wanted}"
 
 
 def create(path: Path, plan: SweepPlan) -> None:
@@ -106,6 +93,7 @@ def description_of(plan: SweepPlan) -> dict[str, Any]:
         "source": f"carom {versions()['carom']}",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} begun",
         "versions": versions() | {"python": platform.python_version()},
+        "processor": processor(),
         "seed": plan.seed,
         "plan": json.dumps(plan.describe()),
         "plan_digest": plan.digest,

@@ -2,7 +2,7 @@
 
 Every variable is an uncompressed array over the grid in the Zarr 3 format.  A chunk of it is one file that holds the
 bytes of the numbers and their checksum, as Zarr's codec ``crc32c`` writes and checks it.  ``records/<chunk>.json`` has the checksums of
-the files of a chunk, its failures and the kind of its processor.  The file of ``status`` is written last: a chunk counts as finished as soon as
+the files of a chunk and its failures.  The file of ``status`` is written last: a chunk counts as finished as soon as
 this file exists.  Before a sweep is resumed, finished chunks are compared with their records; a chunk of which a file is
 damaged, missing or another's is computed again.
 """
@@ -10,7 +10,6 @@ damaged, missing or another's is computed again.
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
@@ -25,13 +24,12 @@ from google_crc32c import value as crc32c
 
 from carom.base.arguments import checked
 from carom.base.files import sync_directory, write_whole
-from carom.base.outcome import CaromWarning, InputError
+from carom.base.outcome import InputError
 from carom.sweeps.chunk import MOST_FAILURES, Chunk
 from carom.sweeps.chunk_record import RECORDS, ChunkRecord, checksum, record_file
 from carom.sweeps.layout import OPTION, PARTS, attributes_of, check_same, create, is_new
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS
-from carom.sweeps.versions import differences
 
 if TYPE_CHECKING:
     import xarray
@@ -67,7 +65,6 @@ class SweepStore:
         self._finished = np.zeros(plan.chunks, bool)
         self._failed: dict[int, int] = {}
         self._digest = plan.digest
-        self._processors: set[str] = set()
         try:
             if is_new(self.path):
                 create(self.path, plan)
@@ -108,8 +105,6 @@ class SweepStore:
         self._failed.pop(found.number, None)
         if found.failures:
             self._failed[found.number] = len(found.failures)
-        if found.processor:
-            self._processors.add(found.processor)
 
     def _files(self, number: int) -> dict[str, Path]:
         """Return the files of a chunk by variable name; that of the status, which is written last, comes last."""
@@ -191,7 +186,7 @@ class SweepStore:
         }
         sums = {name: checksum(files[file]) for name, file in self._files(number).items()}
         failures = [asdict(failure) for failure in chunk.failures]
-        kept = ChunkRecord(self._digest, number, sums, chunk.processor, failures)
+        kept = ChunkRecord(self._digest, number, sums, failures)
         status = list(files)[-1]
         status_data = files.pop(status)
         files[record_file(self.path, number)] = kept.data
@@ -205,7 +200,6 @@ class SweepStore:
             raise self._refusal(problem, told=True) from None
         self._finished[number] = True
         self._points += plan.size(number)
-        self._warn_of_processor(chunk.processor)
         self._note(kept)
 
     def _let_wait(self, number: int) -> None:
@@ -215,18 +209,6 @@ class SweepStore:
             self._finished[number] = False
             self._points -= self.plan.size(number)
             self._failed.pop(number, None)
-
-    def _warn_of_processor(self, processor: str) -> None:
-        """Warn of a new kind of processor that computed a chunk, if it is not the first kind."""
-        if processor and self._processors and processor not in self._processors:
-            others = differences(processor, min(self._processors))
-            warnings.warn(
-                f"{self.path} was begun on a processor of another kind ({others}): from here on the last bits of "
-                "numbers may differ from those of the first kind, and irregular motions may then end elsewhere; "
-                "for the same bits everywhere, start anew and use processors of one kind only",
-                CaromWarning,
-                stacklevel=2,
-            )
 
     def _write_file(self, target: Path, data: bytes) -> None:
         write_whole(target, data, self.path / PARTS)

@@ -1,4 +1,4 @@
-"""What the last bits of a result depend on: versions of software, and kinds of processors."""
+"""What the last bits of a result depend on: versions of software."""
 
 from __future__ import annotations
 
@@ -14,12 +14,3 @@ def versions() -> dict[str, str]:
 def other_version(there: Mapping[str, str], here: Mapping[str, str]) -> tuple[str, str, str] | None:
     """Return the first package whose versions differ, with both versions, or None."""
     return next(((name, there.get(name, "?"), own) for name, own in here.items() if there.get(name) != own), None)
-
-
-def differences(here: str, there: str) -> str:
-    """Describe in which features two kinds of processors differ."""
-    own, other = here.split(), there.split()
-    only = [word for word in own if word not in other], [word for word in other if word not in own]
-    return "; ".join(
-        f"{place}: {' '.join(words)}" for place, words in zip(("only here", "only there"), only, strict=True) if words
-    )
