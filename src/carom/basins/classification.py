@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -19,7 +18,7 @@ from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Starts
 from carom.disturbances.echo import instants_words
-from carom.disturbances.following import NO_START, follow, require_start
+from carom.disturbances.following import follow, require_start
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.settling import PATIENCE, longest_time
@@ -83,11 +82,6 @@ class Basin(Mapped):
     needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched", "weight")
 
     @property
-    def scales(self) -> Scales | None:
-        """Mass, clearance and speed, if known."""
-        return self.rotor.scales
-
-    @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Coordinates by which the disturbances vary."""
         return self.plan.model.coordinates
@@ -96,16 +90,6 @@ class Basin(Mapped):
     def instants(self) -> str:
         """At which instants of the turn they come, in words; empty where that does not matter."""
         return instants_words(self.rotor, self.plan)
-
-    @property
-    def outcomes(self) -> np.ndarray:
-        """Codes of :class:`~carom.base.outcome.Outcome`, −1 where there is no start."""
-        return self.dataset["outcome"].values
-
-    @property
-    def exists(self) -> np.ndarray:
-        """Which points of the plan are starts."""
-        return self.outcomes != NO_START
 
     @property
     def recovered(self) -> np.ndarray:
@@ -141,11 +125,6 @@ class Basin(Mapped):
     def unresolved(self) -> int:
         """Number of starts that were given up otherwise."""
         return int((self.exists & ~self.resolved).sum()) - self.beyond_model
-
-    @cached_property
-    def motions(self) -> tuple[MotionName, ...]:
-        """Names of the motions, in the order of their index."""
-        return tuple(map(MotionName.of, json.loads(self.dataset["motion"].attrs["motions"])))
 
     @property
     def cells(self) -> Cells:

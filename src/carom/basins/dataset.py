@@ -22,7 +22,7 @@ from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.models import Rotor, exact_rotor_of, rotor_from
 from carom.motions.ensembles import Endings
-from carom.parameters import Parameters
+from carom.parameters import Parameters, Scales
 
 if TYPE_CHECKING:
     import xarray
@@ -48,6 +48,26 @@ class Stored(Result):
     def rotor(self) -> Rotor:
         """Rotor of the machine."""
         return rotor_from(self.dataset.attrs)
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed, if known."""
+        return self.rotor.scales
+
+    @property
+    def outcomes(self) -> np.ndarray:
+        """Codes of :class:`~carom.base.outcome.Outcome`, −1 where there is no start."""
+        return self.dataset["outcome"].values
+
+    @property
+    def exists(self) -> np.ndarray:
+        """Which points have a start."""
+        return self.outcomes != NO_START
+
+    @cached_property
+    def motions(self) -> tuple[MotionName, ...]:
+        """Names of the motions on which they end, in the order of their index."""
+        return tuple(map(MotionName.of, json.loads(self.dataset["motion"].attrs["motions"])))
 
     @property
     def parameters(self) -> Parameters:
@@ -77,6 +97,11 @@ class Mapped(Stored):
         return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
 
+def about(rotor: Rotor, title: str) -> dict[str, str]:
+    """Attributes of a dataset about a rotor."""
+    return {"Conventions": "CF-1.11", "title": title, "source": programs(), **rotor.attributes()}
+
+
 def provenance(rotor: Rotor, plan: Plan) -> dict[str, str]:
     """Attributes that are needed to repeat the computation."""
     how: dict[str, object] = (
@@ -84,13 +109,8 @@ def provenance(rotor: Rotor, plan: Plan) -> dict[str, str]:
         if isinstance(plan, Grid)
         else {"starts": plan.count, "seed": plan.seed}
     )
-    return {
-        "Conventions": "CF-1.11",
-        "title": "Where disturbances of a rotor inside its touchdown bearing end",
-        "source": programs(),
-        **rotor.attributes(),
-        "disturbances": json.dumps({"model": plan.model.describe(), **how}),
-    }
+    tried = {"disturbances": json.dumps({"model": plan.model.describe(), **how})}
+    return about(rotor, "Where disturbances of a rotor inside its touchdown bearing end") | tried
 
 
 @cache

@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -16,7 +15,7 @@ from carom.attractors import MotionName
 from carom.base.arguments import Count, checked
 from carom.base.outcome import STEADY_WORDS, InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.basins.dataset import outcome_flags, programs
+from carom.basins.dataset import about, outcome_flags
 from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
 from carom.core.processors import available_cores
 from carom.disturbances.following import NO_START
@@ -96,25 +95,9 @@ class DropMap(OverPlane):
     shown: ClassVar[tuple[str, ...]] = ("rotor", "plane", "ends", "worst")
     needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "force", "impulse")
 
-    @property
-    def scales(self) -> Scales | None:
-        """Mass, clearance and speed of the present machine."""
-        return self.rotor.scales
-
     def varied(self, name: str) -> Axis:
         """What is varied under a name."""
         return varied_of(self.rotor, name)
-
-    @cached_property
-    def motions(self) -> tuple[MotionName, ...]:
-        """Names of the motions in which they end, in the order of their index."""
-        return tuple(map(MotionName.of, json.loads(self.dataset["motion"].attrs["motions"])))
-
-    @property
-    def exists(self) -> np.ndarray:
-        """Which of them could be dropped."""
-        existing: np.ndarray = self.dataset["outcome"].values != NO_START
-        return existing
 
     @property
     def fractions(self) -> dict[MotionName, float]:
@@ -240,10 +223,7 @@ def map_drops(
     limits = machine.limits if isinstance(machine, Case) else LoadLimits()
     dataset.attrs |= {
         **(source or {}),
-        "Conventions": "CF-1.11",
-        "title": "How drops of a rotor on its touchdown bearing end, against two numbers",
-        "source": programs(),
-        **rotor.attributes(),
+        **about(rotor, "How drops of a rotor on its touchdown bearing end, against two numbers"),
         "released": repr(released),
         "load_limits": json.dumps(limits.given),
         "gives_way": int(any(rotor.system.arrays.stiffness > 0.0)),

@@ -154,7 +154,7 @@ def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> S
     search.refine(TURN / directions)
     for number in range(MOST_CHECKS):
         tell(0.5 + 0.5 * number / MOST_CHECKS)
-        below = largest if search.best is None else search.best.recovered
+        below = largest if search.best is None else search.share * search.best.recovered
         if below <= harmless:
             break
         before = search.best
@@ -193,6 +193,8 @@ class _Search:
         self.rotor, self.model, self.size, self.effort = rotor, model, size, effort
         self.tolerance, self.threads = tolerance, threads
         self.harmless, self.largest, self.timed = harmless_size(rotor, model), size.high, rotor.depends_on_instant
+        # Where trials are dear, no smaller ones are sought than by half the tolerance.
+        self.share = 1.0 - 0.5 * tolerance if model.changes_machine else 1.0
         self.tried = 0
         self.best: Found | None = None
         self.back = 0.0  # up to here all directions scanned came back
@@ -245,7 +247,7 @@ class _Search:
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
             angles = self.best.angle + apart * np.delete(np.arange(-beside, beside + 1), beside)
-            self.scan(angles[None], np.linspace(self.harmless, self.best.size, self.effort.below + 1))
+            self.scan(angles[None], np.linspace(self.harmless, self.share * self.best.size, self.effort.below + 1))
 
     def _refine_pairs(self, apart: float) -> None:
         """Scan pairs spread over discs about the best one, from two distances between pairs of the first scan down to the tolerance."""
@@ -255,7 +257,9 @@ class _Search:
         )
         while self.best is not None and reach > self.tolerance:
             at = np.array([[self.best.angle], [self.best.instant]])
-            self.scan(at + reach * spread, np.linspace(self.harmless, self.best.size, self.effort.below // 2 + 1))
+            self.scan(
+                at + reach * spread, np.linspace(self.harmless, self.share * self.best.size, self.effort.below // 2 + 1)
+            )
             reach /= CLOSER
 
     def draw(self, below: float, seed: int) -> tuple[int, int]:

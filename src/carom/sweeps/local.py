@@ -39,7 +39,7 @@ def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generat
     """
     pool = ThreadPoolExecutor(workers, thread_name_prefix="carom-sweep")
     try:
-        yield from _as_ready(partial(pool.submit, compute_chunk, plan), numbers, workers)
+        yield from _as_ready(lambda number: pool.submit(compute_chunk, plan, number), numbers, workers)
     finally:
         pool.shutdown(cancel_futures=True)
 
