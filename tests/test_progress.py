@@ -34,7 +34,9 @@ LONG = {
     ),
     "map_basins": lambda **given: carom.map_basins(PAPER, KICKS, **given),
     "map_gains": lambda **given: carom.map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2), **given),
-    "smallest_loss": lambda **given: basins.smallest_loss(PAPER, VelocityKick(0.5), directions=8, sizes=8, **given),
+    "smallest_unrecovered": lambda **given: basins.smallest_unrecovered(
+        PAPER, VelocityKick(0.5), directions=8, sizes=8, **given
+    ),
     "find_orbits": lambda **given: carom.find_orbits(PAPER, impacts=2, guesses=30, **given),
     "find_recovery": lambda **given: carom.studies.find_recovery(
         DAMPED, "gamma", [Sample(VelocityKick(0.5), 20)], within=(0.5, 2.0), **given

@@ -43,7 +43,7 @@ def test_what_a_result_holds_counts():
 def test_every_reference_is_used_and_every_key_is_known():
     for package in ("attractors", "basins", "bifurcations", "motions", "orbits", "proofs", "studies"):
         getattr(cm, package).__all__  # noqa: B018  (loads the results of the package)
-    kinds = [cm.basins.SmallestLoss, cm.attractors.Survival]
+    kinds = [cm.basins.SmallestUnrecovered, cm.attractors.Survival]
     used = {key for kind in (*subclasses(Result), *kinds) for key in kind.rests_on}
     assert used == set(REFERENCES)
 

@@ -141,11 +141,11 @@ def test_sizes_of_whatever_is_found_are_told_in_si_units():
     assert "normal force 0.758533 (901 N)" in repr(carom.find_equilibria(machine))
     assert "  position       0.896512-0.443019i (0.628-0.31i mm)\n" in repr(carom.find_equilibria(machine)[1])
     kicks = carom.disturbances.VelocityKick.of(machine, "100 mm/s")
-    lost = carom.basins.smallest_loss(machine, kicks)
+    lost = carom.basins.smallest_unrecovered(machine, kicks)
     assert "  largest          0.775555 (100 mm/s)" in repr(lost)
     assert f"  size             {lost.size:.6g} ({lost.size * 0.7 * 184.2:.3g} mm/s)" in repr(lost)
-    assert carom.base.results.in_a_line(lost).startswith(f"smallest lost {lost.size:.6g} (5.4")
-    blade = carom.basins.smallest_loss(machine, carom.disturbances.BladeLoss(0.5))
+    assert carom.base.results.in_a_line(lost).startswith(f"smallest that does not come back {lost.size:.6g} (5.4")
+    blade = carom.basins.smallest_unrecovered(machine, carom.disturbances.BladeLoss(0.5))
     assert "  largest          0.5 (17,500 g mm)" in repr(blade)  # half of 50 kg times 0.7 mm
     ending = carom.find_attractors(machine, carom.disturbances.Sample(kicks, 1), known=False).endings[0]
     assert f"  time       {ending.time:.6g} ({round(ending.time / 0.1842, -1):,.0f} ms)\n" in repr(

@@ -67,7 +67,7 @@ CALLS = {
     "basins.map_cells": lambda m: cm.basins.map_cells(m, KICKS),
     "basins.map_drops": lambda m: told(lambda: cm.basins.map_drops(m, shape=(2, 2))),
     "basins.map_gains": lambda m: cm.map_gains(m, KICKS, ("gamma", "omega"), shape=(2, 2)),
-    "basins.smallest_loss": lambda m: cm.basins.smallest_loss(m, VelocityKick(fastest=0.5)),
+    "basins.smallest_unrecovered": lambda m: cm.basins.smallest_unrecovered(m, VelocityKick(fastest=0.5)),
     "bifurcations.boundary_equilibria": lambda m: cm.bifurcations.boundary_equilibria(m, "gamma"),
     "bifurcations.find_bifurcations": lambda m: cm.find_bifurcations(m, "gamma", (0.39, 0.41)),
     "bifurcations.map_regions": lambda m: cm.map_regions(
@@ -131,7 +131,7 @@ GENERAL = {
     "basins.map_basins",
     "basins.map_drops",
     "basins.map_gains",
-    "basins.smallest_loss",
+    "basins.smallest_unrecovered",
     "bifurcations.find_bifurcations",
     "closed_forms.find_equilibria",
     "bifurcations.map_regions",

@@ -10,7 +10,7 @@ import carom as cm
 
 machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
 kicks = cm.disturbances.VelocityKick.of(machine, "250 mm/s")
-smallest = cm.basins.smallest_loss(machine, kicks)
+smallest = cm.basins.smallest_unrecovered(machine, kicks)
 unit = 1e3 * machine.parameters.scales.velocity
 print(f"no contact up to {smallest.harmless * unit:.3g} mm/s; lost from {smallest.size * unit:.4g} mm/s on")
 

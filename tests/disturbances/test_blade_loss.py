@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.base.outcome import InputError, Outcome
-from carom.basins import Basin, smallest_loss
+from carom.basins import Basin, smallest_unrecovered
 from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
 from carom.models import Force, jeffcott
 from carom.parameters import Machine, Parameters
@@ -129,7 +129,7 @@ def test_what_is_said_to_be_survived_is():
     random = np.random.default_rng(22)
     tried = 0
     for machine in (LIGHT, LIGHT.replace(damping=6000.0, friction=0.05, speed=1400.0))[: sized(1, 1, 2)]:
-        found = smallest_loss(machine, BladeLoss.of(machine, "0.15 mm"))
+        found = smallest_unrecovered(machine, BladeLoss.of(machine, "0.15 mm"))
         assert found.harmless < found.all_back < found.size
         assert found.size - found.all_back < 2e-3 * found.size
         for _ in range(sized(2, 1, 60)):
@@ -225,11 +225,11 @@ def test_a_rotor_of_several_coordinates():
 @pytest.mark.jit_only
 def test_what_is_lost_already_or_never_is_said():
     harmless = cm.closed_forms.harmless_blade_loss(LIGHT)
-    never = smallest_loss(LIGHT, BladeLoss(1.2 * harmless))
+    never = smallest_unrecovered(LIGHT, BladeLoss(1.2 * harmless))
     assert (never.size, never.all_back, never.drawn) == (None, pytest.approx(1.2 * harmless), 300)
     # A rotor that just levitates is lost by a change of its unbalance that is far smaller than that.
     heavy = cm.load("examples/keogh-cole.toml")
-    already = smallest_loss(heavy, BladeLoss(0.02))
+    already = smallest_unrecovered(heavy, BladeLoss(0.02))
     assert already.harmless < already.all_back < already.size < 0.05 * heavy.parameters.rho
 
 

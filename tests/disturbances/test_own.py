@@ -11,7 +11,7 @@ from machines import PAPER
 
 import carom as cm
 from carom.base.outcome import InputError, Outcome
-from carom.basins import Basin, GainMap, smallest_loss
+from carom.basins import Basin, GainMap, smallest_unrecovered
 from carom.basins.document import basin_document
 from carom.disturbances import Coordinate, Disturbance, Grid, Sample, Starts, VelocityKick
 
@@ -113,7 +113,7 @@ def test_gain_maps_of_own_disturbances(tmp_path):
 
 @pytest.mark.jit_only
 def test_smallest_own_disturbance_that_is_lost():
-    found = smallest_loss(MACHINE, Shove(1.0, 0j), directions=24, sizes=24)
+    found = smallest_unrecovered(MACHINE, Shove(1.0, 0j), directions=24, sizes=24)
     rotor = cm.models.jeffcott(MACHINE)
 
     assert (found.kind, found.harmless) == ("shove", 0.0)
@@ -133,8 +133,8 @@ def test_nothing_is_proven_of_a_kick_that_starts_elsewhere():
             starts = super().starts(rotor, *values)
             return Starts.of(np.full(starts.positions.shape, 0.999), starts.velocities, True)
 
-    assert smallest_loss(MACHINE, VelocityKick(0.5), directions=8, sizes=8).harmless > 0.0
-    found = smallest_loss(MACHINE, Elsewhere(0.5), directions=8, sizes=8)
+    assert smallest_unrecovered(MACHINE, VelocityKick(0.5), directions=8, sizes=8).harmless > 0.0
+    found = smallest_unrecovered(MACHINE, Elsewhere(0.5), directions=8, sizes=8)
     assert (found.kind, found.harmless) == ("elsewhere", 0.0)
 
 

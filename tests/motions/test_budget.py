@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.basins import smallest_loss
+from carom.basins import smallest_unrecovered
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
 from carom.models import rotor_of
@@ -63,7 +63,7 @@ def test_after_its_time_nothing_is_followed(rotor):
 
 def test_an_unfinished_search_claims_no_more_than_it_tried(rotor):
     with Budget().question("kicks", 60_000):
-        found = smallest_loss(rotor, VelocityKick(1.5), directions=24, sizes=24)
+        found = smallest_unrecovered(rotor, VelocityKick(1.5), directions=24, sizes=24)
     assert not found.complete
     assert "not finished" in found.words
     assert found.fresh == 0

@@ -12,7 +12,7 @@ import carom
 from carom import plots
 from carom.attractors import MotionName
 from carom.base.outcome import InputError, Outcome
-from carom.basins import map_basins, map_gains, smallest_loss
+from carom.basins import map_basins, map_gains, smallest_unrecovered
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -118,7 +118,7 @@ def printed(colour):
 
 def test_kicks_by_size_and_direction(rotor):
     basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
-    smallest = smallest_loss(rotor, VelocityKick(1.0))
+    smallest = smallest_unrecovered(rotor, VelocityKick(1.0))
     figure = plots.basin(basin, smallest)
     green = np.array(to_rgb(plots.OUTCOMES["levitated"].colour))
     shown = np.isclose(painted(figure), green).all(axis=1)

@@ -14,8 +14,8 @@ from machines import PAPER
 import carom as cm
 from carom.base.files import as_json
 from carom.base.outcome import InputError
-from carom.basins import smallest_loss
-from carom.basins.losses import Effort
+from carom.basins import smallest_unrecovered
+from carom.basins.unrecovered import Effort
 from carom.disturbances import Sample, VelocityKick
 from carom.models import Rotor, jeffcott
 from carom.parameters import Case, Requirement, Scales, Zones
@@ -100,9 +100,11 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
         monkeypatch.setattr(f"carom.studies.assembly.{name}", count)
     monkeypatch.setattr("carom.studies.advice.CHECKED", 30)
     monkeypatch.setattr("carom.studies.recovery.MOST", 3)
-    monkeypatch.setattr("carom.basins.losses.COARSE", Effort(8, 6, drawn=20, around=24))
-    monkeypatch.setattr("carom.basins.losses.ONE_EACH", Effort(8, 6, beside=2, below=4, drawn=10, around=12))
-    monkeypatch.setattr("carom.studies.survives.smallest_loss", partial(smallest_loss, directions=8, sizes=6))
+    monkeypatch.setattr("carom.basins.unrecovered.COARSE", Effort(8, 6, drawn=20, around=24))
+    monkeypatch.setattr("carom.basins.unrecovered.ONE_EACH", Effort(8, 6, beside=2, below=4, drawn=10, around=12))
+    monkeypatch.setattr(
+        "carom.studies.survives.smallest_unrecovered", partial(smallest_unrecovered, directions=8, sizes=6)
+    )
     monkeypatch.setattr("carom.studies.assembly.find_orbits", partial(cm.find_orbits, guesses=50))
     rotor: Rotor = tilting(damping=0.3 * np.diag([1.0, 0.4])).model.replace(scales=Scales(50.0, 0.7e-3, 184.2))
     found = cm.study(rotor, Sample(VelocityKick(0.3), 4), requirement=Requirement(kick=0.02))

@@ -4,10 +4,9 @@
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
-``brackets``            the bracket that a search for the smallest loss finds
-``losses``              the smallest kicks, shocks and losses of a blade that are lost
+``brackets``            the bracket that a search for the smallest unrecovered size finds
+``unrecovered``         the smallest kicks, shocks and losses of a blade that do not come back
 ``families``            which kinds have sizes, and up to which they cannot touch
-``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``maps``                maps over two numbers of any measure: the next two
 ``gains``               these measures against two parameters: gain maps
 ``drops``               how drops end and what the bearing bears, against two numbers
@@ -15,12 +14,12 @@
 ======================  ==================================================================================
 """
 
-from carom.basins.brackets import SmallestLoss
+from carom.basins.brackets import SmallestUnrecovered
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.drops import DropMap, map_drops
 from carom.basins.gains import GainMap, map_gains
-from carom.basins.losses import smallest_loss
 from carom.basins.shares import Population, Share, share_of_kicks
+from carom.basins.unrecovered import smallest_unrecovered
 
 __all__ = [
     "Basin",
@@ -29,11 +28,11 @@ __all__ = [
     "GainMap",
     "Population",
     "Share",
-    "SmallestLoss",
+    "SmallestUnrecovered",
     "map_basins",
     "map_cells",
     "map_drops",
     "map_gains",
     "share_of_kicks",
-    "smallest_loss",
+    "smallest_unrecovered",
 ]

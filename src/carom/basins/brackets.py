@@ -1,4 +1,4 @@
-"""The bracket that a search for the smallest disturbance that is lost finds."""
+"""The bracket that a search for the smallest disturbance that does not come back finds."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from carom.basins.shares import CONFIDENCE
 from carom.parameters import Scales
 
 NEIGHBOURS, BESIDE_LOST = 32, 1e-9
-"""Disturbances beside the smallest lost one that are followed to see whether it is lost for itself, and how far from it relative to its size."""
+"""Disturbances beside the smallest unrecovered one that are followed to see whether it does not come back for itself, and how far from it relative to its size."""
 
 
 @dataclass(frozen=True, repr=False)
-class SmallestLoss(Result):
-    """Bracket of the size at which disturbances begin to be lost.
+class SmallestUnrecovered(Result):
+    """Bracket of the size at which disturbances begin not to come back.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class SmallestLoss(Result):
         Kind of the disturbance: ``"kick"``, ``"shock"``, ``"blade-loss"``, or that of
         another model; of a kick plane ``"kick"``.
     size : float or None
-        Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
+        Smallest unrecovered size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
         unbalance as an eccentricity in ``c_r``, or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for the loss of a blade the phase of the
@@ -39,26 +39,26 @@ class SmallestLoss(Result):
         A smaller size in this direction, within the tolerance, that comes back.
     all_back : float or None
         Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
-        smallest starts are lost already.
+        smallest starts do not come back already.
     fresh : int
         Number of starts up to ``all_back`` that are independent of the search: ``drawn`` ones, and directions over a full turn at
         that size; where the instant matters each at one of its own.
     drawn : int
         How many of them were drawn uniformly over the area of the disc beyond the harmless size.
     neighbours_lost, neighbours : int
-        Of so many disturbances beside the smallest lost one, up to ``beside`` of its size away in any direction, how many are lost too.
+        Of so many disturbances beside the smallest unrecovered one, up to ``beside`` of its size away in any direction, how many do not come back either.
         Fewer than all: beside a basin boundary of fine structure, where rounding decides.
     harmless : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
         Largest size searched.
     tolerance : float
-        Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
+        Relative width to which the smallest is bisected, and angle in rad between the last directions tried.
     tried : int
         Number of starts followed.
     complete : bool
-        Whether the search came to its end.  Otherwise the budget of a study ended it (:mod:`carom.motions.budget`): smaller sizes may be
-        lost, and ``all_back`` is that of the directions scanned alone.
+        Whether the search came to its end.  Otherwise the budget of a study ended it (:mod:`carom.motions.budget`): smaller sizes may not
+        come back, and ``all_back`` is that of the directions scanned alone.
     quantity : str
         Property of the scales by which sizes are converted to SI units.
     scales : Scales or None
@@ -106,13 +106,15 @@ class SmallestLoss(Result):
     def words(self) -> str:
         """The bracket in a line."""
         told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
-        lost = f"none lost up to {told['largest']}" if self.complete else "none lost"
-        lost = lost if self.size is None else f"smallest lost {told['size']}"
-        lost += "" if self.instant is None else " at the worst instant of the turn"
+        none = (
+            f"none up to {told['largest']} that does not come back" if self.complete else "none that does not come back"
+        )
+        found = none if self.size is None else f"smallest that does not come back {told['size']}"
+        found += "" if self.instant is None else " at the worst instant of the turn"
         back = "" if self.all_back is None else f", all back up to {told['all_back']}"
-        lost += f" ({self.sensitivity})" if self.sensitivity else ""
+        found += f" ({self.sensitivity})" if self.sensitivity else ""
         ended = "" if self.complete else ", search not finished"
-        return f"{lost}{back}, harmless up to {told['harmless']}{ended}"
+        return f"{found}{back}, cannot touch up to {told['harmless']}{ended}"
 
     def kind_of(self, name: str) -> str:
         """Sizes are of one kind."""
@@ -128,8 +130,8 @@ class SmallestLoss(Result):
 
     @property
     def share_below(self) -> float:
-        """Share of the disturbances beyond the harmless size and up to ``all_back``, by area, that may be lost: a bound at 95 %.
+        """Share of the disturbances beyond the harmless size and up to ``all_back``, by area, that may not come back: a bound at 95 %.
 
-        ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
+        ``1 − 0.05^{1/n}`` for ``n`` starts all of which come back (Clopper and Pearson, one-sided).
         """
         return -math.expm1(math.log(1.0 - CONFIDENCE) / self.drawn) if self.drawn else 1.0

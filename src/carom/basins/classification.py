@@ -140,7 +140,7 @@ class Basin(Mapped):
 
     @property
     def share_recovered(self) -> Share:
-        """Share that returns to levitation; starts that were given up, or went beyond the model, count as lost.  Cells of a disc weigh by their area."""
+        """Share that returns to levitation; starts that were given up, or went beyond the model, count as unrecovered.  Cells of a disc weigh by their area."""
         return Share.over(self.plan, self.recovered, self.exists, self.scales, at=self.instants)
 
     @checked
@@ -199,7 +199,7 @@ def map_basins(
 
     See Also
     --------
-    carom.basins.smallest_loss : the smallest disturbance that is lost
+    carom.basins.smallest_unrecovered : the smallest disturbance that does not come back
     carom.map_gains : the share that comes back over two parameters
     carom.find_attractors : names and periods of the motions found
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.base.outcome import Outcome
 from carom.base.results import fields_of, in_si
-from carom.basins.brackets import SmallestLoss
+from carom.basins.brackets import SmallestUnrecovered
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
 from carom.basins.gains import WANTED, GainMap
@@ -28,14 +28,14 @@ from carom.parameters.scaling import SCALING
 
 def basin_document(
     basin: Basin,
-    smallest: SmallestLoss | None,
+    smallest: SmallestUnrecovered | None,
     harmless: float,
     gains: GainMap | None = None,
     told_by: Case | None = None,
 ) -> dict[str, Any]:
     """Document of all results about a basin.
 
-    The smallest loss is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
+    The smallest unrecovered one is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
     return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  With a machine ``told_by``, the values of a gain map are there in the terms of its file too.
     """
     scales, attributes = basin.scales, basin.dataset.attrs
@@ -75,8 +75,8 @@ def basin_document(
     return document
 
 
-def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, Any]:
-    """Entries of the smallest loss of a kind; all ``None`` if it was not searched."""
+def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict[str, Any]:
+    """Entries of the smallest unrecovered size of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
     key = kind.replace("-", "_")
     name = f"smallest_unrecovered_{key}"

@@ -16,9 +16,9 @@ from carom.base.outcome import Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import fields_of
 from carom.basins.dataset import Mapped, provenance
-from carom.basins.losses import smallest_lost
 from carom.basins.maps import Measure, OverPlane, Several, map_over
 from carom.basins.shares import Population, Share
+from carom.basins.unrecovered import smallest_unrecovered_kick
 from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
@@ -154,7 +154,7 @@ def measured(
 ) -> Iterator[dict[str, Any]]:
     """Yield the measures of each node, which has disturbances of its own; nodes are followed in chunks of about CHUNK starts.
 
-    If all nodes of a map shared one sample, a sample with too many lost starts would make the intervals of all of them too
+    If all nodes of a map shared one sample, a sample with too many unrecovered starts would make the intervals of all of them too
     low at once: they would not cover the true shares of 95 % of the nodes, but of all or of few.
     """
     there, back = tee(_machine(rotor, plan, axes, node) for plan, node in nodes)
@@ -187,7 +187,7 @@ def recovery(plan: Plan, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> 
     shares = share.fraction, share.low, share.high, given_up.fraction
     found: dict[str, Any] = {"share": share} | dict(zip(SHARES, shares, strict=True))
     if isinstance(plan.model, VelocityKick | KickPlane):
-        smallest = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan, math.nan)
+        smallest = smallest_unrecovered_kick(rotor, starts, outcomes) or (math.nan, math.nan, math.nan)
         found |= dict(list(zip(KICKS, smallest, strict=True))[: 3 if rotor.depends_on_instant else 2])
     return found
 

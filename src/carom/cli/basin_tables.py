@@ -6,7 +6,7 @@ import numpy as np
 from rich.console import Console
 
 from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
-from carom.basins import Basin, GainMap, SmallestLoss
+from carom.basins import Basin, GainMap, SmallestUnrecovered
 from carom.basins.families import size_coordinate
 from carom.basins.gains import WANTED
 from carom.cli.fitting import print_table
@@ -17,7 +17,7 @@ from carom.parameters.formats import format_angle, format_quantity
 from carom.studies.wording import Wording
 
 
-def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
+def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that does not come back."""
     screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales, at=basin.instants)}.")
     drawn = basin.share_recovered.drawn
@@ -78,7 +78,7 @@ def _touching(basin: Basin) -> str:
     return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
 
 
-def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[tuple[str, str]]:
+def _losses(basin: Basin, smallest: SmallestUnrecovered | None, harmless: float) -> list[tuple[str, str]]:
     """From which size on disturbances do not come back, if they have a size; else why nothing was searched."""
     from carom.studies.endings import ending_words  # only here: it takes long to load
     from carom.studies.verdict import SURVIVED, size_cells
@@ -102,7 +102,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     return [(SURVIVED[column], cells[column]) for column in SURVIVED if column in cells]
 
 
-def _where(smallest: SmallestLoss) -> str:
+def _where(smallest: SmallestUnrecovered) -> str:
     """The direction of the smallest disturbance that does not come back."""
     if smallest.size is None:
         return ""

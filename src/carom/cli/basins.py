@@ -68,7 +68,7 @@ def basins(
         plan = _plan(case, _model(case, ways), grid, starts, seed, instant)
         if gains is None:
             refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y})
-        from carom.basins import map_basins, map_gains, smallest_loss
+        from carom.basins import map_basins, map_gains, smallest_unrecovered
         from carom.basins.document import basin_document
         from carom.basins.families import size_coordinate
         from carom.basins.gains import usual_gains
@@ -85,7 +85,7 @@ def basins(
         basin = map_basins(rotor, plan, source=source, progress=step)
         harmless, smallest = harmless_kick(rotor), None
         if harmless > 0.0 and size_coordinate(plan.model) is not None:
-            smallest = smallest_loss(rotor, plan.model, progress=tell.part(share, 2.0 * share))
+            smallest = smallest_unrecovered(rotor, plan.model, progress=tell.part(share, 2.0 * share))
         over: tuple[Any, ...] = ()
         if gains is not None:
             ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.97)}

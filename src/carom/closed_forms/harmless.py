@@ -128,7 +128,7 @@ def harmless_kick(machine: Subject) -> float:
 
     See Also
     --------
-    carom.basins.smallest_loss : search for the smallest kick that is lost
+    carom.basins.smallest_unrecovered : search for the smallest kick that is lost
 
     Examples
     --------

@@ -22,7 +22,7 @@ from carom.plots.words import clearance, formula, number, told_in
 
 if TYPE_CHECKING:
     from carom.attractors import MotionName
-    from carom.basins import Basin, Cells, SmallestLoss
+    from carom.basins import Basin, Cells, SmallestUnrecovered
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
@@ -38,7 +38,7 @@ _REACH = 1.04
 
 @checked
 @styled
-def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None = None) -> Figure:
+def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str | None = None) -> Figure:
     """Draw where disturbances end, as a picture that depends on their coordinates.
 
     By size and direction: a disc, and beside it the shares at each size.  By two other coordinates, such as the
@@ -208,7 +208,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
     axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 100.0), xlabel=label, ylabel="share of the directions (%)")
 
 
-def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestLoss) -> None:
+def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> None:
     """Mark the smallest kick or shock found that is lost and the circle of those that cannot reach the wall."""
     factor = basin.coordinates[0].shown_in(basin.scales)[0]
     _circle(axes, factor * smallest.harmless, "below: proven never to touch")

@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.outcome import Outcome
 from carom.base.results import Result, record
 from carom.basins import Share
-from carom.basins.losses import GOLDEN
+from carom.basins.unrecovered import GOLDEN
 from carom.disturbances import Disturbance
 from carom.disturbances.coordinates import TURN
 from carom.models import Rotor

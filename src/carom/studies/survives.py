@@ -1,7 +1,7 @@
 """What a machine survives: kicks, shocks and losses of a blade, in absolute sizes.
 
 For each kind of disturbance three sizes matter: up to the first contact is proven to be impossible, up to the second every one
-tried came back, and the third is the smallest found that is lost (:func:`carom.basins.smallest_loss`).  They do not depend on
+tried came back, and the third is the smallest found that is lost (:func:`carom.basins.smallest_unrecovered`).  They do not depend on
 what the machine must survive; whether that is met follows from them.
 """
 
@@ -17,7 +17,7 @@ import numpy as np
 from carom.attractors import AttractorSet
 from carom.base.progress import Reporter
 from carom.base.results import Result, record
-from carom.basins import Share, SmallestLoss, smallest_loss
+from carom.basins import Share, SmallestUnrecovered, smallest_unrecovered
 from carom.basins.families import harmless_size
 from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, VelocityKick
@@ -47,30 +47,34 @@ class Survives(Result):
 
     Attributes
     ----------
-    kick : SmallestLoss
+    kick : SmallestUnrecovered
         Kicks out of levitation; sizes in ``c_r Ω``.
-    shock : SmallestLoss or None
+    shock : SmallestUnrecovered or None
         Half-sine shocks of the base of ``duration``; sizes are peaks in ``c_r Ω²``.  ``None`` where none is required and the
         usual duration is not known in turns, or is too many, or where the state after a shock is more than places and speeds.
     duration : float
         Duration of the shocks, in ``1/Ω``.
-    blade_loss : SmallestLoss or None
+    blade_loss : SmallestUnrecovered or None
         Sizes are changes of the unbalance by the loss of a blade, as eccentricities in ``c_r``, at the worst phase.
     """
 
-    kick: SmallestLoss
-    shock: SmallestLoss | None
+    kick: SmallestUnrecovered
+    shock: SmallestUnrecovered | None
     duration: float
-    blade_loss: SmallestLoss | None
+    blade_loss: SmallestUnrecovered | None
 
     @property
     def known_scales(self) -> Scales | None:
         """Scales of the machine."""
         return self.kick.scales
 
-    def items(self) -> tuple[tuple[Kind, SmallestLoss], ...]:
+    def items(self) -> tuple[tuple[Kind, SmallestUnrecovered], ...]:
         """The kinds that were searched, by name."""
-        found: dict[Kind, SmallestLoss | None] = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
+        found: dict[Kind, SmallestUnrecovered | None] = {
+            "kick": self.kick,
+            "shock": self.shock,
+            "blade_loss": self.blade_loss,
+        }
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
 
     def document(self) -> dict[Kind, dict[str, Any]]:
@@ -103,7 +107,7 @@ def survives(rotor: Rotor, required: Required, budget: Budget, tell: Reporter) -
     tell(0.9, words)
     if largest > 0.0:
         with budget.question(words, events_for(rotor, words)):
-            blade_loss = smallest_loss(rotor, BladeLoss(largest))
+            blade_loss = smallest_unrecovered(rotor, BladeLoss(largest))
     return Survives(kick, shock, duration, blade_loss)
 
 
@@ -136,10 +140,10 @@ def _duration(rotor: Rotor, required: Required) -> float:
     return usual if usual <= LONGEST_SHOCK else 0.0
 
 
-def _reaching(rotor: Rotor, model: VelocityKick | BaseShock) -> SmallestLoss:
+def _reaching(rotor: Rotor, model: VelocityKick | BaseShock) -> SmallestUnrecovered:
     """Search up to a multiple of a disturbance, or of what is proven to be harmless if that is more."""
     largest = _times(model, REACH * max(1.0, harmless_size(rotor, model) / model.coordinates[0].high))
-    return smallest_loss(rotor, largest)
+    return smallest_unrecovered(rotor, largest)
 
 
 def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | BaseShock:
@@ -149,7 +153,7 @@ def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | Bas
     return replace(model, peak=factor * model.peak)
 
 
-def loses(found: SmallestLoss, size: float) -> bool:
+def loses(found: SmallestUnrecovered, size: float) -> bool:
     """Whether some disturbances up to a size are lost, or it is larger than all that are possible."""
     return (found.size is not None and found.size <= size) or (found.complete and size > found.largest)
 

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Literal
 
 from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
-from carom.basins import Share, SmallestLoss
+from carom.basins import Share, SmallestUnrecovered
 from carom.disturbances.echo import ANY_INSTANT
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
@@ -89,7 +89,7 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
     yield _fact(_required_words(study), "Must survive", values=study.requirement_document())
     if study.survives is not None:
         for name, values in study.survives.document().items():
-            entry: SmallestLoss = getattr(study.survives, name)
+            entry: SmallestUnrecovered = getattr(study.survives, name)
             yield _fact(_survived(study, name, entry), LABELS[name], None, values)
     if study.share is not None and study.share.total:
         words, values = f"{study.share.words}, weighted by area", study.share.document
@@ -113,7 +113,7 @@ def _required_words(study: StudyData) -> str:
     return f"{listed(study.wording.required(study.required))} ({how})"
 
 
-def survived_cells(study: StudyData, name: Kind, found: SmallestLoss) -> dict[str, str]:
+def survived_cells(study: StudyData, name: Kind, found: SmallestUnrecovered) -> dict[str, str]:
     """What of one kind of disturbance is survived, by :data:`SURVIVED`; what is not known is left out."""
     cells = size_cells(study.wording, found, lost_to(study, name, found))
     if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
@@ -121,7 +121,7 @@ def survived_cells(study: StudyData, name: Kind, found: SmallestLoss) -> dict[st
     return {column: cells[column] for column in SURVIVED if column in cells}
 
 
-def size_cells(wording: Wording, found: SmallestLoss, *remarks: str) -> dict[str, str]:
+def size_cells(wording: Wording, found: SmallestUnrecovered, *remarks: str) -> dict[str, str]:
     """Sizes of one kind of disturbance up to which it is survived, by :data:`SURVIVED`; remarks stand behind the smallest that is not."""
     name, cells = found.kind.replace("-", "_"), {}
     size = wording.size_of(name)
@@ -149,13 +149,13 @@ def condition_of(study: StudyData, name: Kind) -> str:
     return ", ".join([*parts, ANY_INSTANT] if study.rotor.depends_on_instant else parts)
 
 
-def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> str:
+def _survived(study: StudyData, name: Kind, found: SmallestUnrecovered) -> str:
     of, cells = condition_of(study, name), survived_cells(study, name, found)
     told = ", ".join(f"{SURVIVED[column]} {cell}" for column, cell in cells.items())
     return f"{of}: {told}" if of else told
 
 
-def lost_to(study: StudyData, name: Kind, found: SmallestLoss) -> str:
+def lost_to(study: StudyData, name: Kind, found: SmallestUnrecovered) -> str:
     """Where the smallest disturbance that does not come back ends: ``ends in synchronous rub``; empty if there is none."""
     if found.outcome is None:
         return ""

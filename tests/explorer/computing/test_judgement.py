@@ -9,7 +9,7 @@ from machines import PAPER
 from studies import study_once
 
 import carom
-from carom.basins import smallest_loss
+from carom.basins import smallest_unrecovered
 from carom.disturbances import VelocityKick
 from carom.explorer.computing import judgement
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
@@ -24,7 +24,7 @@ KICKS = Plane("kick", "velocity", 1.0, 1.0)
 @pytest.mark.jit_only
 def test_the_smallest_loss_is_that_of_the_search():
     found = find_loss(ROTOR, KICKS, 1.0)
-    assert found.size == smallest_loss(ROTOR, VelocityKick(1.0)).size
+    assert found.size == smallest_unrecovered(ROTOR, VelocityKick(1.0)).size
     assert found.remark.startswith("smallest of ")
 
 
@@ -62,7 +62,7 @@ def test_shocks_and_losses_of_a_blade_are_searched_too(place):
     rotor, plane = jeffcott(case.parameters), planes_of(case)[place]
     largest = plane.own(2.0 * plane.usual, rotor.scales)
     found = find_loss(rotor, plane, largest)
-    assert found.size == smallest_loss(rotor, plane.by_size(rotor, largest)).size
+    assert found.size == smallest_unrecovered(rotor, plane.by_size(rotor, largest)).size
     assert found.value.endswith(plane.shown(rotor.scales)[1])
 
 

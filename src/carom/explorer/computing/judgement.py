@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress
-from carom.basins import smallest_loss
+from carom.basins import smallest_unrecovered
 from carom.explorer.computing.kicked_motion import MOST_EVENTS
 from carom.explorer.computing.kicks import heavy
 from carom.explorer.computing.planes import Plane
@@ -61,7 +61,7 @@ def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress
     scales = rotor.scales
     try:
         few = dict(zip(("sizes", "directions"), FEW, strict=True)) if heavy(rotor) else {}
-        found = smallest_loss(rotor, plane.by_size(rotor, largest), progress=progress, **few)
+        found = smallest_unrecovered(rotor, plane.by_size(rotor, largest), progress=progress, **few)
     except InputError:
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
     if found.size is None:

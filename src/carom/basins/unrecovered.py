@@ -1,4 +1,4 @@
-"""The smallest disturbances that are lost: kicks, shocks, losses of a blade.
+"""The smallest disturbances that do not come back: kicks, shocks, losses of a blade.
 
 This is a search, not a proof.  Its result is a bracket: the largest size up to which every start tried came back, and
 the smallest size found that does not.
@@ -14,7 +14,7 @@ import numpy as np
 from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.basins.brackets import BESIDE_LOST, NEIGHBOURS, SmallestLoss
+from carom.basins.brackets import BESIDE_LOST, NEIGHBOURS, SmallestUnrecovered
 from carom.basins.families import harmless_size, size_coordinate, starts_by_size
 from carom.disturbances import Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.coordinates import TURN
@@ -24,7 +24,7 @@ from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 
 TOLERANCE = 1e-3
 MOST_CHECKS = 8
-"""Number of times that fresh starts may reduce the smallest loss."""
+"""Number of times that fresh starts may reduce the smallest unrecovered size."""
 
 
 class Effort(NamedTuple):
@@ -40,7 +40,7 @@ class Effort(NamedTuple):
     near: int = 32
     """Pairs of direction and instant about the best one so far in each round."""
     drawn: int = 2000
-    """Fresh starts below the smallest loss."""
+    """Fresh starts below the smallest unrecovered size."""
     around: int = 720
     """Directions over a full turn among the fresh starts, at the upper end of their sizes."""
 
@@ -51,7 +51,7 @@ COARSE, COARSEST, MANY_MODES = Effort(48, 48), Effort(12, 24), 16
 ONE_EACH = Effort(24, 12, beside=3, below=4, near=12, drawn=300, around=96)
 """Where each disturbance leads to a machine of its own, the exact results of which take milliseconds."""
 TOGETHER = 768
-"""About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them is lost."""
+"""About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them fails to come back."""
 NARROWED = 4
 """Factor by which the spacing of directions is reduced from one round of refinement to the next."""
 GOLDEN = (5.0**0.5 - 1.0) / 2.0
@@ -61,12 +61,12 @@ PAIRS, COARSER = 4, 4
 CLOSER = 2.5
 """Factor by which the distance of pairs from the best one so far is reduced from one round to the next."""
 FEWEST = 60
-"""Fewest fresh starts for which the budget of a study must suffice: 95 of 100 such samples show a loss of one in twenty."""
+"""Fewest fresh starts for which the budget of a study must suffice: 95 of 100 such samples show that one in twenty does not come back."""
 
 
 @checked
 @shows_progress
-def smallest_loss(
+def smallest_unrecovered(
     machine: Subject,
     model: Disturbance,
     *,
@@ -75,16 +75,16 @@ def smallest_loss(
     tolerance: float = TOLERANCE,
     threads: Count | None = None,
     progress: ShowProgress = None,
-) -> SmallestLoss:
+) -> SmallestUnrecovered:
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
     Where the end depends on the instant of the turn at which a disturbance comes (:attr:`carom.models.Rotor.depends_on_instant`), all that is
     said here of directions holds of pairs of direction and instant.  All directions are scanned at increasing sizes between the proven harmless one (zero where nothing is proven, see
     :func:`~carom.closed_forms.harmless_kick`) and the largest, up to the first at which some
-    are lost.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
+    do not come back.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
     bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
-    the best size; if some are lost, the search continues from the smallest of them.  Basins can be thinner than any
-    sample, so a smaller loss is possible.
+    the best size; if some do not come back, the search continues from the smallest of them.  Basins can be thinner than any
+    sample, so a smaller one is possible.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def smallest_loss(
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
     >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
-    >>> found = cm.basins.smallest_loss(machine, kicks)
+    >>> found = cm.basins.smallest_unrecovered(machine, kicks)
     >>> print(f"{found.size * machine.parameters.scales.velocity * 1e3:.3f} mm/s, ends in {found.outcome.label}")
     5.466 mm/s, ends in forward-rub
     """
@@ -126,7 +126,7 @@ def smallest_loss(
     search = _Search(rotor, model, tolerance, threads, _effort(rotor, model))
     chosen = directions or search.effort.directions, sizes or search.effort.sizes
     try:
-        return _searched(search, *chosen, Reporter.of(progress, "looking for the smallest that is lost"))
+        return _searched(search, *chosen, Reporter.of(progress, "looking for the smallest that does not come back"))
     except BudgetSpentError:
         return search.unfinished()
 
@@ -137,7 +137,7 @@ def _effort(rotor: Rotor, model: Disturbance) -> Effort:
     return FULL if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
 
 
-def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> SmallestLoss:
+def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> SmallestUnrecovered:
     """The search to its end."""
     harmless, largest = search.harmless, search.largest
     if harmless >= largest:
@@ -184,7 +184,7 @@ class Found(NamedTuple):
 
 
 class _Search:
-    """Search among the disturbances of a model by size and direction; ``best`` is the smallest lost one so far."""
+    """Search among the disturbances of a model by size and direction; ``best`` is the smallest unrecovered one so far."""
 
     def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None, effort: Effort) -> None:
         size = size_coordinate(model)
@@ -200,9 +200,9 @@ class _Search:
         self.back = 0.0  # up to here all directions scanned came back
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
-        """Scan angles (k, n) at increasing sizes, the first of which is known to recover, up to that at which some are lost.
+        """Scan angles (k, n) at increasing sizes, the first of which is known to recover, up to that at which some do not come back.
 
-        These are bisected below it; what is lost farther out cannot be smaller.  A single size is only tried, not bisected.
+        These are bisected below it; what does not come back farther out cannot be smaller.  A single size is only tried, not bisected.
         """
         bisect = len(levels) > 1
         # Where motions are followed one after another, or machines are many, larger sizes are dear that a smaller one makes needless.
@@ -263,7 +263,7 @@ class _Search:
             reach /= CLOSER
 
     def draw(self, below: float, seed: int) -> tuple[int, int]:
-        """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return how many were tried, and how many of these drawn.
+        """Try fresh starts up to a size, and all directions at it; bisect those that do not come back; return how many were tried, and how many of these drawn.
 
         Where the budget of a study does not suffice for all of them, those that were followed count.
         """
@@ -278,24 +278,26 @@ class _Search:
         followed = outcomes != NOT_FOLLOWED
         if np.count_nonzero(followed[:drawn]) < min(FEWEST, drawn):
             raise BudgetSpentError("too few fresh starts could be followed")
-        gone = lost(np.where(followed, outcomes, Outcome.GRAZING))
+        gone = unrecovered(np.where(followed, outcomes, Outcome.GRAZING))
         for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
             if self.best is None or sizes[place] < self.best.size:
                 self.scan(angles[:, place : place + 1], np.linspace(self.harmless, sizes[place], self.effort.below + 1))
         return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:drawn]))
 
-    def unfinished(self) -> SmallestLoss:
+    def unfinished(self) -> SmallestUnrecovered:
         """Result of a search that was ended."""
         below = self.back > self.harmless and (self.best is None or self.best.size > self.back)
         return self.result(self.back if below else None, complete=False)
 
-    def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0, *, complete: bool = True) -> SmallestLoss:
+    def result(
+        self, all_back: float | None, fresh: int = 0, drawn: int = 0, *, complete: bool = True
+    ) -> SmallestUnrecovered:
         """Result of the search so far; ``all_back`` is the largest size up to which all came back.
 
         The neighbours are followed only where the search came to its end: otherwise nothing is left to follow them with.
         """
         recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
-        return SmallestLoss(
+        return SmallestUnrecovered(
             kind=self.model.kind,
             quantity=self.size.scale,
             harmless=self.harmless,
@@ -317,7 +319,7 @@ class _Search:
         )
 
     def _neighbours_lost(self) -> int:
-        """How many of the neighbours of the best one, at its instant, are lost."""
+        """How many of the neighbours of the best one, at its instant, do not come back."""
         if self.best is None:
             return 0
         away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
@@ -327,9 +329,9 @@ class _Search:
         return int(np.count_nonzero(self._follow(self.best.size * (1.0 + away[0]), np.array(at))[1]))
 
     def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Outcomes, and which starts are lost; impossible and undecided starts do not count as lost."""
+        """Outcomes, and which starts do not come back; impossible and undecided starts do not count as unrecovered."""
         outcomes = self._outcomes(sizes, angles)
-        return outcomes, lost(outcomes)
+        return outcomes, unrecovered(outcomes)
 
     def _outcomes(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
         """Outcomes; of impossible starts as of undecided ones."""
@@ -342,8 +344,8 @@ class _Search:
         return outcomes
 
 
-def lost(outcomes: np.ndarray) -> np.ndarray:
-    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost.
+def unrecovered(outcomes: np.ndarray) -> np.ndarray:
+    """Which outcomes are not levitation; those that double precision cannot decide do not count as unrecovered.
 
     Raises
     ------
@@ -355,9 +357,9 @@ def lost(outcomes: np.ndarray) -> np.ndarray:
     return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
 
 
-def smallest_lost(rotor: Rotor, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float, float] | None:
-    """Speed, direction and instant of the smallest lost one among kicks; ``None`` if none is lost."""
-    chosen = kicks.some(kicks.exists & lost(outcomes))
+def smallest_unrecovered_kick(rotor: Rotor, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float, float] | None:
+    """Speed, direction and instant of the smallest unrecovered one among kicks; ``None`` if all come back."""
+    chosen = kicks.some(kicks.exists & unrecovered(outcomes))
     if not chosen.exists.size:
         return None
     gone = rotor.system.translation_velocity(chosen.velocities, chosen.begins)

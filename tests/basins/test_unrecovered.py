@@ -11,9 +11,9 @@ from machines import PAPER
 
 import carom
 from carom.base.outcome import InputError, Outcome
-from carom.basins import smallest_loss
+from carom.basins import smallest_unrecovered
 from carom.basins.brackets import Bracket, Found
-from carom.basins.losses import FULL
+from carom.basins.unrecovered import FULL
 from carom.disturbances import StateSlice, VelocityKick
 
 pytestmark = pytest.mark.jit_only
@@ -23,7 +23,7 @@ MACHINE = PAPER.replace(gamma=0.15, rho=0.3)
 
 def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
     rotor = carom.models.jeffcott(MACHINE)
-    found = smallest_loss(rotor, VelocityKick(1.0))
+    found = smallest_unrecovered(rotor, VelocityKick(1.0))
     assert found.harmless < found.recovered < found.size
     assert found.size - found.recovered <= 1.001e-3 * found.size
     lost = carom.simulate(rotor, carom.kick(found.size, found.angle), 2e5, settle=True)
@@ -36,7 +36,7 @@ def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
 
 def test_no_kick_of_an_independent_sample_below_it_is_lost():
     rotor = carom.models.jeffcott(MACHINE)
-    found = smallest_loss(rotor, VelocityKick(1.0))
+    found = smallest_unrecovered(rotor, VelocityKick(1.0))
     rng = np.random.default_rng(8)
     speeds = found.size * 0.998 * np.sqrt(rng.random(4000))
     starts = VelocityKick().starts(rotor, speeds, rng.uniform(0.0, 2.0 * math.pi, 4000))
@@ -45,18 +45,22 @@ def test_no_kick_of_an_independent_sample_below_it_is_lost():
 
 def test_a_finer_scan_finds_no_smaller_one():
     rotor = carom.models.jeffcott(MACHINE)
-    found, finer = (smallest_loss(rotor, VelocityKick(1.0), directions=count, sizes=count) for count in (48, 200))
+    found, finer = (
+        smallest_unrecovered(rotor, VelocityKick(1.0), directions=count, sizes=count) for count in (48, 200)
+    )
     assert found.size == pytest.approx(finer.size, rel=3e-3)
 
 
 def test_sizes_beyond_the_first_that_is_lost_are_not_tried():
     """They cannot be the smallest, and motions that are lost are those that take long to follow."""
-    found = smallest_loss(carom.models.jeffcott(MACHINE), VelocityKick(1.0))
+    found = smallest_unrecovered(carom.models.jeffcott(MACHINE), VelocityKick(1.0))
     assert found.fresh < found.tried < FULL.directions * FULL.sizes
 
 
 def test_a_machine_that_always_comes_back():
-    assert smallest_loss(carom.models.jeffcott(PAPER.replace(gamma=0.6, rho=0.1)), VelocityKick(0.5)).size is None
+    assert (
+        smallest_unrecovered(carom.models.jeffcott(PAPER.replace(gamma=0.6, rho=0.1)), VelocityKick(0.5)).size is None
+    )
 
 
 def models(machine):
@@ -81,7 +85,7 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     """What is said of the bracket, tried with starts that the search has not seen."""
     rotor = carom.models.jeffcott(machine)
     scan = 24 if kind == "shock" else 48
-    found = smallest_loss(rotor, models(machine)[kind], directions=scan, sizes=scan)
+    found = smallest_unrecovered(rotor, models(machine)[kind], directions=scan, sizes=scan)
     assert found.kind == kind
     assert found.harmless < found.all_back < found.size < found.largest
     assert found.size - found.all_back <= 1.001e-3 * found.size
@@ -101,44 +105,46 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
 def test_fresh_starts_bring_the_smallest_loss_down():
     """A scan of four directions and sizes misses where the basin is near; what is drawn below it finds it."""
     rotor = carom.models.jeffcott(MACHINE)
-    coarse, fine = (smallest_loss(rotor, VelocityKick(0.4), directions=n, sizes=n) for n in (4, 96))
+    coarse, fine = (smallest_unrecovered(rotor, VelocityKick(0.4), directions=n, sizes=n) for n in (4, 96))
     assert coarse.size == pytest.approx(fine.size, rel=3e-3)
 
 
 def test_a_machine_that_always_comes_back_has_no_smallest_loss():
     machine = PAPER.replace(gamma=0.6, rho=0.1)
     for kind, model in models(machine).items():
-        found = smallest_loss(carom.models.jeffcott(machine), model, directions=24, sizes=24)
+        found = smallest_unrecovered(carom.models.jeffcott(machine), model, directions=24, sizes=24)
         assert (found.kind, found.size, found.outcome, found.angle) == (kind, None, None, None)
         assert found.all_back == found.largest
 
 
 def test_disturbances_without_a_size():
     with pytest.raises(InputError, match="one with a size"):
-        smallest_loss(carom.models.jeffcott(MACHINE), StateSlice())
+        smallest_unrecovered(carom.models.jeffcott(MACHINE), StateSlice())
 
 
 @pytest.mark.parametrize("fastest", [0.0, -1.0, math.nan, math.inf])
 def test_speeds_that_make_no_sense(fastest):
     with pytest.raises(InputError, match="fastest"):
-        smallest_loss(carom.models.jeffcott(MACHINE), VelocityKick(fastest))
+        smallest_unrecovered(carom.models.jeffcott(MACHINE), VelocityKick(fastest))
 
 
 def test_no_levitation():
     with pytest.raises(InputError, match="levitation"):
-        smallest_loss(carom.models.jeffcott(PAPER.replace(gamma=0.05)), VelocityKick())
+        smallest_unrecovered(carom.models.jeffcott(PAPER.replace(gamma=0.05)), VelocityKick())
 
 
 def test_unstable_levitation():
     with pytest.raises(InputError, match="gamma"):
-        smallest_loss(carom.models.jeffcott(PAPER.replace(gamma=-0.01, rho=0.1)), VelocityKick())
+        smallest_unrecovered(carom.models.jeffcott(PAPER.replace(gamma=-0.01, rho=0.1)), VelocityKick())
 
 
 @pytest.mark.parametrize("kind", ["kick", "blade-loss"])
 def test_a_rotor_of_matrices_loses_what_the_same_planar_rotor_loses(kind):
     planar = carom.models.jeffcott(MACHINE)
     model = {**models(MACHINE), "blade-loss": carom.disturbances.BladeLoss(0.4)}[kind]
-    own, found = (smallest_loss(rotor, model, directions=24, sizes=24) for rotor in (planar, as_matrices(planar)))
+    own, found = (
+        smallest_unrecovered(rotor, model, directions=24, sizes=24) for rotor in (planar, as_matrices(planar))
+    )
     assert found.harmless <= own.harmless * (1.0 + 1e-12)
     assert found.size == pytest.approx(own.size, rel=3e-3)
     assert found.outcome == own.outcome
@@ -147,7 +153,7 @@ def test_a_rotor_of_matrices_loses_what_the_same_planar_rotor_loses(kind):
 def test_losses_of_a_rotor_with_two_planes():
     """With what is proven by energy alone."""
     rotor = tilting().model
-    found = smallest_loss(rotor, VelocityKick(1.0), directions=12, sizes=12)
+    found = smallest_unrecovered(rotor, VelocityKick(1.0), directions=12, sizes=12)
     assert 0.0 < found.harmless < found.all_back < found.size
     size, back = (
         carom.simulate(rotor, carom.kick(each, found.angle), settle=True) for each in (found.size, found.recovered)
@@ -160,7 +166,7 @@ def test_levitation_that_grows_has_nothing_to_come_back_to():
     growing = PAPER.replace(gamma=-0.4, rho=0.1)
     for rotor in (carom.models.jeffcott(growing), as_matrices(carom.models.jeffcott(growing))):
         with pytest.raises(InputError, match="stable levitation"):
-            smallest_loss(rotor, VelocityKick(1.0))
+            smallest_unrecovered(rotor, VelocityKick(1.0))
 
 
 class _Striped(Bracket):
