@@ -27,10 +27,10 @@ from carom.bifurcations import map_regions as map_regions
 from carom.closed_forms import find_equilibria as find_equilibria
 from carom.disturbances import BaseShock as BaseShock
 from carom.disturbances import Grid as Grid
+from carom.disturbances import drop as drop
+from carom.disturbances import kick as kick
 from carom.loading import load as load
 from carom.motions import State as State
-from carom.motions import drop as drop
-from carom.motions import kick as kick
 from carom.motions import settle as settle
 from carom.motions import simulate as simulate
 from carom.orbits import find_orbits as find_orbits

@@ -12,10 +12,10 @@ from linear_rotors import bending, single, tilting, to_fixed
 from carom.base.outcome import Outcome, Phase
 from carom.basins import map_basins
 from carom.closed_forms.rub_stability import sliding_rates
-from carom.disturbances import Grid, KickPlane
+from carom.disturbances import Grid, KickPlane, kick
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
-from carom.motions.starts import State, kick
+from carom.motions.starts import State
 
 pytestmark = pytest.mark.jit_only
 

@@ -83,7 +83,7 @@ def test_a_rotor_with_two_planes_is_followed_from_kicks_and_from_motions_next_to
 
 def test_a_kick_counts_by_the_speed_of_the_rotor_as_a_whole():
     model = single(2).model.replace(translation=[2.0])
-    states = [carom.kick(3.0).state(model), carom.kick(0.001).state(model)]
+    states = [carom.kick(3.0).stages(model)[1], carom.kick(0.001).stages(model)[1]]
     found = carom.find_attractors(model, [carom.kick(3.0), carom.kick(0.001)], known=False)
     assert found.endings[0].start.speed == pytest.approx(abs(states[0].velocity)) == pytest.approx(6.0)
     if not found.endings[0].recovered:

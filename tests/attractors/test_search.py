@@ -9,12 +9,12 @@ from carom.attractors.survival import Survival
 from carom.base.outcome import CaromError, InputError, Outcome
 from carom.base.progress import Reporter
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts
+from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts, kick
 from carom.models import jeffcott
 from carom.motions import settling
 from carom.motions.ensembles import Endings
 from carom.motions.simulation import simulate
-from carom.motions.starts import State, kick
+from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits, orbits_within_reach
 from carom.parameters import Parameters
 

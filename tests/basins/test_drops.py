@@ -12,8 +12,9 @@ import carom as cm
 from carom.base.outcome import InputError, Outcome
 from carom.basins import DropMap, map_drops
 from carom.basins.drops import MEASURES
+from carom.disturbances import Drop
 from carom.disturbances.following import NO_START
-from carom.motions import Drop, drop_loads
+from carom.motions import drop_loads
 
 pytestmark = pytest.mark.jit_only
 

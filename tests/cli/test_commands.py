@@ -11,11 +11,10 @@ from studies import QUICK
 
 from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import BaseShock, BladeLoss
+from carom.disturbances import BaseShock, BladeLoss, kick
 from carom.loading import load
 from carom.models import jeffcott
 from carom.motions import simulate
-from carom.motions.starts import kick
 from carom.orbits.single_impact import find_orbits
 
 pytestmark = pytest.mark.jit_only

@@ -48,7 +48,7 @@ def test_what_it_is_released_from(carom):
     assert said["regained_after_si"] == pytest.approx(6e-3)
     assert "the race turns at 500 rpm; levitation returns after 6 ms" in said["words"]
     case = cm.load(MACHINE)
-    whirl = cm.motions.Whirl("0.2 mm", "-80 Hz", "30 deg")
+    whirl = cm.disturbances.whirl("0.2 mm", "-80 Hz", "30 deg")
     motion = cm.simulate(case, cm.drop(whirl, phase="90 deg", race_speed="500 rpm", regained_after="6 ms"))
     assert found["time"] == motion.begins + motion.time
 
@@ -87,7 +87,7 @@ def test_figures_and_a_page(carom, tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--whirl", "0.1 mm"), "--whirl = 0.1 mm: must be RADIUS,SPEED or RADIUS,SPEED,ANGLE"),
+        (("--whirl", "0.1 mm"), "--whirl = 0.1 mm: must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as"),
         (("--whirl", "0.3 mm,80 Hz"), "--whirl = 0.3 mm,80 Hz: must have a radius from 0 to the clearance"),
         (("--whirl", "0.1 mm,80"), "--whirl = 80: must be an angular speed in rad/s"),
         (("--phase", "90"), "--phase = 90: must be an angle in rad"),

@@ -11,10 +11,11 @@ from yielding_walls import with_walls
 
 from carom.base.outcome import InputError, Phase
 from carom.cli.logs import write_csv, write_netcdf
+from carom.disturbances import kick
 from carom.loading import load
 from carom.models import KelvinVoigt, jeffcott
 from carom.motions.simulation import simulate
-from carom.motions.starts import State, kick
+from carom.motions.starts import State
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only

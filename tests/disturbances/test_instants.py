@@ -12,7 +12,7 @@ from carom.attractors import DisturbanceSet
 from carom.base.outcome import InputError
 from carom.basins.shares import Population
 from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, VelocityKick
-from carom.disturbances.echo import ANY_INSTANT
+from carom.disturbances.plans import ANY_INSTANT
 from carom.models import rotor_of
 
 MACHINE, PLAIN = "examples/dropped-rotor.toml", "examples/keogh-cole.toml"

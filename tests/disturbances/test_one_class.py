@@ -11,7 +11,6 @@ import pytest
 import carom as cm
 from carom.base.outcome import InputError
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced
-from carom.disturbances.echo import echo_of
 from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Part
 
@@ -45,6 +44,6 @@ def test_it_is_mapped_simulated_read_and_told():
     rotor, start = one.stages(MACHINE)
     assert start.position == pytest.approx(0.2 / 0.7 * np.exp(1j * np.pi / 6.0), rel=1e-12)
     assert cm.simulate(MACHINE, one, 50.0).final == cm.simulate(rotor, start, 50.0).final
-    assert echo_of(one, rotor).words == "Disturbance, let-go: distance 0.2 mm, direction 30°"
+    assert one.echo(rotor).words == "Disturbance, let-go: distance 0.2 mm, direction 30°"
     with pytest.raises(InputError, match=r"^let-go = 1 s: .*a length"):
         LetGo.read("1 s", MACHINE)

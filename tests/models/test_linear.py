@@ -11,11 +11,12 @@ from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
 from carom.base.outcome import InputError
+from carom.disturbances import kick
 from carom.models import from_matrices, jeffcott, rotor_from, rotor_of
 from carom.models.modes import modes_of
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
-from carom.motions.starts import State, kick
+from carom.motions.starts import State
 
 
 def planar(parameters, beside=None):
@@ -237,4 +238,4 @@ def test_matrices_of_the_fixed_frame_are_not_stretched_to_shape(changes, named):
 def test_a_kick_moves_one_coordinate_as_its_translation_says():
     rotor = planar(PAPER).replace(translation=[2.0])
     assert rotor.system.is_planar
-    assert kick(0.3).state(rotor).velocity == pytest.approx(0.6)
+    assert kick(0.3).stages(rotor)[1].velocity == pytest.approx(0.6)

@@ -11,7 +11,8 @@ from linear_rotors import tilting
 
 import carom as cm
 from carom.base.outcome import Outcome
-from carom.motions import Whirl, drop_loads, energy_ledger, follow_loads, settling, simulation
+from carom.disturbances import whirl
+from carom.motions import drop_loads, energy_ledger, follow_loads, settling, simulation
 from carom.motions.loads import MEASURED
 
 pytestmark = pytest.mark.jit_only
@@ -125,7 +126,7 @@ def test_contact_that_goes_on_over_two_stages_began_in_the_first():
 
 def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():
     """A rigid wall that stands still is rolled round at ``ΩR/c_r``, backward, for good."""
-    found = drop_loads(cm.simulate(cm.load(RIGID), cm.drop(Whirl("0.2 mm", "-150 Hz"))))
+    found = drop_loads(cm.simulate(cm.load(RIGID), cm.drop(whirl("0.2 mm", "-150 Hz"))))
     (plane,) = found.planes
     assert found.outcome is Outcome.ROLLING
     assert plane.whirl.goes_on
@@ -137,7 +138,7 @@ def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():
 
 
 def test_whirl_that_is_seen_is_not_said_to_go_on():
-    motion = cm.simulate(cm.load(BALLS), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm"), "60 ms")
+    motion = cm.simulate(cm.load(BALLS), cm.drop(whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm"), "60 ms")
     found = drop_loads(motion)
     (plane,) = found.planes
     assert found.settled_at is None
@@ -147,7 +148,7 @@ def test_whirl_that_is_seen_is_not_said_to_go_on():
     turned = np.ptp(np.unwrap(np.angle(motion.position(times, "fixed"))))
     assert plane.whirl.turned == pytest.approx(-turned, rel=1e-9)
     assert plane.whirl.lasted == pytest.approx(16.0 * math.pi, rel=1e-12)
-    short = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg")), 5.0)).planes[0]
+    short = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(whirl("0.2 mm", "-400 Hz", "30 deg")), 5.0)).planes[0]
     assert short.whirl.lasted == 5.0
     assert plane.whirl.frequency_si == pytest.approx(turned / (16.0 * math.pi) * 150.0, rel=1e-9)
 
@@ -205,7 +206,7 @@ def test_what_the_drive_would_do_in_flight_is_told():
     [
         (BALLS, cm.drop(race_speed="500 rpm"), "60 ms"),
         (BALLS, cm.drop(regained_after="6 ms"), None),
-        (RIGID, cm.drop(Whirl("0.2 mm", "-150 Hz")), "60 ms"),
+        (RIGID, cm.drop(whirl("0.2 mm", "-150 Hz")), "60 ms"),
         ("examples/tum-flexible-rotor.toml", cm.drop(), "80 ms"),
     ],
 )

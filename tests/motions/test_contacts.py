@@ -18,10 +18,11 @@ from yielding_walls import with_walls
 
 from carom.base.outcome import Phase
 from carom.closed_forms.equilibria import find_equilibria
+from carom.disturbances import kick
 from carom.models import HuntCrossley, KelvinVoigt, jeffcott
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
-from carom.motions.starts import State, kick
+from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Parameters, Scales
 

@@ -9,8 +9,8 @@ from linear_rotors import tilting
 
 import carom as cm
 from carom.base.outcome import InputError, Outcome
+from carom.disturbances import Drop, whirl
 from carom.models import Stage, in_stages, rotor_of
-from carom.motions import Drop, Whirl
 
 pytestmark = pytest.mark.jit_only
 
@@ -102,7 +102,7 @@ def test_turned_by_an_angle_everything_is_turned():
 
 def test_it_is_released_from_a_whirl():
     """At a radius and speed in the fixed frame, without the weight that levitation bears."""
-    motion = cm.simulate(HEAVY, cm.drop(Whirl("0.1 mm", "-75 Hz", "90 deg")), until=2.0)
+    motion = cm.simulate(HEAVY, cm.drop(whirl("0.1 mm", "-75 Hz", "90 deg")), until=2.0)
     place, speed = 0.4j, -0.5j * 0.4j
     times = np.linspace(0.0, 2.0, 5)
     expected = fallen(times, place, speed, HEAVY.parameters.rho, HEAVY.parameters.phi)
@@ -111,7 +111,7 @@ def test_it_is_released_from_a_whirl():
 
 def test_a_mount_is_at_rest_at_the_release_from_a_whirl():
     mounted = cm.load("examples/touchdown-balls.toml", ["touchdown_mount_mass=2", "touchdown_mount_stiffness=2e7"])
-    state = Whirl(0.5, 2.0).state(rotor_of(mounted))
+    state = whirl(0.5, 2.0).stages(rotor_of(mounted))[1]
     assert state.position.tolist() == [0.5, 0.0]
     assert state.velocity.tolist() == [0.5j, 0.0]
 
@@ -137,8 +137,8 @@ def test_the_race_turns_at_the_release(speed):
         (HEAVY, Drop(phase="3 mm"), "^phase = 3 mm: must be an angle"),
         (HEAVY, Drop(regained_after="3 mm"), "^regained_after = 3 mm: must be a time"),
         (HEAVY, Drop(regained_after=-1.0), "^regained_after = -1.0: a finite time above 0"),
-        (HEAVY, Drop(Whirl(1.5, 1.0)), "^whirl radius = 1.5: must be from 0 to the clearance"),
-        (HEAVY, Drop(Whirl("0.1 mm", "3 mm")), "^whirl speed = 3 mm: must be an angular speed"),
+        (HEAVY, Drop(whirl(1.5, 1.0)), "^whirl radius = 1.5: must be from 0 to the clearance"),
+        (HEAVY, Drop(whirl("0.1 mm", "3 mm")), "^whirl speed = 3 mm: must be an angular speed"),
         (HEAVY, Drop(race_speed="500 rpm"), "^race_speed = 500 rpm: a touchdown bearing with a race that turns"),
         (HEAVY, Drop(cm.State(2.0)), "^start position = .*: inside the wall"),
     ],
@@ -165,7 +165,7 @@ def test_a_given_release_does_not_ask_whether_levitation_would_hold():
     machine = cm.load("examples/dropped-rotor.toml", ["stiffness=1 kN/m"])
     with pytest.raises(InputError, match=r"^levitation = "):
         cm.simulate(machine, cm.drop(), 1.0)
-    for given in (cm.State(0j), Whirl(0.5, 0.0)):
+    for given in (cm.State(0j), whirl(0.5, 0.0)):
         assert cm.simulate(machine, cm.drop(given), 1.0).time == 1.0
 
 

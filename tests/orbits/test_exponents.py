@@ -11,8 +11,9 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from carom.base.outcome import CaromError, InputError, Outcome
+from carom.disturbances import kick
 from carom.models import Rotor, from_matrices, jeffcott
-from carom.motions import State, kick, settle, simulate
+from carom.motions import State, settle, simulate
 from carom.orbits import find_orbits
 from carom.orbits.exponents import CHUNK, LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.recognising import orbit_of_motion

@@ -87,7 +87,7 @@ def test_a_drive_beside_a_rigid_wall_is_that_of_a_linear_rotor(tmp_path):
         touchdowns=[cm.models.Touchdown([1.0], cm.models.Rigid(0.9), at.mu, at.radius_ratio + 1.0)],
         shaft=cm.models.Shaft(0.01 / (scales.mass * scales.length**2)),
     )
-    start = cm.kick(2.0).state(rotor)
+    start = cm.kick(2.0).stages(rotor)[1]
     found, expected = (cm.simulate(each, start, 20.0) for each in (machine, rotor))
     assert len(found.contacts) >= 2
     assert found.final.shaft == pytest.approx(expected.final.shaft, rel=1e-12)

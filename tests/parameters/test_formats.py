@@ -5,7 +5,6 @@ import pytest
 from carom.attractors import DisturbanceSet
 from carom.basins.shares import Population
 from carom.disturbances import VelocityKick
-from carom.disturbances.echo import echo_of
 from carom.disturbances.single import Single
 from carom.models import jeffcott
 from carom.parameters import Parameters, Scales
@@ -62,5 +61,5 @@ def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
     assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
     rotor = jeffcott(NUMBERS.replace(scales=scales))
     kick = Single(VelocityKick(speed), (speed, 0.0))
-    assert echo_of(kick, rotor).words.startswith(f"Kick: {text} at 0°; angles count from ")
+    assert kick.echo(rotor).words.startswith(f"Kick: {text} at 0°; angles count from ")
     assert f"at up to {text} in the fixed frame" in DisturbanceSet(10, fastest=speed).words(rotor)

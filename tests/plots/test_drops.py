@@ -8,7 +8,8 @@ import pytest
 import carom as cm
 from carom import plots
 from carom.base.outcome import InputError
-from carom.motions import Whirl, drop_loads
+from carom.disturbances import whirl
+from carom.motions import drop_loads
 
 pytestmark = pytest.mark.jit_only
 
@@ -77,7 +78,7 @@ def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole(rigid):
 
 def test_a_whirl_over_the_top_is_drawn_without_lines_across():
     motion = cm.simulate(
-        cm.load("examples/touchdown-balls.toml"), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg")), "15 ms"
+        cm.load("examples/touchdown-balls.toml"), cm.drop(whirl("0.2 mm", "-400 Hz", "30 deg")), "15 ms"
     )
     _, right = plots.drop_orbit(motion, title="a whirl").axes
     angles = line(right, "path").get_xdata()

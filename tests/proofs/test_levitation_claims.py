@@ -10,8 +10,8 @@ import pytest
 import carom as cm
 from carom.base.outcome import InputError
 from carom.closed_forms import levitation
+from carom.disturbances import kick
 from carom.models import rotor_of
-from carom.motions.starts import Kick
 from carom.proofs import check, prove, prove_kicks
 
 SAGGING = """
@@ -55,7 +55,7 @@ def test_kicks_at_the_bound_never_touch_and_some_beyond_it_do(case):
     speed, random = float(proof["kicks never touch"].enclosures["speed"].low), np.random.default_rng(5)
 
     def touches(share: float, angle: float, instant: float) -> bool:
-        motion = cm.simulate(rotor, Kick(share * speed, angle, instant), 200.0, max_events=3)
+        motion = cm.simulate(rotor, kick(share * speed, angle, instant), 200.0, max_events=3)
         return len(motion.contacts) > 0
 
     tried = random.uniform(0.0, 2.0 * np.pi, (12, 2)).tolist()

@@ -9,7 +9,6 @@ import pytest
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.disturbances.echo import echo_of_drop
 from carom.motions import drop_loads
 from carom.report import write_drop_report
 from carom.studies import DropStudy
@@ -21,7 +20,7 @@ pytestmark = pytest.mark.jit_only
 def dropped():
     case = cm.load("examples/touchdown-balls.toml")
     motion = cm.simulate(case, cm.drop(), "20 ms")
-    echo = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
+    echo = cm.drop().echo_at(cm.models.rotor_of(case), motion.rotor, motion.start, case.gravity)
     limited = cm.parameters.LoadLimits(force="1 kN", pressure="4.2 GPa")
     return DropStudy(replace(case, name="<b>drop</b>", limits=limited), echo, drop_loads(motion)), motion
 

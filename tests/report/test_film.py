@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.disturbances.echo import echo_of_drop
 from carom.motions import drop_loads
 from carom.report import write_drop_report
 from carom.report.film import MOST, STEP, film_of
@@ -100,7 +99,7 @@ def test_what_becomes_too_fast_later_does_not_shorten_the_film_of_what_comes_bef
 @pytest.fixture(scope="module")
 def page(balls, browser, tmp_path_factory):
     case, motion = balls
-    echo = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
+    echo = cm.drop().echo_at(cm.models.rotor_of(case), motion.rotor, motion.start, case.gravity)
     path = write_drop_report(
         DropStudy(case, echo, drop_loads(motion)), motion, str(tmp_path_factory.mktemp("film") / "out")
     )

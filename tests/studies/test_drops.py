@@ -9,8 +9,7 @@ import pytest
 import carom as cm
 from carom.base.files import as_json
 from carom.base.outcome import InputError
-from carom.disturbances.echo import echo_of_drop
-from carom.motions import Whirl, drop_loads
+from carom.motions import drop_loads
 from carom.studies import DropStudy, check_loads
 
 pytestmark = pytest.mark.jit_only
@@ -19,13 +18,18 @@ pytestmark = pytest.mark.jit_only
 def dropped(machine, until=None, settings=(), **how):
     case = cm.load(f"examples/{machine}.toml", settings)
     motion = cm.simulate(case, cm.drop(**how), until)
-    scales = case.parameters.scales
-    return DropStudy(case, echo_of_drop(motion.parts[0].start, 0.0, None, case.gravity, scales), drop_loads(motion))
+    return DropStudy(
+        case,
+        cm.drop().echo_at(cm.models.rotor_of(case), motion.rotor, motion.parts[0].start, case.gravity),
+        drop_loads(motion),
+    )
 
 
 @pytest.fixture(scope="module")
 def whirl():
-    return dropped("touchdown-balls", "60 ms", at=Whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm")
+    return dropped(
+        "touchdown-balls", "60 ms", at=cm.disturbances.whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm"
+    )
 
 
 def test_a_bearing_that_gives_way_in_words(whirl):
@@ -72,7 +76,7 @@ def test_a_rigid_wall_has_impulses_in_place_of_forces():
 
 
 def test_whirl_that_goes_on():
-    found = dropped("dropped-rotor", at=Whirl("0.2 mm", "-150 Hz"))
+    found = dropped("dropped-rotor", at=cm.disturbances.whirl("0.2 mm", "-150 Hz"))
     ((_, rows),) = found.tables
     assert found.headline.startswith("Rolling backward whirl, since ")
     assert dict(rows)["whirl at the end"] == "backward, 12,000 Hz (80 times the shaft); it goes on"

@@ -14,7 +14,7 @@ from carom.base.outcome import Outcome, Phase
 from carom.base.results import Result
 from carom.motions.settling import REPEATING
 from carom.motions.simulation import simulate
-from carom.motions.starts import Kick, State
+from carom.motions.starts import State, levitating
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
@@ -131,7 +131,7 @@ def _representative(ending: Ending, state: State) -> Trajectory:
     """A motion on an attractor, or the one that was given up, for its first 1000 impacts if it does not repeat."""
     until = None
     if ending.recovered:
-        state = Kick(0.0).state(ending.rotor)
+        state = levitating(ending.rotor)
     elif not ending.attractor.outcome.settled:
         state, until = ending.start.state, ending.time
     return seen_in_contact(simulate(ending.rotor, state, until, settle=True, patience=FIRST_PATIENCE))

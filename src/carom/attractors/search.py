@@ -19,12 +19,12 @@ from carom.base.outcome import IRREGULAR_BOUNCING, InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Members, in_a_line
 from carom.closed_forms.exact_results import exact_results
-from carom.disturbances import Disturbance, Plan, Sample, Starts
+from carom.disturbances import Disturbance, Plan, Sample, Single, Starts
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.settling import PATIENCE
-from carom.motions.starts import Kick, State
+from carom.motions.starts import State
 
 RECOGNISED = (
     "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "
@@ -140,7 +140,7 @@ class AttractorSet(Members[Attractor]):
 @shows_progress
 def find_attractors(
     machine: Subject,
-    disturbances: DisturbanceSet | Plan | Disturbance | Sequence[State | Kick] | None = None,
+    disturbances: DisturbanceSet | Plan | Disturbance | Sequence[State | Single] | None = None,
     *,
     seed: Seed = 0,
     count: Count = DISTURBANCES,
@@ -158,7 +158,7 @@ def find_attractors(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-    disturbances : DisturbanceSet, Grid, Sample, Disturbance or sequence of State or Kick, optional
+    disturbances : DisturbanceSet, Grid, Sample, Disturbance or sequence of State or Single, optional
         Disturbances to follow instead of the standard set (:class:`~carom.attractors.DisturbanceSet`): a plan, a model
         of :mod:`carom.disturbances`, of which a sample is drawn, or single starts.  Those that are not possible are
         left out.
@@ -195,7 +195,7 @@ def find_attractors(
     'B1,d'
     """
     rotor, tell = rotor_of(machine), Reporter.of(progress, "following disturbances")
-    given: DisturbanceSet | Plan | Sequence[State | Kick]
+    given: DisturbanceSet | Plan | Sequence[State | Single]
     if disturbances is None:
         given = DisturbanceSet.of(rotor, count, seed, fastest)
     else:

@@ -14,13 +14,12 @@ from carom.base.arguments import Positive, Seed, Whole, checked
 from carom.base.outcome import STEADY_WORDS
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.exact_results import exact_results
-from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
+from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Single, Starts, VelocityKick
 from carom.disturbances.coordinates import INSTANT, ON_WALL
-from carom.disturbances.echo import ITS_INSTANT
 from carom.disturbances.following import require_start
-from carom.disturbances.plans import INSTANTS
+from carom.disturbances.plans import INSTANTS, ITS_INSTANT
 from carom.models import Rotor, Subject, rotor_of
-from carom.motions.starts import Kick, State
+from carom.motions.starts import State
 from carom.orbits.orbit import Orbit
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.formats import format_quantity
@@ -173,12 +172,16 @@ def starts_at(rotor: Rotor, states: Sequence[State]) -> Starts:
     return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL, begins)
 
 
-def disturbances_of(rotor: Rotor, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
+def disturbances_of(
+    rotor: Rotor, tried: DisturbanceSet | Plan | Sequence[State | Single]
+) -> tuple[list[Start], Starts]:
     """The possible ones of the disturbances, as single starts and as arrays; a plan without any is refused."""
     if isinstance(tried, Sequence):
-        states = [start.state(rotor) if isinstance(start, Kick) else start for start in tried]
+        states = [start if isinstance(start, State) else start.stages(rotor)[1] for start in tried]
         whole = starts_at(rotor, states)
-        kicked = np.array([isinstance(start, Kick) for start in tried], bool)
+        kicked = np.array(
+            [isinstance(start, Single) and isinstance(start.model, VelocityKick) for start in tried], bool
+        )
     elif isinstance(tried, DisturbanceSet):
         whole = tried.starts(rotor)
         kicked = np.arange(tried.count) < tried.kicks(rotor)

@@ -17,8 +17,8 @@ from carom.base.progress import ShowProgress, shows_progress
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Starts
-from carom.disturbances.echo import instants_words
 from carom.disturbances.following import follow, require_start
+from carom.disturbances.plans import instants_words
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.settling import PATIENCE, longest_time

@@ -21,7 +21,7 @@ from carom.basins.gains import WANTED, GainMap
 from carom.basins.shares import Share
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
 from carom.disturbances import BaseShock, BladeLoss
-from carom.disturbances.echo import plan_words
+from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
 from carom.parameters.scaling import SCALING
 

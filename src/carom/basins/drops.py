@@ -18,11 +18,12 @@ from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.dataset import about, outcome_flags
 from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
 from carom.core.processors import available_cores
+from carom.disturbances import Drop, Single, VelocityKick
 from carom.disturbances.following import NO_START
 from carom.disturbances.measures import Told
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
-from carom.motions import Drop, State, Whirl, follow_loads
+from carom.motions import follow_loads
 from carom.motions.loads import DropLoads
 from carom.motions.starts import Until
 from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
@@ -291,7 +292,8 @@ class Landing(Measure):
 
     def _dropped(self, rotor: Rotor, released: Drop) -> Entry:
         """The name of its end, and its numbers in SI units; nothing if there is nothing to drop."""
-        if not isinstance(released.at, State | Whirl) and rotor.system.rest_radius >= 1.0:
+        kicked = isinstance(released.at, Single) and isinstance(released.at.model, VelocityKick)
+        if (released.at is None or kicked) and rotor.system.rest_radius >= 1.0:
             return {}
         scales: Any = rotor.scales
         until = None if self.longest is None else self.longest / scales.time

@@ -20,9 +20,9 @@ from carom.basins.maps import Measure, OverPlane, Several, map_over
 from carom.basins.shares import Population, Share
 from carom.basins.unrecovered import smallest_unrecovered_kick
 from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
-from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
 from carom.disturbances.measures import KICKS, SHARES, SMALLEST, Told
+from carom.disturbances.plans import instants_words
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions.ensembles import MOST_EVENTS

@@ -17,7 +17,7 @@ from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.base.arguments import Truths, Whole, checked
 from carom.base.results import fields_of
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
-from carom.disturbances.echo import ANY_INSTANT, ITS_INSTANT, instants_words
+from carom.disturbances.plans import ANY_INSTANT, ITS_INSTANT, instants_words
 from carom.parameters import Scales
 
 

@@ -11,7 +11,7 @@ from carom.basins.families import size_coordinate
 from carom.basins.gains import WANTED
 from carom.cli.fitting import print_table
 from carom.cli.tables import print_rows
-from carom.disturbances.echo import plan_words
+from carom.disturbances.plans import plan_words
 from carom.parameters import Case, InTerms, in_terms_of
 from carom.parameters.formats import format_angle, format_quantity
 from carom.studies.wording import Wording

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 from carom.base.outcome import InputError
 
 if TYPE_CHECKING:
+    from carom.disturbances import Drop
     from carom.disturbances.echo import Echo
     from carom.models import Rotor
-    from carom.motions.drops import Drop
     from carom.motions.loads import DropLoads
     from carom.parameters import Case
     from carom.rotors.reduction_errors import ReductionError
@@ -27,29 +27,21 @@ class Beginning:
 
     def apply(self, case: Case) -> tuple[Rotor, Any, Echo]:
         """The machine that moves, its start, and what was taken; wrong input is refused before the rotor is made."""
-        from carom.cli.starts import read_instant, read_start
-        from carom.disturbances import BaseShock, BladeLoss, VelocityKick, echo
-        from carom.disturbances.single import read_single
+        from carom.cli.starts import read_instant, read_one
         from carom.models import rotor_of
 
-        if self.release is not None:
-            from carom.studies.drops import release
-
-            return release(case, self.release)
-        scales = case.parameters.scales
-        if self.option == "--start":
-            state = read_start(self.text, scales, case.touchdown is not None and case.touchdown.yields)
-            rotor = rotor_of(case)
-            instant = read_instant(self.instant, rotor)
-            said = echo.echo_of_start(state, rotor.unbalance_phase, scales)
-            return rotor, replace(state, time=instant), echo.echo_at(said, rotor, instant)
-        kinds = {"--kick": VelocityKick, "--shock": BaseShock, "--blade-loss": BladeLoss}
-        single, rotor = read_single(kinds[self.option], self.text, scales, self.option), rotor_of(case)
-        single = replace(single, instant=read_instant(self.instant, rotor))
         try:
-            return *single.stages(rotor), echo.echo_of(single, rotor)
+            if self.release is not None:
+                from carom.studies.drops import release
+
+                return release(case, self.release)
+            single, rotor = read_one(self.option, self.text, case.parameters.scales), rotor_of(case)
+            single = replace(single, instant=read_instant(self.instant, rotor))
+            return *single.stages(rotor), single.echo(rotor)
         except InputError as problem:
-            if problem.field in ("kick", "disturbance"):
+            if problem.field == "start":
+                raise InputError("--start", self.text or problem.value, problem.allowed) from None
+            if self.release is None and problem.field in ("kick", "disturbance"):
                 raise InputError(self.option, self.text, f"{problem.allowed}; use --start") from None
             raise
 
@@ -82,12 +74,12 @@ def released(
     called: str = "--drop",
 ) -> Beginning:
     """How levitation is lost, at the state that one of some ways gives; wrong input is refused before kernels are loaded."""
-    from carom.cli.starts import read_angle, read_kick, read_positive, read_speed, read_start, read_whirl
-    from carom.motions.drops import Drop
+    from carom.cli.starts import read_angle, read_one, read_positive, read_speed
+    from carom.disturbances import Drop
 
     scales = case.parameters.scales
-    readers: dict[str, Any] = {"--start": read_start, "--kick": read_kick, "--whirl": read_whirl}
     chosen = {option: text for option, text in ways.items() if text is not None}
+    readers = ("--start", "--kick", "--whirl")
     if len(chosen) > 1 or not set(readers).issuperset(chosen):
         given = " with ".join(f"{option} {text}" for option, text in chosen.items())
         known = ", ".join(option for option in readers if option in ways)
@@ -95,5 +87,5 @@ def released(
     regained = None if regained_after is None else read_positive("--regained-after", regained_after, "time", scales)
     turned = None if phase is None else read_angle("--phase", phase, scales)
     turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
-    at = next((readers[option](text, scales) for option, text in chosen.items()), None)
+    at = next((read_one(option, text, scales) for option, text in chosen.items()), None)
     return Beginning(release=Drop(at, turned, regained, turning))

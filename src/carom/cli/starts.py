@@ -31,48 +31,22 @@ from carom.parameters.fields import unknown_name
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
+    from carom.disturbances import Disturbance
     from carom.models import Axis, Rotor
-    from carom.motions.drops import Whirl
-    from carom.motions.starts import Kick, State
-
-_START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
-_WHIRL = "must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as '0.1 mm,-80 Hz,30 deg'"
 
 
-def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> State:
-    """Read ``RE,IM,VRE,VIM``: position and velocity in the co-rotating frame, in ``c_r`` and ``c_r Ω`` or with units.
+def read_one(option: str, text: str, scales: Scales | None) -> Single:
+    """Read the single disturbance, or the state, of an option."""
+    from carom.disturbances import BaseShock, BladeLoss, GivenState, VelocityKick, Whirl
 
-    A start may lie in a compliant wall.
-    """
-    parts = split_text("--start", text, (4,), _START)
-    x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])
-    vx, vy = (read_size("--start", part, "velocity", scales).own(scales) for part in parts[2:])
-    radius = math.hypot(x, y)
-    if radius > 1.0 + 1e-12 and not gives_way:
-        raise InputError("--start", text, f"must lie inside the wall, |U| <= 1 (here |U| = {radius:.6g})")
-    from carom.motions.starts import State
-
-    return State(complex(x, y), complex(vx, vy))
-
-
-def read_kick(text: str, scales: Scales | None) -> Kick:
-    """Read ``SPEED`` or ``SPEED,ANGLE``: a velocity kick out of levitation, co-rotating frame."""
-    from carom.disturbances import VelocityKick
-    from carom.motions.starts import Kick
-
-    return Kick(*read_single(VelocityKick, text, scales, "--kick").values)
-
-
-def read_whirl(text: str, scales: Scales | None) -> Whirl:
-    """Read ``RADIUS,SPEED`` or ``RADIUS,SPEED,ANGLE``: a whirl about the centre, in the fixed frame; backward with a negative speed."""
-    radius, speed, *angle = split_text("--whirl", text, (2, 3), _WHIRL)
-    place = read_angle("--whirl", angle[0], scales) if angle else 0.0
-    sizes = _size("--whirl", radius, "length", scales), _size("--whirl", speed, "speed", scales)
-    if not 0.0 <= sizes[0] <= 1.0:
-        raise InputError("--whirl", text, "must have a radius from 0 to the clearance")
-    from carom.motions.drops import Whirl
-
-    return Whirl(*sizes, place)
+    kinds: dict[str, type[Disturbance]] = {
+        "--start": GivenState,
+        "--kick": VelocityKick,
+        "--whirl": Whirl,
+        "--shock": BaseShock,
+        "--blade-loss": BladeLoss,
+    }
+    return read_single(kinds[option], text, scales, option)
 
 
 def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> float:

@@ -13,13 +13,16 @@ co-rotating frame, from which the motion is free.
 :class:`ContactRelease`  levitation is switched on with the rotor on the touchdown bearing
 :class:`StateSlice`      any position, at a given velocity
 :class:`AnyState`        any position and any velocity
+:class:`GivenState`      one state of the planar rotor, in the co-rotating frame
+:class:`Whirl`           a whirl about the centre of the bearing
+:class:`Drop`            levitation is lost, perhaps for a while
 =======================  =====================================================================================
 
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
-``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``blows``
-(with ``shocks``, which follows a rotor through a pulse), ``states`` and ``blade_loss``, by name in ``kinds``.  ``plans`` has
-grids and samples, ``single`` is one disturbance, read from text, ``following`` follows their starts to where they end, ``measures`` says what is measured of many, ``echo`` says in a sentence what was done.
+``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
+(with ``shocks``, which follows a rotor through a pulse), ``states``, ``blade_loss`` and ``drops``, by name in ``kinds``.  ``plans`` has
+grids and samples, ``single`` is one disturbance, read from text, ``following`` follows their starts to where they end, ``measures`` says what is measured of many.  Each says in a sentence what was done (``echo``).
 
 Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
 Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  ``VelocityKick.of(machine, "50 mm/s")`` takes text with
@@ -27,12 +30,14 @@ units.
 """
 
 from carom.disturbances.blade_loss import BladeLoss
-from carom.disturbances.blows import BaseShock, KickPlane, VelocityKick, outward_from
 from carom.disturbances.coordinates import Coordinate, Starts
+from carom.disturbances.drops import Drop, drop
+from carom.disturbances.kicks_and_shocks import BaseShock, KickPlane, VelocityKick, kick, outward_from
 from carom.disturbances.kinds import MODELS
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
-from carom.disturbances.states import AnyState, ContactRelease, StateSlice
+from carom.disturbances.single import Single
+from carom.disturbances.states import AnyState, ContactRelease, GivenState, StateSlice, Whirl, whirl
 
 __all__ = [
     "FASTEST",
@@ -43,12 +48,19 @@ __all__ = [
     "ContactRelease",
     "Coordinate",
     "Disturbance",
+    "Drop",
+    "GivenState",
     "Grid",
     "KickPlane",
     "Plan",
     "Sample",
+    "Single",
     "Starts",
     "StateSlice",
     "VelocityKick",
+    "Whirl",
+    "drop",
+    "kick",
     "outward_from",
+    "whirl",
 ]

@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
+from carom.disturbances.echo import Echo, eccentricity_words
 from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Part
+from carom.parameters.formats import format_angle, format_quantity
 
 if TYPE_CHECKING:
     from carom.models import Rotor
+    from carom.parameters import Scales
 
 
 @dataclass(frozen=True)
@@ -66,6 +69,32 @@ class BladeLoss(Disturbance):
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
         (phases,) = values
         return starts_after(rotor, self.change, phases, self.node, instant)
+
+    def echo(self, rotor: Rotor, *values: float) -> Echo:
+        """See :meth:`Disturbance.echo`; the eccentricity is told of rotors with one unbalance alone."""
+        (phase,), scales = values, rotor.scales
+        kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
+        words = (
+            f"Loss of a blade: the {noun}{self._where} changes by {format_quantity(self.change, kind, scales)} at {format_angle(phase)} from that before it, "
+            "in the sense of rotation"
+        )
+        sizes = {"change": (self.change, kind), "phase": (phase, "")}
+        if rotor.numbers is not None:
+            before = rotor.value("rho")
+            after = before + cmath.rect(self.change, phase)
+            words += f": from {format_quantity(before, kind, scales)} to {format_quantity(abs(after), kind, scales)}, turned by {format_angle(cmath.phase(after))}"
+            sizes |= {"before": (before, kind), "after": (abs(after), kind)}
+        return Echo(self.kind, words, sizes)
+
+    def up_to_words(self, before: float | None, scales: Scales | None) -> str:
+        """See :meth:`Disturbance.up_to_words`."""
+        start = "" if before is None else f" from {eccentricity_words(before, scales)}"
+        change = eccentricity_words(self.change, scales)
+        return f"{self.coordinates[0].words}: all around; eccentricity{self._where} changes{start} by {change}"
+
+    @property
+    def _where(self) -> str:
+        return "" if self.node is None else f" at node {self.node}"
 
 
 def starts_after(

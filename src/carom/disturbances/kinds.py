@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from carom.disturbances.blade_loss import BladeLoss
-from carom.disturbances.blows import BaseShock, KickPlane, VelocityKick
+from carom.disturbances.kicks_and_shocks import BaseShock, KickPlane, VelocityKick
 from carom.disturbances.model import Disturbance
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice
 

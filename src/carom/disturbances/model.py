@@ -13,8 +13,10 @@ import numpy as np
 from carom.base.arguments import checked, is_number
 from carom.base.outcome import InputError, Outcome, shown
 from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
+from carom.disturbances.echo import Echo, in_both_units
 from carom.disturbances.single import Part, Single, read_single
 from carom.parameters import Scales, own_size, own_unbalance, usual_kick
+from carom.parameters.formats import format_angle, format_quantity
 
 if TYPE_CHECKING:
     from carom.models import Rotor, Subject
@@ -47,6 +49,8 @@ class Disturbance:
         The text of a single one: the fields and coordinates that it states, in turn.
     example : str
         Such a text in quotes.
+    bare : bool
+        Whether its sizes may be numbers without a unit where the machine is in SI units.
     """
 
     kind: ClassVar[str] = ""
@@ -55,6 +59,7 @@ class Disturbance:
     changes_machine: ClassVar[bool] = False
     parts: ClassVar[tuple[Part, ...]] = ()
     example: ClassVar[str] = ""
+    bare: ClassVar[bool] = False
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -132,10 +137,10 @@ class Disturbance:
         Parameters
         ----------
         machine : Machine, Case, Parameters or model
-        *values : float
-            Values of the coordinates in turn, in units of the equations; a size that comes first may be left out for the largest, and angles
-            that come last for 0.
-        instant : float
+        *values : float or str
+            Values of the coordinates in turn, in units of the equations or text with a unit; a size that comes first may be left out for the
+            largest, and angles that come last for 0.
+        instant : float or str
             Angle by which the shaft has turned when it comes, rad, since the co-rotating frame coincided with the fixed one.
 
         Raises
@@ -147,7 +152,7 @@ class Disturbance:
         from carom.motions.starts import State
 
         rotor = rotor_of(machine)
-        *own, begun = self.whole(values, instant)
+        *own, begun = self.whole(values, instant, rotor.scales)
         given = [np.array([each]) for each in own]
         starts = self.starts_on(rotor, *given, *([np.array([begun])] if rotor.depends_on_instant else []))
         if not starts.exists[0]:
@@ -161,7 +166,9 @@ class Disturbance:
         state = State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
         return rotor if starts.after is None else starts.after[0], state
 
-    def whole(self, values: Sequence[float | str], instant: float | str) -> tuple[float, ...]:
+    def whole(
+        self, values: Sequence[float | str], instant: float | str = 0.0, scales: Scales | None = None
+    ) -> tuple[float, ...]:
         """Values of all coordinates and the instant, checked, from those that are given."""
         axes = self.coordinates
         if len(values) < len(axes) and self.size == axes[0]:
@@ -170,9 +177,23 @@ class Disturbance:
         if len(values) != len(axes):
             raise InputError("values", shown(values), f"one for each of {', '.join(each.name for each in axes)}")
         return tuple(
-            own_size(each.name, value, each.scale if each.scale else "angle", None)
+            own_size(f"{self.kind} {each.name}", value, each.scale if each.scale else "angle", scales)
             for each, value in zip((*axes, INSTANT), (*values, instant), strict=True)
         )
+
+    def echo(self, rotor: Rotor, *values: float) -> Echo:
+        """What was done to a rotor by one disturbance with these values of the coordinates, in a sentence."""
+        sizes = {each.name: (value, each.scale) for each, value in zip(self.coordinates, values, strict=True)}
+        words = (
+            f"{each.words} {format_quantity(value, each.scale, rotor.scales) if each.scale else format_angle(value)}"
+            for each, value in zip(self.coordinates, values, strict=True)
+        )
+        return Echo(self.kind, f"Disturbance, {self.kind}: {', '.join(words)}", sizes)
+
+    def up_to_words(self, before: float | None, scales: Scales | None) -> str:
+        """How large those of a plan are, on a machine with an eccentricity ``before`` them, in clearances, if there is one."""
+        size = self.size
+        return "" if size is None else f"{size.words} up to {in_both_units(size.high, size.scale, scales)}"
 
     def coordinates_on(self, rotor: Rotor) -> tuple[Coordinate, ...]:
         """Coordinates by which the disturbance varies on a machine: those of the model, and the instant where that matters."""

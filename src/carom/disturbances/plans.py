@@ -14,11 +14,13 @@ from carom.base.outcome import InputError
 from carom.disturbances.coordinates import INSTANT, Starts
 from carom.disturbances.model import Disturbance
 from carom.parameters import Scales
+from carom.parameters.formats import format_angle
 
 if TYPE_CHECKING:
     from carom.models import Rotor
 
 
+ANY_INSTANT, ITS_INSTANT = "at any instant of the turn", "at an instant of its own"
 INSTANTS = 1
 """Stream of random numbers of instants: sizes and directions are the same on machines on which the instant does not matter."""
 
@@ -169,3 +171,28 @@ def _begun(model: Disturbance, rotor: Rotor, values: Sequence[np.ndarray], insta
 
 
 Plan: TypeAlias = Grid | Sample
+
+
+def instants_words(rotor: Rotor, plan: Plan | None = None) -> str:
+    """At which instants of the turn disturbances come, where these matter, of a plan or of any sample; else nothing."""
+    if not rotor.depends_on_instant:
+        return ""
+    if isinstance(plan, Grid) and plan.instant is not None:
+        return f"at the instant at which the shaft has turned by {format_angle(plan.instant)}"
+    return ANY_INSTANT
+
+
+def plan_words(
+    plan: Plan, before: float | None, scales: Scales | None, *, drawn: str | None = None, at: str = ""
+) -> str:
+    """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances, if there is one.
+
+    ``drawn`` says how a sample is drawn where its own seed does not count, ``at`` at which instants they come.
+    """
+    if isinstance(plan, Grid):
+        how = f"a grid of {' x '.join(map(str, plan.shape))}"
+    else:
+        how = drawn or f"a sample (seed {plan.seed})"
+    when = f", {f'each {ITS_INSTANT}' if at == ANY_INSTANT else at}" if at else ""
+    sizes = plan.model.up_to_words(before, scales)
+    return ", ".join(filter(None, (f"{plan.count} {plan.model.noun}{when}", how, sizes)))

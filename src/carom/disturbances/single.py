@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.base.outcome import InputError
 from carom.parameters import Scales, read_size, read_unbalance
+from carom.parameters.formats import format_angle
 from carom.parameters.quantities import comma_advice, without_separators
 
 if TYPE_CHECKING:
+    from carom.disturbances.echo import Echo
     from carom.disturbances.model import Disturbance
     from carom.models import Rotor, Subject
     from carom.motions.starts import State
@@ -37,19 +39,28 @@ class Single:
     ----------
     model : Disturbance
         Its kind.
-    values : tuple of float
-        Values of its coordinates, in units of the equations.
-    instant : float
-        Angle by which the shaft has turned when it comes, rad.
+    values : tuple of float or str
+        Values of its coordinates, in units of the equations or text with a unit.
+    instant : float or str
+        Angle by which the shaft has turned when it comes, in rad or text with a unit.
     """
 
     model: Disturbance
-    values: tuple[float, ...]
-    instant: float = 0.0
+    values: tuple[float | str, ...]
+    instant: float | str = 0.0
 
     def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """Return the machine that moves, perhaps in stages or another one than before, and its start."""
         return self.model.apply(machine, *self.values, instant=self.instant)
+
+    def echo(self, rotor: Rotor) -> Echo:
+        """What was done to a rotor: kind, sizes, and from where angles count; with the instant of the turn where that matters."""
+        *values, instant = self.model.whole(self.values, self.instant, rotor.scales)
+        found = self.model.echo(rotor, *values)
+        if not rotor.depends_on_instant:
+            return found
+        words = f"{found.words}; the shaft has turned by {format_angle(instant)} since the x axis that turns with it passed that of the room"
+        return dataclasses.replace(found, words=words, sizes={**found.sizes, "instant": (instant, "")})
 
 
 def read_single(model: type[Disturbance], text: str, scales: Scales | None, option: str) -> Single:
@@ -65,13 +76,14 @@ def read_single(model: type[Disturbance], text: str, scales: Scales | None, opti
     parts, allowed = model.parts, text_allowed(model, scales)
     least = sum(not part.optional for part in parts)
     given = split_text(option, text, tuple(range(least, len(parts) + 1)), allowed)
-    if len(given) > 1 and (advice := comma_advice(text)) and (scales is not None or not given[0].strip("0.")):
+    doubtful = len(given) > 1 and not model.bare and (scales is not None or not given[0].strip("0."))
+    if doubtful and (advice := comma_advice(text)):
         unit = " with its unit" if scales and not any(map(str.isalpha, text)) else ""
         raise InputError(option, text, f"{allowed}; {advice}{unit}")
     if len(given) < len(parts) and scales is None and parts[len(given)].usual:
         raise InputError(option, text, allowed)  # what is usual is in SI units
     found: dict[str, float | None] = {
-        part.name: _number(option, part, each, scales) for part, each in zip(parts, given, strict=False)
+        part.name: _number(option, part, each, scales, model.bare) for part, each in zip(parts, given, strict=False)
     }
     for part in parts[len(given) :]:
         usual = part.usual
@@ -80,11 +92,11 @@ def read_single(model: type[Disturbance], text: str, scales: Scales | None, opti
     stated: dict[str, Any] = {name: value for name, value in found.items() if name in fields}
     try:
         made = model(**stated)
+        # A size that is a field is that of the disturbance itself.
+        values = (found.get(each.name) for each in made.coordinates)
+        return Single(made, made.whole([each for each in values if each is not None])[:-1])
     except InputError as problem:
         raise InputError(option, text, f"{problem.field}: {problem.allowed}") from None
-    # A size that is a field is that of the disturbance itself.
-    values = (found.get(each.name) for each in made.coordinates)
-    return Single(made, made.whole([each for each in values if each is not None], 0.0)[:-1])
 
 
 def text_allowed(model: type[Disturbance], scales: Scales | None) -> str:
@@ -93,14 +105,14 @@ def text_allowed(model: type[Disturbance], scales: Scales | None) -> str:
     forms = [",".join(part.called for part in parts[:count]) for count in range(1, len(parts) + 1)]
     forms = [form for count, form in enumerate(forms, 1) if all(part.optional for part in parts[count:])]
     listed = f"{', '.join(forms[:-1])} or {forms[-1]}" if len(forms) > 1 else forms[0]
-    return f"must be {listed} such as {model.example if scales else _OWN}"
+    return f"must be {listed} such as {model.example if scales or model.bare else _OWN}"
 
 
 _OWN = "0.4,0.2"
 """Sizes with an angle of a machine in units of the equations."""
 
 
-def _number(option: str, part: Part, text: str, scales: Scales | None) -> float:
+def _number(option: str, part: Part, text: str, scales: Scales | None, bare: bool) -> float:
     """The number of a part, in units of the equations; where the scales are known it needs a unit, but an angle of zero."""
     if part.kind == "node":
         number = text.removeprefix("node").strip()
@@ -115,7 +127,7 @@ def _number(option: str, part: Part, text: str, scales: Scales | None) -> float:
             allowed = "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm"
             raise InputError(option, text, allowed)
         return size
-    return read_size(option, text, part.kind, scales, bare=False).own(scales)
+    return read_size(option, text, part.kind, scales, bare=bare).own(scales)
 
 
 def split_text(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:

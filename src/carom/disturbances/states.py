@@ -1,13 +1,16 @@
-"""Disturbances that put the rotor into a state: releases from the wall, slices and all states."""
+"""Disturbances that put the rotor into a state: releases from the wall, slices, all states, single ones and whirls."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
 from carom.base.arguments import checked
+from carom.base.outcome import InputError
 from carom.disturbances.coordinates import (
     Coordinate,
     Starts,
@@ -18,10 +21,14 @@ from carom.disturbances.coordinates import (
     speed_coordinate,
     within,
 )
+from carom.disturbances.echo import Echo, angles_words, moving
 from carom.disturbances.model import FASTEST, Disturbance
+from carom.disturbances.single import Part, Single
 
 if TYPE_CHECKING:
-    from carom.models import Rotor
+    from carom.models import Rotor, Subject
+    from carom.motions.starts import State
+    from carom.parameters import Scales
 
 Release = Literal["fixed", "rotating", "rolling"]
 
@@ -131,3 +138,113 @@ class AnyState(Disturbance):
             complex_of(radius * np.cos(angle), radius * np.sin(angle)),
             complex_of(speed * np.cos(direction), speed * np.sin(direction)),
         ).at(instant)
+
+
+@dataclass(frozen=True)
+class GivenState(Disturbance):
+    """A state of the planar rotor in the co-rotating frame."""
+
+    kind: ClassVar[str] = "start"
+    noun: ClassVar[str] = "states"
+    bare: ClassVar[bool] = True
+    parts: ClassVar = (
+        Part("x", "RE", "length", optional=False),
+        Part("y", "IM", "length", optional=False),
+        Part("velocity_x", "VRE", "velocity", optional=False),
+        Part("velocity_y", "VIM", "velocity", optional=False),
+    )
+    example: ClassVar = "0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Both components of the position and of the velocity."""
+        places = length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
+        speeds = (speed_coordinate(f"velocity_{axis}", f"velocity along {axis}", -FASTEST, FASTEST) for axis in "xy")
+        return *places, *speeds
+
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+        """The given states."""
+        x, y, vx, vy = np.broadcast_arrays(*values)
+        positions = complex_of(x, y)
+        return Starts.of(positions, complex_of(vx, vy), within(positions)).at(instant)
+
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
+        """See :meth:`Disturbance.apply`; the state may lie in a compliant touchdown bearing."""
+        from carom.models import rotor_of
+        from carom.motions.starts import State
+
+        rotor = rotor_of(machine)
+        x, y, vx, vy, begun = self.whole(values, instant, rotor.scales)
+        if (radius := math.hypot(x, y)) > 1.0 + 1e-12 and not rotor.system.arrays.stiffness.any():
+            raise InputError(
+                "start", f"|U| = {radius:.6g}", f"must lie inside the wall, |U| <= 1 (here |U| = {radius:.6g})"
+            )
+        return rotor, State(complex(x, y), complex(vx, vy), time=begun)
+
+    def echo(self, rotor: Rotor, *values: float) -> Echo:
+        """See :meth:`Disturbance.echo`."""
+        x, y, vx, vy = values
+        begun = moving(complex(x, y), complex(vx, vy), rotor.scales)
+        counted = angles_words(rotor.unbalance_phase, ", as it lies at the start")
+        return Echo(self.kind, f"Start: {begun.words}; {counted}", begun.sizes)
+
+
+@dataclass(frozen=True)
+class Whirl(Disturbance):
+    """A whirl about the centre of the bearing, as it is at one instant, when the co-rotating frame coincides with the fixed one.
+
+    What does not move with the rotor, such as a mount, is at rest.
+    """
+
+    kind: ClassVar[str] = "whirl"
+    noun: ClassVar[str] = "whirls"
+    parts: ClassVar = (
+        Part("radius", "RADIUS", "length", optional=False),
+        Part("speed", "SPEED", "speed", optional=False),
+        Part("angle", "ANGLE", "angle", 0.0),
+    )
+    example: ClassVar = "'0.1 mm,-80 Hz,30 deg'"
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Radius, speed (negative for backward whirl), and where the rotor is."""
+        return (
+            length_coordinate("radius", "radius of the whirl", 0.0, 1.0, over_disc=True),
+            Coordinate("speed", "speed of the whirl", -1.0, 1.0, "speed"),
+            angle_coordinate("angle", "angle of the position"),
+        )
+
+    def whole(
+        self, values: Sequence[float | str], instant: float | str = 0.0, scales: Scales | None = None
+    ) -> tuple[float, ...]:
+        """See :meth:`Disturbance.whole`."""
+        found = super().whole(values, instant, scales)
+        if not 0.0 <= found[0] <= 1.0:
+            raise InputError("whirl radius", values[0], "must be from 0 to the clearance")
+        return found
+
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+        """The rotor displaced and moving as a whole."""
+        radius, speed, angle = np.broadcast_arrays(*values)
+        cosine, sine, moves = np.cos(angle), np.sin(angle), rotor.system.translated
+        places, speeds = complex_of(radius * cosine, radius * sine), radius * (speed - 1.0)
+        found = Starts.of(places, complex_of(-speeds * sine, speeds * cosine), within(places)).at(instant)
+        if len(moves) == 1:
+            return found._replace(positions=found.positions * moves[0], velocities=found.velocities * moves[0])
+        positions, velocities = (np.multiply.outer(each, moves) for each in (found.positions, found.velocities))
+        return found._replace(positions=positions, velocities=velocities)
+
+
+def whirl(radius: float | str, speed: float | str, angle: float | str = 0.0) -> Single:
+    """Whirl about the centre of the bearing, as it is at one instant.
+
+    Parameters
+    ----------
+    radius : float or str
+        In clearances, or text with a unit, such as ``"0.1 mm"``.
+    speed : float or str
+        In ``Ω``, or text with a unit, such as ``"80 Hz"``; negative for backward whirl.
+    angle : float or str
+        Where the rotor is, in the fixed frame: in rad, or text with a unit.
+    """
+    return Single(Whirl(), (radius, speed, angle))

@@ -1,8 +1,7 @@
 """Motions of the rotor: followed from one start or many, and evaluated.
 
 ====================  ======================================================================================
-``starts``            states, and kicks out of levitation
-``drops``             levitation lost
+``starts``            states, and levitation
 ``trajectories``      one motion: its course, contacts and forces
 ``simulation``        from a start to a motion
 ``storage``           motions as datasets and files
@@ -27,7 +26,6 @@
 """
 
 from carom.motions.contacts import ContactLog
-from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.history import ContactHistory, LastingContact
 from carom.motions.ledger import EnergyLedger, energy_ledger
@@ -35,7 +33,7 @@ from carom.motions.load_sums import drop_loads, follow_loads
 from carom.motions.loads import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
-from carom.motions.starts import Kick, State, kick
+from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 
 __all__ = [
@@ -43,22 +41,17 @@ __all__ = [
     "Braking",
     "ContactHistory",
     "ContactLog",
-    "Drop",
     "DropLoads",
     "Endings",
     "EnergyLedger",
-    "Kick",
     "LastWhirl",
     "LastingContact",
     "State",
     "TouchdownLoads",
     "Trajectory",
-    "Whirl",
-    "drop",
     "drop_loads",
     "energy_ledger",
     "follow_loads",
-    "kick",
     "settle",
     "simulate",
 ]

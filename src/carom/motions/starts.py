@@ -1,4 +1,4 @@
-"""Where motions start: states, and kicks out of levitation."""
+"""Where motions start: states, and levitation."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Rotor, Subject, rotor_of
+from carom.models import Rotor, Subject
 from carom.models.weight import levitation_of
-from carom.parameters import own_size
 
 
 @runtime_checkable
@@ -94,74 +93,18 @@ class State:
         return cls(complex(np.squeeze(position)), complex(np.squeeze(velocity)), races, shaft, time)
 
 
-@checked
-@dataclass(frozen=True)
-class Kick:
-    """A velocity kick out of the contact-free equilibrium.
+def levitating(rotor: Rotor, push: complex = 0j, instant: float = 0.0) -> State:
+    """Levitation with its velocity changed by a push, at an instant of the turn where that matters; the rotor moves as a whole.
 
-    Attributes
-    ----------
-    speed : float or str
-        Size of the kick: in clearances times ``Ω``, or text with a unit, such as ``"50 mm/s"``.
-    angle : float or str
-        Direction in the co-rotating frame, from its real axis, from which the phase of the unbalance counts too: in rad, or text
-        with a unit, such as ``"30 deg"``.
-    instant : float or str
-        Angle by which the shaft has turned when it comes, since the co-rotating frame coincided with the fixed one, the same way:
-        where something stands in the fixed frame, such as weight, it says where this points.
+    Raises
+    ------
+    InputError
+        The rotor sags to the wall.
     """
-
-    speed: float | str
-    angle: float | str = 0.0
-    instant: float | str = 0.0
-
-    def stages(self, machine: Subject) -> tuple[Rotor, State]:
-        """Return the machine, which goes on levitating, and its start."""
-        rotor = rotor_of(machine)
-        return rotor, self.state(rotor)
-
-    def state(self, rotor: Rotor) -> State:
-        """Return the state just after the kick, which moves the rotor as a whole.
-
-        Raises
-        ------
-        InputError
-            The text is no speed or no angle, or its unit needs scales that the rotor does not have; or the rotor sags to the wall.
-        """
-        if rotor.weight is not None:
-            levitation_of(rotor)
-        speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
-        push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
-        instant = own_size("instant", self.instant, "angle", rotor.scales) if rotor.depends_on_instant else 0.0
-        return State.of(*rotor.system.kicked(push, instant), time=instant)
-
-
-@checked
-def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.0) -> Kick:
-    """Velocity kick out of the contact-free equilibrium.
-
-    Parameters
-    ----------
-    speed : float or str
-        In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
-    angle : float or str
-        Its direction in the co-rotating frame, from its real axis: in rad, or text with a unit, such as ``"30 deg"``.
-    instant : float or str
-        Angle by which the shaft has turned when it comes, the same way: it matters under weight, with limits of the magnetic bearings,
-        and where bearings are anisotropic.
-
-    See Also
-    --------
-    carom.State : any start
-    carom.disturbances.VelocityKick : kicks of all sizes and directions
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> cm.kick("50 mm/s", "30 deg")
-    Kick(speed='50 mm/s', angle='30 deg', instant=0.0)
-    """
-    return Kick(speed, angle, instant)
+    if rotor.weight is not None:
+        levitation_of(rotor)
+    begun = instant if rotor.depends_on_instant else 0.0
+    return State.of(*rotor.system.kicked(push, begun), time=begun)
 
 
 def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:

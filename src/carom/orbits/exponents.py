@@ -15,7 +15,7 @@ from carom.base.results import Result
 from carom.core.closing import LONGEST
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
-from carom.motions.starts import Kick, State
+from carom.motions.starts import Beginning, State
 from carom.orbits.flow_exponents import NOTHING, Grown
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import impacts_between
@@ -111,7 +111,7 @@ class LyapunovExponents(Result):
 @checked
 def lyapunov_exponents(
     machine: Subject,
-    start: State | Kick,
+    start: State | Beginning,
     impacts: Count = 10_000,
     *,
     transient: Count = 1000,
@@ -127,7 +127,7 @@ def lyapunov_exponents(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-    start : State or Kick
+    start : State, kick or other single disturbance
         Co-rotating frame.
     impacts : int
         Number of impacts to measure, those of chatter included.
@@ -145,7 +145,7 @@ def lyapunov_exponents(
     """
     rotor = rotor_of(machine)
     rotor.system.refuse_non_stationary()
-    state = start.state(rotor) if isinstance(start, Kick) else start
+    state = start if isinstance(start, State) else start.stages(rotor)[1]
     found = _by_impacts(rotor, state, impacts, transient, batches) if rotor.has_closed_forms else None
     return found or _by_flow(rotor, state, impacts, transient, batches)
 

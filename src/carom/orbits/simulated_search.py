@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator
 
@@ -12,7 +13,7 @@ from carom.base.progress import Reporter
 from carom.models import Rotor
 from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
-from carom.motions.starts import Kick, State
+from carom.motions.starts import State, levitating
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import OFF_PERIOD, close, quietest
 from carom.orbits.flow import Budget, repeats_after
@@ -163,7 +164,7 @@ def start_of(rotor: Rotor, random: np.random.Generator) -> State:
     speed = FASTEST * float(SLOWEST ** random.uniform())
     if rotor.system.levitates and (len(rotor.system.rest) > FEW or random.uniform() < 0.5):
         angle, instant = random.uniform(0.0, 2.0 * np.pi, 2).tolist()
-        return Kick(speed, angle, instant).state(rotor)
+        return levitating(rotor, cmath.rect(speed, angle), instant)
     positions, velocities = random_starts(rotor, random, 1, on_wall=bool(random.uniform() < 0.5))
     whirl = -1j * positions[0] * random.uniform()
     return State.of(positions[0], velocities[0] * (speed / FASTEST) + whirl)

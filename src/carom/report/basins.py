@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
-from carom.disturbances.echo import ITS_INSTANT
+from carom.disturbances.plans import ITS_INSTANT
 from carom.models import Rotor, axis
 from carom.parameters import in_terms_of
 from carom.studies import Study

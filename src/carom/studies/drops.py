@@ -8,11 +8,12 @@ from typing import Any
 from carom.attractors import MotionName
 from carom.base.outcome import InputError, Outcome
 from carom.base.results import Result, fields_of, in_si
-from carom.disturbances.echo import Echo, echo_of_drop
+from carom.disturbances import Drop, drop
+from carom.disturbances.drops import ASSUMED
+from carom.disturbances.echo import Echo
 from carom.models import Rotor, rotor_of
-from carom.motions import DropLoads, Trajectory, drop, drop_loads, simulate
-from carom.motions.drops import ASSUMED, Drop
-from carom.motions.starts import State, amplitudes_of
+from carom.motions import DropLoads, Trajectory, drop_loads, simulate
+from carom.motions.starts import State
 from carom.parameters import Case
 from carom.rotors.reduction_errors import ReductionError, reduction_error
 from carom.studies.load_checks import LoadCheck, checks_of_planes
@@ -119,25 +120,12 @@ def drop_of(case: Case) -> DropStudy | None:
 
 
 def release(case: Case, released: Drop) -> tuple[Rotor, State, Echo]:
-    """The rotor that falls, its start, and what was taken of a release whose sizes are numbers.
+    """The rotor that falls, its start, and what was taken of a release.
 
     Raises
     ------
     InputError
-        As of :meth:`carom.motions.Drop.stages`.
+        As of :meth:`carom.disturbances.Drop.apply`.
     """
-    rotor, state = released.stages(case)
-    scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
-    if scales is None:  # which stages() has refused
-        raise InputError("gravity", None, "a machine with mass, clearance and speed")
-    angle = released.unbalance_angle(rotor_of(case))
-    regained, race = (None if each is None else float(each) for each in (back, turning))
-    amplitudes, _ = amplitudes_of(rotor, state)
-    planes = []
-    for plane, width in enumerate(rotor.system.widths.tolist()):
-        place, rate = rotor.system.at_plane(amplitudes, plane)
-        planes.append((width * complex(place), width * complex(rate)))
-    echo = echo_of_drop(state, angle, regained, case.gravity or ASSUMED, scales, race, planes)
-    if case.gravity is None:
-        echo = replace(echo, words=f"{echo.words}. The machine states no [gravity]: {ASSUMED.words} is taken")
-    return rotor, state, echo
+    rotor, state = released.apply(case)
+    return rotor, state, released.echo_at(rotor_of(case), rotor, state, case.gravity)

@@ -21,7 +21,7 @@ from carom.basins import Share, SmallestUnrecovered, smallest_unrecovered
 from carom.basins.families import harmless_size
 from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, VelocityKick
-from carom.disturbances.blows import LONGEST_SHOCK
+from carom.disturbances.kicks_and_shocks import LONGEST_SHOCK
 from carom.models import Rotor
 from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales

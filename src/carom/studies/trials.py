@@ -20,8 +20,8 @@ from carom.base.arguments import Count, Seed, checked
 from carom.base.results import Result
 from carom.basins.shares import Population, Share
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts
-from carom.disturbances.echo import instants_words
 from carom.disturbances.following import follow
+from carom.disturbances.plans import instants_words
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 

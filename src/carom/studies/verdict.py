@@ -13,7 +13,7 @@ from typing import Literal
 
 from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.basins import Share, SmallestUnrecovered
-from carom.disturbances.echo import ANY_INSTANT
+from carom.disturbances.plans import ANY_INSTANT
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
 from carom.studies.kinds import LABELS, Kind, required_kinds

@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
+from carom.disturbances.echo import Echo, angles_words
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.disturbances.single import Part
+from carom.disturbances.single import Part, Single
+from carom.parameters.formats import format_angle, format_quantity
 from carom.parameters.requirement import SHOCK_DURATION
 
 if TYPE_CHECKING:
     from carom.models import Rotor, Subject
     from carom.motions.starts import State
+    from carom.parameters import Scales
 
 LONGEST_SHOCK = 1e4
 """Longest duration, in ``1/Ω``: every pulse is followed to its end, over at most some 1600 turns of the shaft."""
@@ -30,7 +34,7 @@ class VelocityKick(Disturbance):
     ----------
     fastest : float
         Largest change of velocity, in ``c_r Ω``.  Directions are angles in the co-rotating frame, as those of
-        :func:`~carom.motions.starts.kick`.
+        :func:`carom.kick`.
 
     See Also
     --------
@@ -70,13 +74,49 @@ class VelocityKick(Disturbance):
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """See :meth:`Disturbance.apply`."""
         from carom.models import rotor_of
-        from carom.motions.starts import Kick
+        from carom.motions.starts import levitating
 
         rotor, radius = rotor_of(machine), rotor_of(machine).system.rest_radius
         if radius > 1.0 and rotor.system.forced is None:  # with weight the kick itself says so
             words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall"
             raise InputError("kick", radius, words)
-        return rotor, Kick(*self.whole(values, instant)).state(rotor)
+        speed, direction, begun = self.whole(values, instant, rotor.scales)
+        return rotor, levitating(rotor, cmath.rect(speed, direction), begun)
+
+    def echo(self, rotor: Rotor, *values: float) -> Echo:
+        """See :meth:`Disturbance.echo`."""
+        speed, angle = values
+        size = f"{format_quantity(speed, 'velocity', rotor.scales)} at {format_angle(angle)}"
+        sizes = {"speed": (speed, "velocity"), "angle": (angle, "")}
+        return Echo(self.kind, f"Kick: {size}; {angles_words(rotor.unbalance_phase)}", sizes)
+
+
+@checked
+def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.0) -> Single:
+    """Velocity kick out of the contact-free equilibrium.
+
+    Parameters
+    ----------
+    speed : float or str
+        In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
+    angle : float or str
+        Its direction in the co-rotating frame, from its real axis: in rad, or text with a unit, such as ``"30 deg"``.
+    instant : float or str
+        Angle by which the shaft has turned when it comes, the same way: it matters under weight, with limits of the magnetic bearings,
+        and where bearings are anisotropic.
+
+    See Also
+    --------
+    carom.State : any start
+    carom.disturbances.VelocityKick : kicks of all sizes and directions
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> cm.kick("50 mm/s", "30 deg").values
+    ('50 mm/s', '30 deg')
+    """
+    return Single(VelocityKick(), (speed, angle), instant)
 
 
 @dataclass(frozen=True)
@@ -219,14 +259,26 @@ class BaseShock(Disturbance):
         from carom.disturbances.shocks import shaken
         from carom.models import Stage, Trigger, in_stages, rotor_of
         from carom.models.stages import stages_of
-        from carom.motions.starts import Kick
+        from carom.motions.starts import levitating
 
         further = stages_of(rotor_of(machine))
         rotor = further[0].rotor
-        peak, direction, begun = self.whole(values, instant)
-        size, start = cmath.rect(peak, direction) / 2j, Kick(0.0, instant=begun).state(rotor)
+        peak, direction, begun = self.whole(values, instant, rotor.scales)
+        size, start = cmath.rect(peak, direction) / 2j, levitating(rotor, instant=begun)
         pulse = Stage(shaken(rotor, self.duration, size, start.time), Trigger(time=self.duration))
         return in_stages((pulse, *further)), start
+
+    def echo(self, rotor: Rotor, *values: float) -> Echo:
+        """See :meth:`Disturbance.echo`."""
+        (peak, angle), scales = values, rotor.scales
+        size = f"{format_quantity(peak, 'acceleration', scales)} for {format_quantity(self.duration, 'time', scales)} at {format_angle(angle)}"
+        counted = angles_words(rotor.unbalance_phase, ", as it lies when the shock begins")
+        sizes = {"peak": (peak, "acceleration"), "duration": (self.duration, "time"), "angle": (angle, "")}
+        return Echo(self.kind, f"Shock of the base: half-sine, {size}; {counted}; times count from then", sizes)
+
+    def up_to_words(self, before: float | None, scales: Scales | None) -> str:
+        """See :meth:`Disturbance.up_to_words`."""
+        return f"{super().up_to_words(before, scales)} for {format_quantity(self.duration, 'time', scales)}"
 
     def release(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.

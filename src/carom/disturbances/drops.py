@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
-from carom.models import Rotor, Stage, Subject, Trigger, in_stages, rotor_of
-from carom.models.stages import stages_of
-from carom.models.weight import levitation_of
-from carom.motions.starts import Kick, State
-from carom.parameters import Gravity, own_size, own_time
+from carom.disturbances.coordinates import Coordinate, Starts
+from carom.disturbances.echo import Echo, moving
+from carom.disturbances.model import Disturbance
+from carom.disturbances.single import Single
+from carom.parameters import MACHINE_FIELDS, Gravity, own_size, own_time
+from carom.parameters.formats import format_angle, format_quantity, number
+
+if TYPE_CHECKING:
+    from carom.models import Rotor, Subject
+    from carom.motions.starts import State
 
 ASSUMED = Gravity()
 """Weight of a rotor that states none: 9.81 m/s² downward."""
@@ -22,53 +27,13 @@ ASSUMED = Gravity()
 
 @checked
 @dataclass(frozen=True)
-class Whirl:
-    """A whirl about the centre of the bearing, as it is at one instant, when the co-rotating frame coincides with the fixed one.
-
-    Attributes
-    ----------
-    radius : float or str
-        In clearances, or text with a unit, such as ``"0.1 mm"``.
-    speed : float or str
-        In ``Ω``, or text with a unit, such as ``"80 Hz"``; negative for backward whirl.
-    angle : float or str
-        Where the rotor is, in the fixed frame: in rad, or text with a unit.
-    """
-
-    radius: float | str
-    speed: float | str
-    angle: float | str = 0.0
-
-    def stages(self, machine: Subject) -> tuple[Rotor, State]:
-        """Return the machine, which goes on levitating, and its start."""
-        rotor = rotor_of(machine)
-        return rotor, self.state(rotor)
-
-    def state(self, rotor: Rotor) -> State:
-        """Return the state at that instant; what does not move with the rotor, such as a mount, is at rest.
-
-        Raises
-        ------
-        InputError
-            A text is no such size, or the radius is below zero or beyond the wall.
-        """
-        radius = own_size("whirl radius", self.radius, "length", rotor.scales)
-        if not 0.0 <= radius <= 1.0:
-            raise InputError("whirl radius", self.radius, "must be from 0 to the clearance")
-        place = cmath.rect(radius, own_size("whirl angle", self.angle, "angle", rotor.scales))
-        turning = 1j * (own_size("whirl speed", self.speed, "speed", rotor.scales) - 1.0) * place
-        return State.of(place * rotor.system.translated, turning * rotor.system.translated)
-
-
-@checked
-@dataclass(frozen=True)
-class Drop:
+class Drop(Disturbance):
     """Levitation is lost at time zero, when the co-rotating frame coincides with the fixed one.
 
     Attributes
     ----------
-    at : State, Kick or Whirl, optional
-        State at the release; by default the rotor levitates, which is its whirl about the static sag.
+    at : State or Single, optional
+        State at the release, or what leads to it, as a kick or a whirl; by default the rotor levitates, which is its whirl about the static sag.
     phase : float or str, optional
         Angle from the direction of the fall to the unbalance at the release, in the sense of rotation: in rad, or text with a
         unit, such as ``"90 deg"``.  By default the unbalance lies at its phase in the machine.
@@ -78,13 +43,37 @@ class Drop:
         Speed of the race at the release, in ``Ω`` or text with a unit; by default that of the model, which is 0 for a machine file.
     """
 
-    at: State | Kick | Whirl | None = None
+    at: State | Single | None = None
     phase: float | str | None = None
     regained_after: float | str | None = None
     race_speed: float | str | None = None
+    kind: ClassVar[str] = "drop"
+    noun: ClassVar[str] = "drops"
+    changes_machine: ClassVar[bool] = True
 
-    @checked
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """None: all of a drop is stated."""
+        return ()
+
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+        """The state at the release, with the rotor that falls after it."""
+        falling, state = self.stages(rotor)
+        after = np.empty((), object)
+        after[()] = falling
+        found = Starts.of(np.zeros(()), 0j, True)
+        return found._replace(
+            positions=np.asarray(state.position),
+            velocities=np.asarray(state.velocity),
+            begins=np.array(state.time),
+            after=after,
+        )
+
     def stages(self, machine: Subject) -> tuple[Rotor, State]:
+        """See :meth:`apply`."""
+        return self.apply(machine)
+
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """Return the rotor that falls, and levitates again if levitation is regained, and its start.
 
         A rotor that states no weight falls by :data:`ASSUMED`, which the bias currents of its bearings carry while it levitates.
@@ -95,6 +84,9 @@ class Drop:
             The rotor has neither weight nor scales, its levitation does not stay inside the wall, it has several coordinates, its race does not turn,
             or a text is no such size.
         """
+        from carom.models import Stage, Trigger, in_stages, rotor_of
+        from carom.models.stages import stages_of
+
         rotor = rotor_of(machine)
         if rotor.weight is None and rotor.scales is None:
             raise InputError("gravity", None, "a drop needs weight, in m/s^2: a machine with mass, clearance and speed")
@@ -128,8 +120,11 @@ class Drop:
 
     def _start(self, rotor: Rotor) -> State:
         """State at the release; by default with the races as the model has them."""
+        from carom.models.weight import levitation_of
+        from carom.motions.starts import State
+
         at = self.at
-        state = State.of(*levitation_of(rotor)) if at is None else at if isinstance(at, State) else at.state(rotor)
+        state = State.of(*levitation_of(rotor)) if at is None else at if isinstance(at, State) else at.stages(rotor)[1]
         if self.race_speed is None:
             return state
         radii = [race.radius for race in rotor.races if race is not None]
@@ -138,10 +133,52 @@ class Drop:
         speed = own_size("race_speed", self.race_speed, "speed", rotor.scales)
         return State(state.position, state.velocity, tuple(radius * speed for radius in radii))
 
+    def echo_at(self, rotor: Rotor, falling: Rotor, state: State, gravity: Gravity | None) -> Echo:
+        """What was done to a rotor, which then falls from a state by a weight; by :data:`ASSUMED` if none is stated."""
+        from carom.motions.starts import amplitudes_of
+
+        scales, widths = rotor.scales, falling.system.widths.tolist()
+        phase, sizes = self.unbalance_angle(rotor), dict[str, tuple[float, str]]()
+        # On a mount the rotor is the first of two coordinates; in several bearings coordinates are no places.
+        places = [tuple(complex(np.ravel(part)[0]) for part in (state.position, state.velocity))]
+        if len(widths) > 1:
+            amplitudes, _ = amplitudes_of(falling, state)
+            each = (falling.system.at_plane(amplitudes, plane) for plane in range(len(widths)))
+            places = [
+                (width * complex(place), width * complex(rate))
+                for width, (place, rate) in zip(widths, each, strict=True)
+            ]
+        begun = [moving(place, rate, scales) for place, rate in places]
+        where = f"rotor centre {begun[0].words}"
+        if len(begun) > 1:
+            where = "; ".join(f"at touchdown bearing {number} {one.words}" for number, one in enumerate(begun, 1))
+        for count, one in enumerate(begun, 1):
+            sizes |= {f"{name}_{count}" if len(begun) > 1 else name: size for name, size in one.sizes.items()}
+        sizes["unbalance_angle"] = phase, ""
+        back = ""
+        if self.regained_after is not None:
+            regained = own_time("regained_after", self.regained_after, scales)
+            sizes["regained_after"], back = (
+                (regained, "time"),
+                f"; levitation returns after {format_quantity(regained, 'time', scales)}",
+            )
+        if self.race_speed is not None and scales is not None:
+            turning, shown = own_size("race_speed", self.race_speed, "speed", scales), MACHINE_FIELDS["speed"]
+            sizes["race_speed"] = turning, "speed"
+            back = (
+                f"; the race turns at {number(shown.in_usual_unit(turning * scales.speed), 6)} {shown.usual_unit}{back}"
+            )
+        words = (
+            f"Release: {where}, under {(gravity or ASSUMED).words}; angles count from the fixed x axis in the "
+            f"sense of rotation (unbalance at the release: {format_angle(phase)}){back}"
+        )
+        assumed = "" if gravity else f". The machine states no [gravity]: {ASSUMED.words} is taken"
+        return Echo(self.kind, words + assumed, sizes)
+
 
 @checked
 def drop(
-    at: State | Kick | Whirl | None = None,
+    at: State | Single | None = None,
     *,
     phase: float | str | None = None,
     regained_after: float | str | None = None,
@@ -151,8 +188,9 @@ def drop(
 
     Parameters
     ----------
-    at : State, Kick or carom.motions.Whirl, optional
-        State at the release; by default the rotor levitates.
+    at : State or Single, optional
+        State at the release, or what leads to it, such as ``carom.kick("50 mm/s")`` or ``carom.disturbances.whirl("0.1 mm", "80 Hz")``; by
+        default the rotor levitates.
     phase : float or str, optional
         Angle from the direction of the fall to the unbalance at the release, in the sense of rotation: in rad, or text with a
         unit, such as ``"90 deg"``; by default that of the machine.
