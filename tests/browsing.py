@@ -26,7 +26,7 @@ OPTIONS = (
 PROGRAM = """
 import sys
 from types import SimpleNamespace
-from carom.cli import main
+from carom.__main__ import run
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.page import questions
 from carom.models import rotor_of
@@ -39,7 +39,8 @@ def judge(case, tell):
         survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
     )
 questions.judge = judge
-sys.exit(main(["explore", *sys.argv[1:]]))
+sys.argv.insert(1, "explore")
+sys.exit(run())
 """
 DESK = {"width": 1280, "height": 900}
 SOON = 300_000

@@ -3,6 +3,7 @@
 import gc
 import os
 import sys
+import threading
 
 
 def run() -> int:
@@ -19,6 +20,11 @@ def run() -> int:
     except KeyboardInterrupt:
         print("carom: interrupted", file=sys.stderr)  # noqa: T201
         code = 130
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else 1
+    if threading.active_count() > 1:
+        # A thread that is still in a kernel would come back to an interpreter that is gone, which may wait for it for ever.
+        os._exit(code)
     # After a Ctrl-C during an import that runs generated code, Python exits by that signal, whatever code is returned.
     # Running any other code resets this.
     exec("")

@@ -110,12 +110,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if code != INTERRUPTED:  # caught by typer, which prints nothing
             return code if isinstance(code, int) else 0
         failure = Failure(INTERRUPTED, "interrupted")
-    told = failure.tell(as_json="--json" in words)
-    if told == TERMINATED:
-        # A thread that is still in a kernel would come back to an interpreter that is gone, and abort the process.
-        _discard_unwritten_output()
-        os._exit(told)
-    return told
+    return failure.tell(as_json="--json" in words)
 
 
 @dataclass(frozen=True)
@@ -177,14 +172,15 @@ def _failure_of(problem: BaseException) -> Failure:
 
 @contextmanager
 def _lost_interrupts_repeated() -> Iterator[None]:
-    """Repeat an interrupt that Python cannot propagate: in finalizers and callbacks of weak references."""
+    """Repeat an interrupt or a SIGTERM that Python cannot propagate: in finalizers and callbacks of weak references."""
     usual = sys.unraisablehook
 
     def told(lost: sys.UnraisableHookArgs) -> None:
-        if not issubclass(lost.exc_type, KeyboardInterrupt):
+        if not issubclass(lost.exc_type, KeyboardInterrupt | SystemExit):
             usual(lost)
             return
-        again = threading.Timer(AGAIN, _thread.interrupt_main)
+        number = signal.SIGINT if issubclass(lost.exc_type, KeyboardInterrupt) else signal.SIGTERM
+        again = threading.Timer(AGAIN, _thread.interrupt_main, (number,))
         again.daemon = True
         again.start()
 
