@@ -194,7 +194,7 @@ class Planar(Definition):
         """Its parameters in a line."""
         if self.bearing is None:
             return self.parameters.words
-        names = ("gamma", "omega", "rho", "phi", "mu", *([] if self.bearing.yields else ["d"]), "radius_ratio")
+        names = ("gamma", "omega", "rho", "phi", "mu", *([] if self.bearing.is_compliant else ["d"]), "radius_ratio")
         own = (f"{name} = {self.parameters.value(name):g}" for name in names)
         return f"{', '.join(own)}; {self.words_of_bearing}"
 
@@ -207,7 +207,7 @@ class Planar(Definition):
     @property
     def _left_out(self) -> tuple[str, ...]:
         """Parameters of the planar rotor in a rigid wall that it does not have."""
-        return RESTITUTION if self.bearing and self.bearing.yields else ()
+        return RESTITUTION if self.bearing and self.bearing.is_compliant else ()
 
     @property
     def varied(self) -> Mapping[str, Field]:
@@ -296,7 +296,7 @@ def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
 
 def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) -> Rigid | KelvinVoigt | HuntCrossley:
     """Law of a bearing in the units of a rotor's equations; the restitution is that of a rigid wall."""
-    if not bearing.yields:
+    if not bearing.is_compliant:
         return Rigid(restitution)
     exponent = bearing.exponent
     stiffness = (bearing.stiffness or 0.0) * scales.length ** (exponent - 1.0) / scales.stiffness

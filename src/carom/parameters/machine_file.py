@@ -139,7 +139,7 @@ class Case(Tabular):
             raise Gravity.without_scales(self.gravity.words)
         if self.touchdown is not None and self.touchdown.is_plain:
             object.__setattr__(self, "touchdown", None)
-        if self.touchdown is not None and not self.touchdown.yields and self.touchdown.restitution is not None:
+        if self.touchdown is not None and not self.touchdown.is_compliant and self.touchdown.restitution is not None:
             allowed = "must be left out: the restitution of a rigid wall is that of the machine, restitution"
             raise InputError(f"{PREFIX}restitution", self.touchdown.restitution, allowed)
         if self.touchdown is not None and self.parameters.scales is None:
@@ -190,7 +190,7 @@ class Case(Tabular):
         numbers = self.parameters
         if self.machine is None:
             return [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
-        left_out = ENTRIES["restitution"].words if self.touchdown and self.touchdown.yields else None
+        left_out = ENTRIES["restitution"].words if self.touchdown and self.touchdown.is_compliant else None
         return [row for row in self.machine.rows() if row[0] != left_out]
 
     def to_toml(self) -> str:
@@ -198,7 +198,7 @@ class Case(Tabular):
         numbers, machine = self.parameters, self.machine
         if machine is not None:
             text = machine.to_toml()
-            if self.touchdown and self.touchdown.yields:  # whose law has its own restitution
+            if self.touchdown and self.touchdown.is_compliant:  # whose law has its own restitution
                 text = re.sub("(?m)^restitution = .*\n", "", text)
         elif isinstance(numbers, Parameters) and numbers.scales is None:
             lines = [f"{name} = {value!r}" for name, value in numbers.as_dict().items()]
@@ -249,8 +249,8 @@ class Case(Tabular):
             return replace(self, parameters=self.parameters.replace(**changes)) if changes else self
         if of_bearing := {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}:
             return replace(self, touchdown=_changed(self.touchdown, of_bearing)).replace(**changes)
-        gives_way = self.touchdown is not None and self.touchdown.yields
-        if gives_way and (unused := {"d", "restitution"} & changes.keys()):
+        is_compliant = self.touchdown is not None and self.touchdown.is_compliant
+        if is_compliant and (unused := {"d", "restitution"} & changes.keys()):
             raise _unused_restitution(changes[min(unused)])
         numbers = {
             name: read_quantity(DIMENSIONLESS_FIELDS[name], changes[name])

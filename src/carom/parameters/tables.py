@@ -280,7 +280,7 @@ class LoadLimits(Table):
         InputError
             A depth in a rigid wall is limited, or the pressure of balls that are not stated.
         """
-        if self.depth is not None and (bearing is None or not bearing.yields):
+        if self.depth is not None and (bearing is None or not bearing.is_compliant):
             raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a compliant bearing")
         if self.pressure is not None and (bearing is None or bearing.balls is None):
             raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")

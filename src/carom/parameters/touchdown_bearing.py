@@ -175,14 +175,14 @@ class TouchdownBearing(Table):
         return InputError(name, getattr(self, name), f"must be left out: {words}")
 
     @property
-    def yields(self) -> bool:
+    def is_compliant(self) -> bool:
         """Whether the bearing is compliant."""
         return self.law != "rigid"
 
     @property
     def is_plain(self) -> bool:
         """Whether it is a rigid wall that stands still around the place of levitation, as a machine without this table has."""
-        return not self.yields and not self.given
+        return not self.is_compliant and not self.given
 
     @property
     def centre(self) -> complex:

@@ -83,7 +83,7 @@ class TouchdownPlane:
         object.__setattr__(self, "node", read_node("touchdown node", self.node))
         if not isinstance(self.bearing, TouchdownBearing):
             raise InputError("bearing", shown(self.bearing), "carom.parameters.TouchdownBearing")
-        if not self.bearing.yields and self.bearing.restitution is None:
+        if not self.bearing.is_compliant and self.bearing.restitution is None:
             raise InputError("restitution", None, "the law rigid needs it, such as restitution = 0.8")
         if self.bearing.offset:
             raise InputError(

@@ -100,7 +100,7 @@ class FlexibleMachine(NamedParameters):
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
-        if self.rotor.bends and not all(each.bearing.yields for each in self.touchdowns):
+        if self.rotor.bends and not all(each.bearing.is_compliant for each in self.touchdowns):
             allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
             raise InputError("law", "rigid", allowed)
 

@@ -230,7 +230,7 @@ def check_varied(case: Case | Rotor, name: str) -> None:
         raise InputError(f"axes.{name}", shown(name), allowed)
     elif name in OF_TABLES and name != GRAVITY_NAME and case.touchdown is None:
         raise InputError(f"axes.{name}", shown(name), "the machine has no table [touchdown]")
-    elif name in ("d", "restitution") and case.touchdown is not None and case.touchdown.yields:
+    elif name in ("d", "restitution") and case.touchdown is not None and case.touchdown.is_compliant:
         allowed = "the touchdown bearing is compliant: vary touchdown_restitution, or its damping or dissipation"
         raise InputError(f"axes.{name}", shown(name), allowed)
 
