@@ -27,8 +27,6 @@ PATIENCE = 0.7
 LONG = 2.0
 """Seconds before one appears that was not."""
 _CLOCK = len("0:00:00")
-_SETTLED = 1.0
-"""Seconds after which a rate means something."""
 
 
 @dataclass(frozen=True)
@@ -180,36 +178,17 @@ class _LateBar:
 
 
 def _bar(console: Console | None) -> rich.progress.Progress:
-    """Return a bar with clock, share, rate, time left and words; a narrow terminal shortens the bar and the words."""
+    """Return a bar with share, clock, time left and words; a narrow terminal shortens the words."""
     from rich.console import Console
-    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, TaskProgressColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
     from rich.table import Column
-    from rich.text import Text
 
-    class Words(TextColumn):
-        """The numbers, which go on while nothing is reported, and the words."""
-
-        def render(self, task: rich.progress.Task) -> Text:
-            return Text(_told(task.completed, task.elapsed or 0.0, task.description))
-
-    clock = TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=_CLOCK))
-    columns = (BarColumn(bar_width=30), clock, Words("", table_column=Column(overflow="ellipsis", no_wrap=True)))
+    clock = Column(no_wrap=True, min_width=_CLOCK)
+    words = TextColumn("{task.description}", markup=False, table_column=Column(overflow="ellipsis", no_wrap=True))
+    elapsed, remaining = TimeElapsedColumn(table_column=clock), TimeRemainingColumn(table_column=clock.copy())
+    columns = (BarColumn(bar_width=20), TaskProgressColumn(), elapsed, "elapsed,", remaining, "left:", words)
     return Bar(*columns, console=console or Console(stderr=True), transient=True)
-
-
-def _told(share: float, elapsed: float, words: str) -> str:
-    """Write share, rate and time left before the words; words that say themselves what is left stay alone.
-
-    The rate is that since the beginning.  It is not known before anything is done.
-    """
-    if share <= 0.0 or " left" in words:
-        return words
-    numbers = f"{100.0 * share:.0f} %"
-    if elapsed >= _SETTLED and share < 1.0:
-        rate = 100.0 * share / elapsed
-        numbers += f", {rate:.2g} %/s, {duration_words((1.0 - share) / share * elapsed)} left"
-    return f"{numbers}: {words}"
 
 
 def duration_words(seconds: float) -> str:

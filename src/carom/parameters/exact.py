@@ -8,7 +8,7 @@ from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 
 from carom.parameters.fields import Field
-from carom.parameters.quantities import comma_advice, read_quantity, unit_advice, unit_factor, without_separators
+from carom.parameters.quantities import number_and_unit, read_quantity, unit_advice, unit_factor, without_separators
 
 _NUMBER = re.compile(
     r"(?P<number>[+-]?[0-9]+ */ *[0-9]+|[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(?P<unit>.*)"
@@ -82,12 +82,8 @@ def read_exact(field: Field, text: str) -> ExactNumber:
 
 def _from_text(field: Field, text: str) -> ExactNumber:
     plain = without_separators(text)
-    match = _NUMBER.fullmatch(plain)
-    if advice := comma_advice(plain):
-        raise field.error(text, advice)
-    if not match:
-        raise field.error(text, "this is not a decimal number or a fraction")
-    number, unit = match["number"].replace(" ", ""), match["unit"].strip()
+    number, unit = number_and_unit(field, text, plain, _NUMBER, "this is not a decimal number or a fraction")
+    number = number.replace(" ", "")
     if "/" in number:
         if not int(number.partition("/")[2]):
             raise field.error(text, "this is not a number")
@@ -97,8 +93,6 @@ def _from_text(field: Field, text: str) -> ExactNumber:
         if written and abs(written.adjusted()) > _LARGEST_EXPONENT:
             raise field.error(text, "this is out of range")
         value = Fraction(written)
-    if field.needs_unit and not unit:
-        raise field.error(text, unit_advice(field, number))
     factor, turns = _exact_factor(field, unit, text)
     value *= factor
     # 22/7 is close enough to π for a check of the range.

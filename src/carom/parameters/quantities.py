@@ -148,14 +148,8 @@ def _from_text(field: Field, text: str) -> float | Decimal:
     plain = text.strip()
     lettered = bool(field.letter) and plain.startswith(field.letter)
     plain = without_separators(plain.removeprefix(field.letter) if lettered else plain)
-    match = _TEXT.fullmatch(plain)
-    if advice := comma_advice(plain):
-        raise field.error(text, advice)
-    if not match:
-        raise field.error(text, "this does not start with a number" if text.strip() else "this is empty")
-    number, unit = float(match["number"]), match["unit"].strip()
-    if field.needs_unit and not unit:
-        raise field.error(text, unit_advice(field, plain))
+    digits, unit = number_and_unit(field, text, plain, _TEXT, "this does not start with a number")
+    number = float(digits)
     if lettered and unit:
         raise field.error(text, f"a number after {field.letter} has no unit")
     if number == 0 or not math.isfinite(number):  # also decimals too long for Decimal, such as 1e-999999999999
@@ -163,7 +157,20 @@ def _from_text(field: Field, text: str) -> float | Decimal:
             unit_factor(field, unit, text)
         return number
     with decimal.localcontext(_DIGITS):
-        return Decimal(match["number"]) * unit_factor(field, unit, text) if unit else Decimal(match["number"])
+        return Decimal(digits) * unit_factor(field, unit, text) if unit else Decimal(digits)
+
+
+def number_and_unit(field: Field, text: str, plain: str, pattern: re.Pattern[str], otherwise: str) -> tuple[str, str]:
+    """Number and unit of a ``plain`` text; errors show the whole of it, and say that it is ``otherwise`` if it is of another pattern."""
+    if advice := comma_advice(plain):
+        raise field.error(text, advice)
+    match = pattern.fullmatch(plain)
+    if not match:
+        raise field.error(text, otherwise if text.strip() else "this is empty")
+    number, unit = match["number"], match["unit"].strip()
+    if field.needs_unit and not unit:
+        raise field.error(text, unit_advice(field, number))
+    return number, unit
 
 
 def unit_of(field: Field, text: str) -> str:
