@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from decimal import Decimal
 from typing import Any
 
 from carom.parameters.fields import PHYSICAL_PARTNER, Field
@@ -128,7 +129,8 @@ def own_entry(name: str, value: Any, scales: Scales | None) -> tuple[str, Any]:
     """A parameter with a value; with scales what a machine has in place of a dimensionless one, in SI units."""
     if scales is None or name not in PHYSICAL_PARTNER:
         return name, value
-    return PHYSICAL_PARTNER[name], CONVERSIONS[name].value(value, scales)
+    found = CONVERSIONS[name].value(value, scales)
+    return PHYSICAL_PARTNER[name], found if isinstance(value, Decimal) else float(found)
 
 
 def format_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
