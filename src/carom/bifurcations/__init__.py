@@ -20,14 +20,14 @@
 ``planes``              the plane of two parameters
 ``regions``             regions of a plane with the same motions
 ``cells``               groups of neighbouring cells
-``motions``             the simple motions of a machine
+``motions``             the simple motions of a machine, or those on which disturbances end
 ``survey``              the search for curves that explain each change
 ``changes``             changes between two points, and their causes
 ``documents``           results as plain data for JSON
 ``simulated``           branches of orbits of any machine, closed on the flow of the simulator
 ``simulated_family``    their equations
 ``simulated_branches``  those that searches lead to, for diagrams
-``settled_regions``     regions of any machine, by where disturbances settle
+``simulated_curves``    their equations in the plane of two parameters
 ======================  ====================================================================================================
 """
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -24,8 +24,11 @@ from carom.bifurcations.conditions import (
 from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.simulated_curves import KINDS as SIMULATED_KINDS
+from carom.bifurcations.simulated_curves import SimulatedCurve
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
+from carom.orbits.flow import Budget
 from carom.parameters import Numbers
 
 Function = Callable[[np.ndarray, float], np.ndarray]
@@ -81,23 +84,28 @@ KINDS: dict[str, _Kind] = {
 
 def can_be_followed(point: Bifurcation) -> bool:
     """Whether :func:`continue_curve` knows equations for a bifurcation."""
-    return point.shot is None and point.kind in KINDS
+    return point.kind in (KINDS if point.shot is None else SIMULATED_KINDS)
 
 
 @checked
-def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
+def continue_curve(
+    bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None, budget: Budget | None = None
+) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
     orbit (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the
     radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
-    virtual side.
+    virtual side.  Folds, period doublings and Neimark–Sacker bifurcations of other periodic motions are followed too, closed on the flow of the
+    simulator, with the numbers of their state as unknowns.
 
     Parameters
     ----------
     bifurcation : Bifurcation
         A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of
         :data:`KINDS`.
+    budget : Budget, optional
+        What simulated motions are paid from.
 
     Raises
     ------
@@ -120,54 +128,72 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     >>> cm.continue_curve(branch.special[0], plane).stops
     ('edge of the plane', 'edge of the plane')
     """
-    if bifurcation.shot is not None:
-        raise InputError("bifurcation", f"{bifurcation.kind} of {bifurcation.name}", "one of an orbit with one impact")
-    kind, base = bifurcation.kind, bifurcation.numbers
-    if base.mu < 0.0:
-        raise InputError("bifurcation", f"{kind} of {bifurcation.name}", "one of an orbit with forward slip")
-    plane.axes(base.parameters)
-    start, sizes = plane.start_at(base)
-    if kind not in KINDS:
-        raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
-    definition, guess = KINDS[kind], [bifurcation.period, bifurcation.radial_speed]
-    if not definition.unknowns:
-        guess = []
-    elif not np.isfinite(guess).all():
-        raise InputError("bifurcation", f"{kind} without them", "the period and radial speed of the orbit are needed")
-    if kind == "grazing":
-        guess.append(profile_at(base, *guess).top)
-
-    def numbers_at(x: float, y: float) -> Numbers:
-        return plane.numbers_at(base, x, y)
-
-    def numbers(u: np.ndarray, p: float) -> Numbers:
-        return numbers_at(float(u[-1]), p)
-
-    def watch(name: str) -> Watch:
-        test = TESTS[name]
-        ends = name in definition.ends
-        return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), at_zero="end" if ends else "pass")
-
-    bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end")] if definition.unknowns else []
-    equations = _equations(kind, numbers_at)
-    scales = np.array([*np.ones(definition.unknowns), *sizes])
+    equations: Any = (ClosedFormCurve if bifurcation.shot is None else SimulatedCurve)(bifurcation, plane, budget)
+    start, sizes = plane.start_at(equations.base)
+    steps = steps or equations.steps
+    known = len(equations.guess)
+    scales = np.array([*np.ones(known), *sizes])
     branch = continue_branch(
-        equations,
-        np.array([*guess, start[0]]),
+        equations.residual,
+        np.array([*equations.guess, start[0]]),
         float(start[1]),
         plane.second_range,
-        watches=[plane.edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
-        steps=steps or STEPS,
+        watches=[plane.edge, *equations.watches],
+        steps=steps,
         scales=scales,
-        # Where the radial speed grows without bound, the curve becomes straight.
-        reach=(lambda u: max(1.0, abs(float(u[1])))) if definition.unknowns else None,
+        reach=equations.reach,
         # A fold in the second parameter is only a turning point of the curve.
         folds="turning point",
         crossings="",
     )
-    shown = np.array([*np.full(definition.unknowns, np.inf), *plane.widths])
-    rows = refined_points(equations, branch, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS)
-    return _curve(kind, plane, branch, rows, numbers)
+    shown = np.array([*np.full(known, np.inf), *plane.widths])
+    rows = refined_points(equations.residual, branch, scales=scales, widths=shown, bend=equations.bend, steps=steps)
+    return equations.curve(branch, rows)
+
+
+class ClosedFormCurve:
+    """The equations of a bifurcation that has a closed form, its unknowns at the start, and what is watched along its curve."""
+
+    bend, steps = BEND, STEPS
+
+    def __init__(self, point: Bifurcation, plane: Plane, _: Budget | None = None) -> None:
+        self.kind, self.base, self.plane = point.kind, point.numbers, plane
+        if self.base.mu < 0.0:
+            raise InputError("bifurcation", f"{self.kind} of {point.name}", "one of an orbit with forward slip")
+        plane.axes(self.base.parameters)
+        plane.start_at(self.base)
+        if self.kind not in KINDS:
+            raise InputError("kind", self.kind, f"one of: {', '.join(KINDS)}")
+        definition, guess = KINDS[self.kind], [point.period, point.radial_speed]
+        if not definition.unknowns:
+            guess = []
+        elif not np.isfinite(guess).all():
+            raise InputError(
+                "bifurcation", f"{self.kind} without them", "the period and radial speed of the orbit are needed"
+            )
+        if self.kind == "grazing":
+            guess.append(profile_at(self.base, *guess).top)
+        self.guess = guess
+        # Where the radial speed grows without bound, the curve becomes straight.
+        self.reach = (lambda u: max(1.0, abs(float(u[1])))) if guess else None
+        bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end")] if guess else []
+        self.watches = [*bounds, *(self._watch(name) for name in (*definition.watched, *definition.ends))]
+        self.residual = _equations(self.kind, self.numbers_at)
+
+    def numbers_at(self, x: float, y: float) -> Numbers:
+        """Numbers at a point of the plane."""
+        return self.plane.numbers_at(self.base, x, y)
+
+    def _numbers(self, u: np.ndarray, p: float) -> Numbers:
+        return self.numbers_at(float(u[-1]), p)
+
+    def _watch(self, name: str) -> Watch:
+        test, at_zero = TESTS[name], "end" if name in KINDS[self.kind].ends else "pass"
+        return Watch(name, lambda u, p: test(self._numbers(u, p), *_orbit(self.kind, u)), at_zero=at_zero)
+
+    def curve(self, branch: Branch, rows: np.ndarray) -> Curve:
+        """The curve with the names and speeds of its orbits."""
+        return _curve(self.kind, self.plane, branch, rows, self._numbers)
 
 
 def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:

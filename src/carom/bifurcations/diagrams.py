@@ -26,13 +26,13 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.bifurcations.words import continue_orbit
-from carom.models import Rotor, Subject, jeffcott, rotor_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.models.axes import Axis, Ends, axis, read_interval
+from carom.orbits.flow import Budget
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import Impacts
 from carom.orbits.searched import Searched
 from carom.orbits.single_impact import find_orbits
-from carom.parameters import Parameters
 from carom.parameters.formats import shown_in
 from carom.parameters.scaling import SCALING
 
@@ -227,11 +227,12 @@ def find_bifurcations(
 
 
 def special_points(
-    parameters: Parameters, parameter: str, interval: tuple[float, float], *, virtual: bool
+    model: Rotor, parameter: str, interval: tuple[float, float], budget: Budget, *, virtual: bool
 ) -> tuple[Bifurcation, ...]:
-    """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
-    along, model = axis(parameters, parameter), jeffcott(parameters)
-    return _points(model, along, interval, _branches(model, along, interval, Reporter(), virtual=virtual)[0])
+    """Special points of :func:`find_bifurcations`, in ascending order of the parameter; what a search of simulated motions may take is limited."""
+    along = axis(model, parameter)
+    orbits, several, _ = _branches(model, along, interval, Reporter(), budget=budget, virtual=virtual)
+    return _points(model, along, interval, [*orbits, *several])
 
 
 def _points(model: Rotor, along: Axis, limits: tuple[float, float], branches: Sequence[Any]) -> tuple[Bifurcation, ...]:
@@ -242,11 +243,18 @@ def _points(model: Rotor, along: Axis, limits: tuple[float, float], branches: Se
 
 
 def _branches(
-    model: Rotor, along: Axis, limits: tuple[float, float], tell: Reporter, impacts: int = 1, *, virtual: bool
+    model: Rotor,
+    along: Axis,
+    limits: tuple[float, float],
+    tell: Reporter,
+    impacts: int = 1,
+    *,
+    budget: Budget | None = None,
+    virtual: bool,
 ) -> tuple[tuple[Any, ...], tuple[Any, ...], Searched | None]:
     """Branches of orbits with one impact a period, those of others, and what was searched."""
     if not model.has_closed_forms:
-        found, search = simulated_branches(model, along, limits, impacts, tell)
+        found, search = simulated_branches(model, along, limits, impacts, tell, budget)
         single = tuple(branch for branch in found if branch.impacts == 1)
         return single, tuple(branch for branch in found if branch.impacts != 1), search
     branches: list[OrbitBranch] = []

@@ -19,7 +19,7 @@ SAMPLES = 9
 
 def passes(curve: Curve, point: Bifurcation) -> bool:
     """Whether a bifurcation lies on a curve: the curve must pass close by with the same orbit."""
-    place = curve.plane.place_of(point.numbers)
+    place = curve.plane.place_of(point.at)
     return curve.kind == point.kind and _lies_on(curve, place, point.period, point.radial_speed)
 
 

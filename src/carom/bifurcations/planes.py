@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import overload
 
 import numpy as np
 
@@ -94,17 +95,29 @@ class Plane:
             for value, (low, high) in ((x, self.first_range), (y, self.second_range))
         )
 
-    def axes(self, base: Parameters) -> tuple[Axis, Axis]:
+    def axes(self, base: Parameters | Rotor) -> tuple[Axis, Axis]:
         """Both parameters, checked for whether the machine allows them and their ranges."""
         found = axis(base, self.first), axis(base, self.second)
         for end in (0, 1):
             self.at(base, self.first_range[end], self.second_range[end])
         return found
 
+    @overload
+    def at(self, base: Parameters, x: float, y: float) -> Parameters: ...
+
+    @overload
+    def at(self, base: Rotor, x: float, y: float) -> Rotor: ...
+
     @checked
-    def at(self, base: Parameters, x: float, y: float) -> Parameters:
-        """Parameters at a point of the plane."""
-        return self.numbers_at(Numbers.of(base), x, y).parameters
+    def at(self, base: Parameters | Rotor, x: float, y: float) -> Parameters | Rotor:
+        """Parameters, or the rotor, at a point of the plane."""
+        if isinstance(base, Parameters):
+            return self.numbers_at(Numbers.of(base), x, y).parameters
+        return base.replace(**{self.first: x}).replace(**{self.second: y})
+
+    def move(self, base: Rotor, place: tuple[float, float]) -> Rotor:
+        """The rotor at a point of the plane."""
+        return self.at(base, *place)
 
     def numbers_at(self, base: Numbers, x: float, y: float) -> Numbers:
         """Plain numbers at a point of the plane."""

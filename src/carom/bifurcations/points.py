@@ -124,6 +124,11 @@ class Bifurcation(Result):
         return cls(kind, Numbers.of(exact_rotor_of(machine).parameters), period, radial_speed)
 
     @property
+    def at(self) -> Any:
+        """What tells the values of parameters there: numbers, or the rotor."""
+        return self.numbers if self.shot is None else self.shot.rotor
+
+    @property
     def motion(self) -> MotionKind:
         """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
         if self.shot is not None and not self.shot.flies:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -12,22 +12,25 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import CaromError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result
-from carom.bifurcations.cells import Region, regions_between
+from carom.bifurcations.cells import Region, regions_between, settled_cells
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.curves import can_be_followed, continue_curve
 from carom.bifurcations.diagrams import special_points
-from carom.bifurcations.motions import motions_at
+from carom.bifurcations.motions import STARTS, Motions, motions_at
 from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.settled_regions import axes_of, settled_motions, settled_regions
 from carom.bifurcations.survey import Survey
-from carom.models import Axis, Rotor, Subject, axis, exact_rotor_of, rotor_of
+from carom.models import Axis, Rotor, Subject, rotor_of
+from carom.orbits.flow import Budget
 from carom.orbits.names import OrbitName, combined
 
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
 """Distance in widths of the plane, and relative difference of periods, below which codimension-2 points are the same."""
+
+EVENTS, CURVE_SHARE = 6e6, 0.05
+"""Simulated events after which no further point of the grid is examined; and share of these after which a diagram or a curve goes no further."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,8 +68,7 @@ class RegionMap(Result):
     curves: tuple[Curve, ...]
     regions: tuple[Region, ...]
     present: tuple[float, float] | None
-    # Not narrower: of other machines than planar ones they are those on which disturbances end.
-    present_motions: Any
+    present_motions: Motions
     unexplained: tuple[UnexplainedChange, ...] = ()
     lost: tuple[str, ...] = ()
 
@@ -157,6 +159,9 @@ def map_regions(
     bifurcation cannot be followed is listed in ``unexplained``.  A region may be missed if it fits between the points
     of the grid and no curve from elsewhere enters it.
 
+    Of machines whose orbits have no closed forms the special points are those of a diagram from a short search, and regions are told by where
+    disturbances settle.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
@@ -184,67 +189,64 @@ def map_regions(
     >>> sorted({curve.kind for curve in regions.curves})
     ['boundary-equilibrium', 'fold', 'non-smooth-hopf']
     """
-    rotor = rotor_of(machine)
-    if not rotor.has_closed_forms:
-        return _settled(rotor, plane, grid, Reporter.of(progress, "following disturbances"))
-    model = exact_rotor_of(machine)
-    parameters = model.parameters
-    axes = plane.axes(parameters)
-    tell = Reporter.of(progress, "counting motions, following curves")
-    place = plane.place_of(parameters)
+    model, budget = rotor_of(machine), Budget(EVENTS)
+    model.system.refuse_non_stationary()
+    exact, axes = model.has_closed_forms, plane.axes(model)
+    tell = Reporter.of(progress, "counting motions, following curves" if exact else "following disturbances")
+    place = plane.place_of(model)
     inside = plane.holds(*place)
-    base = parameters if inside else plane.at(parameters, *np.mean([plane.first_range, plane.second_range], axis=1))
+    base = model if inside else plane.at(model, *np.mean([plane.first_range, plane.second_range], axis=1).tolist())
     curves: list[Curve] = []
     lost: list[str] = []
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        points = special_points(base, name, interval, virtual=virtual)
+        points = special_points(base, name, interval, Budget(CURVE_SHARE * EVENTS), virtual=virtual)
         curves = _through_points(plane, points, virtual, curves, lost)
         tell(share)
-    survey = Survey(base, plane, curves)
-    examined = []
-    xs, ys = survey.grid(grid)
-    for i, x in enumerate(xs):
-        examined.append([survey.examine(np.array([x, y])) for y in ys])
-        tell(0.3 + 0.4 * (i + 1) / len(xs))
-    survey.leave_resonances()
-    survey.explain_all(examined, tell.part(0.7, 1.0))
-    survey.leave_resonances()
-    present = motions_at(parameters)
-    if inside:
-        survey.seen.setdefault(present, place)
+    present, later = motions_at(model), tell.part(0.3, 1.0)
+    if exact:
+        survey = Survey(base.parameters, plane, curves)
+        columns = survey.run(grid, later)
+        curves, unexplained = survey.curves, tuple(survey.unexplained)
+        if inside:
+            survey.seen.setdefault(present, place)
+        regions = regions_between(base.parameters, plane, columns, survey.seen)
+    else:
+        columns, examined = settled_cells(model, plane, grid, budget, later)
+        regions, unexplained = regions_between(base, plane, columns, {}), ()
+        lost += _remarks(grid, examined)
     return RegionMap(
         model=model,
         plane=plane,
         axes=axes,
-        curves=tuple(survey.curves),
-        regions=regions_between(base, plane, [column[1:-1] for column in examined[1:-1]], survey.seen),
+        curves=tuple(curves),
+        regions=regions,
         present=place if inside else None,
         present_motions=present,
-        unexplained=tuple(survey.unexplained),
+        unexplained=unexplained,
         lost=tuple(lost),
     )
 
 
-def _settled(model: Rotor, plane: Plane, grid: int, tell: Reporter) -> RegionMap:
-    """The map of any other machine, by where disturbances settle."""
-    model.system.refuse_non_stationary()
-    axes = axis(model, plane.first), axis(model, plane.second)
-    axes_of(model, plane, axes)
-    regions, notes = settled_regions(model, plane, axes, grid, tell)
-    place = plane.place_of(model)
-    inside = place if plane.holds(*place) else None
-    return RegionMap(model, plane, axes, (), regions, inside, settled_motions(model), lost=notes)
+def _remarks(grid: int, examined: int) -> list[str]:
+    """What is said of regions that are known by where disturbances settle."""
+    settled = f"Regions are told by where {STARTS} disturbances at each of {examined} points of the grid settle"
+    words = [f"{settled}; curves are followed from special points of orbits along the middle of the plane alone."]
+    if examined < grid**2:
+        words.append(
+            f"{grid**2 - examined} points of the grid were not reached within {EVENTS:.0e} events; each counts as its nearest."
+        )
+    return words
 
 
 def _through_points(
     plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str]
 ) -> list[Curve]:
-    """Add to the known curves those through special points; failures are appended to ``lost``."""
+    """Add to the known curves those through special points, simulated ones within a budget each; failures are appended to ``lost``."""
     for point in points:
         wanted = can_be_followed(point) and (virtual or point.admissible)
         if wanted and not any(passes(curve, point) for curve in curves):
             try:
-                curves = with_curve(curves, continue_curve(point, plane))
+                curves = with_curve(curves, continue_curve(point, plane, budget=Budget(CURVE_SHARE * EVENTS)))
             except CaromError as problem:
                 lost.append(f"{point.kind} of {point.name} at {point.parameter} = {point.value:.6g}: {problem}")
     return curves

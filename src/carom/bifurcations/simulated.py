@@ -143,7 +143,7 @@ ON_BRANCH = 5e-3
 """Relative distance of period and speed from those interpolated on a branch, within which an orbit is one of it."""
 
 
-def _based(orbit: SimulatedOrbit) -> SimulatedOrbit:
+def begun_at_least_radius(orbit: SimulatedOrbit) -> SimulatedOrbit:
     """The same orbit, beginning where the radius is least: there a free period is told apart from its delays, even in contact all the time."""
     motion = orbit.motion
     seen = motion.seen_at(orbit.leading_plane)
@@ -192,7 +192,7 @@ def continue_simulated(
         raise InputError(
             "orbit", len(Flow.vector(orbit.start)), f"a rotor of at most {MOST_NUMBERS} numbers of a state"
         )
-    begun = _based(orbit) if orbit.repeats is None else orbit
+    begun = begun_at_least_radius(orbit) if orbit.repeats is None else orbit
     family = Family(begun, along, limits, budget or Budget())
     vector = Flow.vector(begun.start)
     start = np.append(vector, begun.period) if family.free else vector

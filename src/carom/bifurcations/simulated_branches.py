@@ -21,21 +21,21 @@ from carom.orbits.simulated_search import search_simulated
 
 VALUES = (0.5, 0.15, 0.85)
 """Places of the range at which orbits are searched."""
-SHARE, EVENTS = 0.2, 3e6
-"""Share of the usual search there, and events after which no further orbit is followed."""
+SHARE, FIRST_SHARE, EVENTS = 0.2, 0.05, 3e6
+"""Share of the usual search there, and of one for special points alone; events after which no further orbit is followed."""
 FEW = replace(STEPS, largest=0.3, most_points=60)
 """Steps of the branches of a diagram, of which there may be many."""
 ALONE = "not followed"
 
 
 def simulated_branches(
-    model: Rotor, along: Axis, limits: tuple[float, float], impacts: int, tell: Reporter
+    model: Rotor, along: Axis, limits: tuple[float, float], impacts: int, tell: Reporter, budget: Budget | None = None
 ) -> tuple[list[SimulatedBranch], Searched]:
     """Branches of the periodic motions of any machine with at most a number of impacts, and what was searched.
 
-    Those of rotors of very many states are found at some values, and not followed.
+    Those of rotors of very many states are found at some values, and not followed.  With a ``budget`` they are searched at one value only.
     """
-    budget, done = Budget(EVENTS), list[Searched]()
+    usual, budget, done = budget is None, budget or Budget(EVENTS), list[Searched]()
     found: list[SimulatedBranch] = []
     counts: dict[int, int] = {}
 
@@ -70,12 +70,12 @@ def simulated_branches(
             found.append(replace(branch, name=CountedName(branch.impacts, counts[branch.impacts])))
 
     # Branches of many numbers are not followed, and setting up their equations takes long.
-    values = VALUES if 4 * len(model.system.rest) <= MOST_NUMBERS else VALUES[:1]
+    values = VALUES if 4 * len(model.system.rest) <= MOST_NUMBERS and usual else VALUES[:1]
     for place, share in enumerate(values):
         value = limits[0] + share * (limits[1] - limits[0])
         rotor = along.move(model, value)
         part = tell.part(place / len(values), (place + 1) / len(values))
-        orbits, searched = search_simulated(rotor, impacts, None, place, part, SHARE)
+        orbits, searched = search_simulated(rotor, impacts, None, place, part, SHARE if usual else FIRST_SHARE)
         done.append(searched)
         for orbit in orbits:
             if not any(branch.passes(orbit, value) for branch in found):

@@ -1,16 +1,18 @@
-"""The equations of a periodic motion of any machine along a parameter, and what vanishes at its special points.
+"""The equations of a periodic motion of any machine along a parameter or over a plane of two, and what vanishes at its special points.
 
 A period of any length begins where the radius is least; one of whole turns at its instant.
 """
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 
 from carom.base.outcome import InputError
+from carom.bifurcations.planes import Plane
 from carom.continuation import Watch
 from carom.models.axes import Axis
 from carom.motions.trajectories import Trajectory
@@ -24,20 +26,28 @@ LEADING = 0.2
 """Size of the multipliers that are watched in pairs."""
 
 
-class Family:
-    """The equations of a periodic motion along a parameter, in the numbers of its state and, where it is free, its period."""
+Place = float | tuple[float, float]
+"""Value of the parameter, or of both parameters of a plane."""
 
-    def __init__(self, orbit: SimulatedOrbit, along: Axis, limits: tuple[float, float], budget: Budget) -> None:
+
+class Family:
+    """The equations of a periodic motion in the numbers of its state and, where it is free, its period."""
+
+    def __init__(self, orbit: SimulatedOrbit, along: Axis | Plane, limits: tuple[float, float], budget: Budget) -> None:
         self.budget = budget
         self.orbit, self.along, self.limits = orbit, along, limits
         self.free, self.plane = orbit.repeats is None, orbit.leading_plane
-        self.size = max(abs(along.value(orbit.rotor)), 0.1 * (limits[1] - limits[0]))
-        self._flows: dict[float, Flow | None] = {}
+        self._flows: dict[Place, Flow | None] = {}
         self._motions: dict[bytes, tuple[np.ndarray, Trajectory] | None] = {}
         self._slopes: dict[bytes, np.ndarray] = {}
 
-    def flow(self, p: float) -> Flow | None:
-        """The flow at a value of the parameter; ``None`` where there is no such rotor."""
+    @cached_property
+    def size(self) -> float:
+        """Typical size of the parameter."""
+        return max(abs(self.along.value(self.orbit.rotor)), 0.1 * (self.limits[1] - self.limits[0]))
+
+    def flow(self, p: Place) -> Flow | None:
+        """The flow at a place; ``None`` where there is no such rotor."""
         if p not in self._flows:
             try:
                 rotor = self.along.move(self.orbit.rotor, p)
@@ -50,9 +60,9 @@ class Family:
         """State and period of the unknowns."""
         return (u[:-1], float(u[-1])) if self.free else (u, self.orbit.period)
 
-    def motion(self, u: np.ndarray, p: float) -> Trajectory | None:
+    def motion(self, u: np.ndarray, p: Place) -> Trajectory | None:
         """One period from the unknowns."""
-        key = u.tobytes() + np.float64(p).tobytes()
+        key = u.tobytes() + np.asarray(p, float).tobytes()
         if key not in self._motions:
             flow, (vector, period) = self.flow(p), self.split(u)
             found = None if flow is None or period <= 0.0 else flow.follow(vector, period)
@@ -60,7 +70,7 @@ class Family:
         known = self._motions[key]
         return None if known is None else known[1]
 
-    def residual(self, u: np.ndarray, p: float) -> np.ndarray:
+    def residual(self, u: np.ndarray, p: Place) -> np.ndarray:
         """How far the end is from the start, and the radial speed there if the period is free."""
         motion, flow = self.motion(u, p), self.flow(p)
         if motion is None or flow is None:
@@ -75,9 +85,9 @@ class Family:
         place, moving = system.at_plane(amplitudes, self.plane)
         return float((np.conj(place) * moving).real)
 
-    def flow_slopes(self, u: np.ndarray, p: float) -> np.ndarray:
+    def flow_slopes(self, u: np.ndarray, p: Place) -> np.ndarray:
         """Derivative of the end of the period by its start."""
-        key = u.tobytes() + np.float64(p).tobytes()
+        key = u.tobytes() + np.asarray(p, float).tobytes()
         if key not in self._slopes:
             motion, flow, (vector, _) = self.motion(u, p), self.flow(p), self.split(u)
             if motion is None or flow is None:
@@ -105,26 +115,35 @@ class Family:
         slopes[:, -1] = (self.residual(u, high) - self.residual(u, low)) / (high - low)
         return slopes
 
-    def multipliers(self, u: np.ndarray, p: float) -> np.ndarray:
+    def multipliers(self, u: np.ndarray, p: Place) -> np.ndarray:
         """Non-trivial multipliers; ``nan`` where they are not defined."""
         slopes = self.flow_slopes(u, p)
         if not np.isfinite(slopes).all():
             return np.full(len(slopes) - int(self.free), np.nan, complex)
         return multipliers_from(slopes, free=self.free)
 
+    def fold(self, u: np.ndarray, p: Place) -> float:
+        """Product of ``1 − μ`` over the non-trivial multipliers ``μ``, which vanishes at a fold, without computing any of them."""
+        apart = np.eye(len(self.split(u)[0])) - self.flow_slopes(u, p)
+        if not self.free:
+            return float(np.linalg.det(apart))
+        minors = (np.delete(np.delete(apart, i, 0), i, 1) for i in range(len(apart)))
+        return float(sum(map(np.linalg.det, minors)))
+
+    def doubling(self, u: np.ndarray, p: Place) -> float:
+        """Product of ``1 + μ``, which vanishes at a period doubling."""
+        return float(np.prod(1.0 + self.multipliers(u, p)).real)
+
+    def torus(self, u: np.ndarray, p: Place) -> float:
+        """Product of ``μν − 1`` over the pairs of multipliers that are not small, which vanishes at a Neimark–Sacker bifurcation."""
+        leading = [each for each in self.multipliers(u, p).tolist() if not abs(each) < LEADING]
+        return float(np.prod([first * second - 1.0 for first, second in combinations(leading, 2)]).real)
+
     def watches(self) -> list[Watch]:
         """Functions that vanish at period doublings and Neimark–Sacker bifurcations."""
+        return [Watch("period-doubling", self.doubling), Watch("neimark-sacker", self.torus)]
 
-        def doubling(u: np.ndarray, p: float) -> float:
-            return float(np.prod(1.0 + self.multipliers(u, p)).real)
-
-        def torus(u: np.ndarray, p: float) -> float:
-            leading = [each for each in self.multipliers(u, p).tolist() if not abs(each) < LEADING]
-            return float(np.prod([first * second - 1.0 for first, second in combinations(leading, 2)]).real)
-
-        return [Watch("period-doubling", doubling), Watch("neimark-sacker", torus)]
-
-    def orbit_at(self, u: np.ndarray, p: float, name: Any) -> SimulatedOrbit | None:
+    def orbit_at(self, u: np.ndarray, p: Place, name: Any) -> SimulatedOrbit | None:
         """The orbit of the unknowns."""
         flow, (vector, period) = self.flow(p), self.split(u)
         values = self.multipliers(u, p)

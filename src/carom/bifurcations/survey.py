@@ -51,6 +51,18 @@ class Survey:
         xs, ys = low[:, None] + np.outer(self.plane.widths, shares)
         return xs, ys
 
+    def run(self, cells: int, tell: Reporter) -> list[list[PlanePoint]]:
+        """Explain the changes between all points of the grid; return the points in the middle of its cells."""
+        examined = []
+        xs, ys = self.grid(cells)
+        for i, x in enumerate(xs):
+            examined.append([self.examine(np.array([x, y])) for y in ys])
+            tell(0.6 * (i + 1) / len(xs))
+        self.leave_resonances()
+        self.explain_all(examined, tell.part(0.6, 1.0))
+        self.leave_resonances()
+        return [column[1:-1] for column in examined[1:-1]]
+
     def examine(self, place: np.ndarray) -> PlanePoint:
         """Determine the motions at a point, and record them in ``seen``."""
         motions = motions_at(self.plane.at(self.parameters, *place.tolist()))
