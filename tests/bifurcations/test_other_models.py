@@ -51,8 +51,8 @@ def test_radial_speeds_are_those_of_the_plane_where_it_bounces():
 def test_a_diagram_shows_equilibria_and_where_disturbances_settle(monkeypatch):
     monkeypatch.setattr("carom.bifurcations.diagrams.sample_attractors", partial(sample_attractors, values=2))
     monkeypatch.setattr("carom.bifurcations.steady.SAMPLES", 5)
-    monkeypatch.setattr("carom.bifurcations.several.VALUES", 2)
-    monkeypatch.setattr("carom.bifurcations.several.GUESSES", 20)
+    monkeypatch.setattr("carom.bifurcations.followed.VALUES", 2)
+    monkeypatch.setattr("carom.bifurcations.followed.GUESSES", 20)
     rotor = single().model
     diagram = cm.find_bifurcations(rotor, "friction", (0.1, 0.2), attractors=3)
     assert {sample.value for sample in diagram.attractors} >= {0.1, 0.2}
@@ -72,8 +72,8 @@ def test_a_diagram_shows_equilibria_and_where_disturbances_settle(monkeypatch):
 
 @pytest.mark.jit_only
 def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_rotor(monkeypatch):
-    monkeypatch.setattr("carom.bifurcations.several.VALUES", 3)
-    monkeypatch.setattr("carom.bifurcations.several.GUESSES", 150)
+    monkeypatch.setattr("carom.bifurcations.followed.VALUES", 3)
+    monkeypatch.setattr("carom.bifurcations.followed.GUESSES", 150)
     numbers = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
     planar = cm.models.jeffcott(cm.parameters.Parameters(**numbers))
     exact = cm.find_bifurcations(planar, "gamma", (0.08, 0.2))

@@ -32,7 +32,7 @@ def test_regions_of_points_are_where_motions_settle(found):
     for region in found.regions:
         x, y = region.point
         rotor = found.axes[1].move(found.axes[0].move(found.model, x), y)
-        assert cm.bifurcations.settled_regions.settled_motions(rotor) == region.motions
+        assert cm.bifurcations.motions_at(rotor) == region.motions
 
 
 def test_documents_and_remarks_say_how_they_were_found(found):

@@ -11,7 +11,6 @@ from carom.base.files import as_json
 from carom.base.outcome import InputError
 from carom.bifurcations import Diagram, find_bifurcations
 from carom.bifurcations.documents import diagram_document
-from carom.bifurcations.several import lies_on
 from carom.models import jeffcott
 from carom.motions import simulate
 from carom.orbits import find_orbits
@@ -73,7 +72,7 @@ def test_every_orbit_found_lies_on_one_branch_and_names_are_unique():
         for start in branch.starts_at(middle):
             orbit = orbit_near(rotor, branch.word, start)
             assert orbit is not None
-            passing = [other.name for other in diagram().several if lies_on(orbit, middle, other)]
+            passing = [other.name for other in diagram().several if other.passes(orbit, middle)]
             # Orbits that have half the period lie on no branch of this word.
             assert passing in ([branch.name], [])
         assert set(branch.names) == {branch.name}

@@ -7,7 +7,7 @@
 ``words``               following such a branch, and switching to others
 ``word_equations``      equations of a word, and what vanishes at special points
 ``single_impact``       what the closed form tells of orbits with one impact
-``several``             orbits with several impacts for diagrams
+``followed``            orbits that searches and special points lead to, for diagrams
 ``samples``             attractors found by simulation, for diagrams
 ``points``              special points of branches
 ``neighbours``          the word on the other side of a special point at which it changes
@@ -26,7 +26,6 @@
 ``documents``           results as plain data for JSON
 ``simulated``           branches of orbits of any machine, closed on the flow of the simulator
 ``simulated_family``    their equations
-``simulated_branches``  those that searches lead to, for diagrams
 ``simulated_curves``    their equations in the plane of two parameters
 ======================  ====================================================================================================
 """

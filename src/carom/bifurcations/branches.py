@@ -18,11 +18,14 @@ from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
-from carom.orbits.shooting import Start, closed_flights, converged, links_of, unpack
+from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Word
 from carom.parameters import Numbers, Scales
 from carom.parameters.formats import format_range
 from carom.parameters.scaling import SCALING
+
+SAME = 1e-6
+"""Distance of the nodes, and of the durations, below which two orbits are the same."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -197,6 +200,16 @@ class OrbitBranch(Result):
                 start = guess if links is None else links.start
             found.append(start)
         return found
+
+    def passes(self, orbit: Orbit, value: float) -> bool:
+        """Whether the branch passes through an orbit at a value of the parameter, whichever impact either of them begins with."""
+        turns = [orbit.start.turned(places) for places in orbit.word.turns_to(self.word)]
+        for start in self.starts_at(value, orbit.rotor) if turns else ():
+            for turned in turns:
+                apart = np.abs(pack(turned) - pack(start)).max()
+                if apart < SAME * (1.0 + float(np.abs(turned.nodes).max())):
+                    return True
+        return False
 
 
 def orbit_at(rotor: Rotor, word: Word, unknowns: np.ndarray, name: OrbitName | CountedName) -> Orbit:

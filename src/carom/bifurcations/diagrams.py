@@ -14,10 +14,9 @@ from carom.base.outcome import STEADY_WORDS
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result, in_a_line
 from carom.bifurcations.branches import OrbitBranch
+from carom.bifurcations.followed import followed_branches
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
-from carom.bifurcations.several import lies_on, searched_branches
-from carom.bifurcations.simulated_branches import simulated_branches
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -254,7 +253,7 @@ def _branches(
 ) -> tuple[tuple[Any, ...], tuple[Any, ...], Searched | None]:
     """Branches of orbits with one impact a period, those of others, and what was searched."""
     if not model.has_closed_forms:
-        found, search = simulated_branches(model, along, limits, impacts, tell, budget)
+        found, search = followed_branches(model, along, limits, impacts, (), virtual=virtual, budget=budget, tell=tell)
         single = tuple(branch for branch in found if branch.impacts == 1)
         return single, tuple(branch for branch in found if branch.impacts != 1), search
     branches: list[OrbitBranch] = []
@@ -262,13 +261,15 @@ def _branches(
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
         for orbit in _orbits(along.move(model, value)):
             wanted = virtual or orbit.admissible or orbit.name.pair == 1
-            if wanted and not any(lies_on(orbit, value, branch) for branch in branches):
+            if wanted and not any(branch.passes(orbit, value) for branch in branches):
                 branches.append(continue_orbit(orbit, along.name, limits))
         part((done + 1) / SAMPLES)
     if impacts == 1:
         return tuple(branches), (), None
     rest = tell.part(SINGLE_SHARE, 1.0)
-    several, searched = searched_branches(model, along, limits, impacts, branches, virtual=virtual, tell=rest)
+    several, searched = followed_branches(
+        model, along, limits, impacts, branches, virtual=virtual, budget=budget, tell=rest
+    )
     return tuple(branches), several, searched
 
 

@@ -1,0 +1,199 @@
+"""Branches of orbits for diagrams: through what searches at some values find, and from special points of known branches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from typing import Any
+
+import numpy as np
+
+from carom.base.outcome import CaromError
+from carom.base.progress import Reporter
+from carom.bifurcations.branches import OrbitBranch
+from carom.bifurcations.neighbours import BORDERS
+from carom.bifurcations.points import HALVING, Bifurcation
+from carom.bifurcations.simulated import MOST_NUMBERS, STEPS, SimulatedBranch, continue_simulated, switch_simulated
+from carom.bifurcations.words import continue_orbit, renamed, switch
+from carom.models import Rotor
+from carom.models.axes import Axis
+from carom.orbits.flow import Budget, Flow
+from carom.orbits.names import CountedName
+from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.search import Search
+from carom.orbits.searched import Searched
+from carom.orbits.simulated import SimulatedOrbit, numbered
+from carom.orbits.simulated_search import search_simulated
+
+VALUES = 9
+"""Number of values of the parameter at which words of impacts are searched."""
+GUESSES, SETTLED, FRESH = 300, 1000, 300
+"""Guesses at each value for each number of impacts, motions followed until they settle, and fresh ones (:class:`~carom.orbits.search.Search`)."""
+PLACES = (0.5, 0.15, 0.85)
+"""Places of the range at which orbits of any machine are searched."""
+SHARE, FIRST_SHARE, EVENTS = 0.2, 0.05, 3e6
+"""Share of the usual search there, and of one for special points alone; events after which no further orbit is followed."""
+FEW = replace(STEPS, largest=0.3, most_points=60)
+"""Steps of simulated branches, of which there may be many."""
+ALONE = "not followed"
+SAME = 1e-6
+"""Distance from a period doubling below which a branch is born in it."""
+
+
+@dataclass
+class Followed:
+    """Branches of orbits with at most a number of impacts a period along a parameter, each once.
+
+    They are born in period doublings of known branches, or, as words of impacts, meet them where an impact grazes or vanishes, or friction begins to stop
+    the slip; or they pass through orbits that a search finds at some values.  What a search does not come near to is missing.
+
+    Attributes
+    ----------
+    singles : sequence of OrbitBranch
+        Branches of the orbits that the closed form gives.
+    virtual : bool
+        Follow words among virtual orbits to any distance from a motion.
+    budget : Budget
+        What simulated motions are paid from.
+    """
+
+    along: Axis
+    limits: tuple[float, float]
+    impacts: int
+    singles: Sequence[OrbitBranch]
+    virtual: bool
+    budget: Budget
+    found: list[Any] = field(default_factory=list)
+
+    @property
+    def branches(self) -> list[Any]:
+        """All known branches."""
+        return [*self.singles, *self.found]
+
+    def _name(self, impacts: int) -> CountedName:
+        return CountedName(impacts, 1 + sum(branch.name.impacts == impacts for branch in self.found))
+
+    def follow(self, orbit: Orbit | SimulatedOrbit, value: float) -> None:
+        """Follow an orbit that lies on no branch, and the branches that begin on its own."""
+        if any(branch.passes(orbit, value) for branch in self.found):
+            return
+        if isinstance(orbit, Orbit):
+            self._add(
+                renamed(
+                    continue_orbit(orbit, self.along.name, self.limits, virtual=self.virtual), self._name(orbit.impacts)
+                )
+            )
+            return
+        named = numbered(orbit, self._name(orbit.impacts).number)
+        try:
+            followed = len(Flow.vector(orbit.start)) <= MOST_NUMBERS and not self.budget.spent
+            branch = continue_simulated(named, self.along.name, self.limits, FEW, self.budget) if followed else None
+        except CaromError:
+            branch = None
+        # Where it cannot be followed the orbit is shown alone.
+        alone = SimulatedBranch(self.along, named.name, orbit.rotor, np.array([value]), (named,), (), (ALONE, ALONE))
+        self._add(branch if branch is not None and len(branch) else alone)
+
+    def _add(self, branch: OrbitBranch | SimulatedBranch) -> None:
+        self.found.append(branch)
+        self.leave(branch.special)
+
+    def leave(self, points: Sequence[Bifurcation]) -> None:
+        """Follow the branches that begin at special points of another."""
+        for point in points:
+            simulated = isinstance(point.shot, SimulatedOrbit)
+            if not (self.virtual or point.admissible) or not self._begins_another(point):
+                continue
+            try:
+                branch: Any = (
+                    switch_simulated(point, self.limits, self.budget)
+                    if simulated
+                    else switch(point, self.limits, virtual=self.virtual)
+                )
+            except CaromError:
+                continue
+            if not simulated:
+                self._add(renamed(branch, self._name(branch.impacts)))
+                continue
+            middle = len(branch) // 2
+            if not any(other.passes(branch.orbits[middle], float(branch.values[middle])) for other in self.found):
+                self.found.append(replace(branch, name=self._name(branch.impacts)))
+
+    def _begins_another(self, point: Bifurcation) -> bool:
+        """Whether a branch of orbits with so many impacts begins at a special point, which is not known."""
+        if isinstance(point.shot, SimulatedOrbit):
+            few = point.kind == "period-doubling" and 2 * point.orbit.impacts <= self.impacts
+            return few and not self.budget.spent
+        if point.kind == "period-doubling":
+            return 2 * point.orbit.impacts <= self.impacts and not any(
+                _begins_at(each, point) for each in self.branches
+            )
+        if point.kind not in BORDERS:
+            return False
+        try:
+            word, start = BORDERS[point.kind](point.orbit)
+        except CaromError:
+            return False
+        other = orbit_near(point.orbit.rotor, word, start) if 2 <= len(word) <= self.impacts else None
+        return other is not None and not any(branch.passes(other, point.value) for branch in self.branches)
+
+    def known(self, rotor: Rotor, value: float) -> list[Orbit]:
+        """Orbits of known branches at a value of the parameter, of words of impacts."""
+        starts = ((branch, start) for branch in self.branches for start in branch.starts_at(value, rotor))
+        orbits = (orbit_near(rotor, branch.word, start) for branch, start in starts)
+        return [orbit for orbit in orbits if orbit is not None and orbit.admissible]
+
+
+def followed_branches(
+    model: Rotor,
+    along: Axis,
+    limits: tuple[float, float],
+    impacts: int,
+    singles: Sequence[OrbitBranch],
+    *,
+    virtual: bool,
+    budget: Budget | None,
+    tell: Reporter,
+) -> tuple[tuple[Any, ...], Searched]:
+    """Branches of orbits with at most a number of impacts a period beside those of the closed form, and what was searched.
+
+    Orbits found at one value are followed to all others, those of rotors of very many states are not.  With a ``budget`` they are simulated
+    at one value only.
+    """
+    all_of = Followed(along, limits, impacts, singles, virtual, budget or Budget(EVENTS))
+    for single in singles:
+        all_of.leave(single.special)
+    exact, done = model.has_closed_forms, list[Searched]()
+    values = np.linspace(*limits, VALUES).tolist()
+    if not exact:
+        # Branches of many numbers are not followed, and setting up their equations takes long.
+        few = budget is not None or 4 * len(model.system.rest) > MOST_NUMBERS
+        values = [limits[0] + share * (limits[1] - limits[0]) for share in (PLACES[:1] if few else PLACES)]
+    for place, value in enumerate(values):
+        rotor, part = along.move(model, value), tell.part(place / len(values), (place + 1) / len(values))
+        if exact:
+            search = Search(rotor, impacts, all_of.known(rotor, value))
+            done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
+            orbits = [
+                each for each in search.found if isinstance(each, Orbit) and each.admissible and each.impacts >= 2
+            ]
+        else:
+            share = SHARE if budget is None else FIRST_SHARE
+            found, searched = search_simulated(rotor, impacts, None, place, part, share)
+            orbits = list(found)
+            done.append(searched)
+        for orbit in orbits:
+            all_of.follow(orbit, value)
+    return tuple(all_of.found), reduce(Searched.and_then, done)
+
+
+def _begins_at(branch: OrbitBranch, point: Bifurcation) -> bool:
+    """Whether a branch is born in a period doubling."""
+    return any(
+        end.kind == HALVING
+        and branch.impacts == 2 * point.orbit.impacts
+        and abs(end.value - point.value) < SAME * (1.0 + abs(point.value))
+        and abs(end.orbit.period - 2.0 * point.orbit.period) < 1e-2 * end.orbit.period
+        for end in branch.special
+    )
