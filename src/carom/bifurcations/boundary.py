@@ -19,29 +19,25 @@ the source paper): from ``|1 + q a₁₂ ṙ| = |U*|``,
     ṙ ≈ −g/Re(q a₁₂(T)).
 
 Where ``Re(q a₁₂) < 0`` the orbit (``a``, ``b``) exists on the side where the rotor levitates, and bounds the
-disturbances that come back; otherwise the orbit (``c``, ``d``) takes over on the other side.  ``F₁`` does not depend on
-``ρ``, and ``ρ`` moves ``U*`` along its radius.  So the orbits are computed at a small gap that is set by ``ρ``, where
-the general search decides whether they stay inside between impacts.
+disturbances that come back; otherwise the orbit (``c``, ``d``) takes over on the other side.  They are known to first order in the gap (:func:`~carom.closed_forms.small_cycles`).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
 from carom.base.results import Result
+from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
-from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
+from carom.closed_forms.wall_meetings import small_cycles
+from carom.models import Subject, exact_rotor_of, jeffcott
 from carom.orbits.names import OrbitName
-from carom.orbits.orbit import Orbit
-from carom.orbits.single_impact import orbits_within_reach
-from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-
-SMALL_GAP = 1e-5
-"""Gap at which small orbits are computed: higher-order terms are of this order, rounding errors of ``1e-16/1e-5``."""
+from carom.orbits.single_impact import longest_within_reach
+from carom.parameters import Parameters
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -187,35 +183,16 @@ def _classified(
 
 
 def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:
-    """Orbits near the boundary equilibrium on both sides, and whether all were searched."""
+    """Orbits that shrink into the boundary equilibrium, and whether these are all."""
     if at.gamma <= 0.0:
         return (), False
-    found = []
-    complete = True
-    for inside in (True, False):
-        orbits = orbits_within_reach(_at_gap(at, SMALL_GAP if inside else -SMALL_GAP))
-        complete = complete and orbits.complete
-        found += [_small_orbit(orbit, inside) for orbit in _smallest(tuple(orbits)) if orbit.radial_speed > 0.0]
-    return tuple(sorted(found, key=lambda orbit: orbit.name)), complete
-
-
-def _at_gap(at: Parameters, gap: float) -> Rotor:
-    """Rotor at a boundary equilibrium with its equilibrium moved inward, or outward where the gap is negative."""
-    rho = at.rho * (1.0 - gap)
-    if rho <= DIMENSIONLESS_FIELDS["rho"].highest:
-        return jeffcott(at.replace(rho=rho))
-    # The unbalance would exceed its limit: move nearer to resonance instead, which changes the orbits to first order.
-    share = 1.0 / (1.0 - gap)
-    return jeffcott(at.replace(gamma=at.gamma * share, omega=math.sqrt(1.0 + (at.omega**2 - 1.0) * share)))
-
-
-def _smallest(orbits: tuple[Orbit, ...]) -> list[Orbit]:
-    """Select of the two orbits of each period the one that shrinks with the gap."""
-    pairs: dict[tuple[str, float], list[Orbit]] = {}
-    for orbit in orbits:
-        pairs.setdefault((orbit.name[0], orbit.period), []).append(orbit)
-    return [min(pair, key=lambda orbit: abs(orbit.radial_speed)) for pair in pairs.values() if len(pair) == 2]
-
-
-def _small_orbit(orbit: Orbit, inside: bool) -> SmallOrbit:
-    return SmallOrbit(orbit.name, orbit.period, orbit.radial_speed / SMALL_GAP, inside, orbit.admissible, orbit.stable)
+    rotor, found = jeffcott(at), []
+    longest = longest_within_reach(rotor)
+    meeting = small_cycles(rotor, longest=longest)
+    starts_below = PeriodCondition.planar(at).roots(longest).starts_below
+    for root, cycle in enumerate(meeting.cycles):
+        # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
+        pair, longer = divmod(root + int(starts_below), 2)
+        name = OrbitName(pair + 1, bool(longer), not cycle.levitating_side)
+        found.append(SmallOrbit(name, *(getattr(cycle, each.name) for each in fields(SmallOrbit)[1:])))
+    return tuple(sorted(found, key=lambda orbit: orbit.name)), meeting.complete
