@@ -55,26 +55,6 @@ def solved(machine: Machine, speeds: np.ndarray) -> np.ndarray:
     return found[:, 0] / machine.clearance
 
 
-def test_the_response_is_that_of_the_equations_of_motion():
-    random = np.random.default_rng(1)
-    for _ in range(MACHINES):
-        machine = random_machine(random)
-        speeds = machine.speed * random.uniform(0.1, 10.0, 50)
-        found = speed_response(machine).displacement(speeds)
-        # Next to an undamped resonance both lose digits to the same cancellation.
-        np.testing.assert_allclose(found, solved(machine, speeds), rtol=1e-9)
-
-
-def test_it_is_the_contact_free_equilibrium_at_every_speed():
-    random = np.random.default_rng(2)
-    for _ in range(10):
-        machine = random_machine(random)
-        for speed in machine.speed * random.uniform(0.2, 5.0, 4):
-            rotor = jeffcott(machine.replace(speed=speed).parameters)
-            turned = rotor.equilibrium * np.exp(-1j * rotor.unbalance_phase)
-            assert speed_response(machine).displacement(np.array(speed)) == pytest.approx(turned, rel=1e-9)
-
-
 def test_critical_speed_and_amplification_against_a_fine_sweep():
     """The peak is searched numerically, and the half-power speeds read off a fine grid, as from a measured curve."""
     random = np.random.default_rng(3)
@@ -146,7 +126,6 @@ def test_without_damping_or_unbalance():
     free = speed_response(machine.replace(damping=0.0))
     assert free.critical_speed == free.natural_frequency == pytest.approx(140.0)
     assert free.peak == free.amplification_factor == math.inf
-    assert free.amplitude(np.array([140.0])) == math.inf
 
 
 def test_rub_angles_are_those_of_the_equilibria():

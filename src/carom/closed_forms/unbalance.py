@@ -62,21 +62,6 @@ class SpeedResponse(Result):
     amplification_factor: float | None
 
     @checked
-    def displacement(self, speeds: Reals) -> np.ndarray:
-        """Displacement ``U*e^{−iφ}`` in the co-rotating frame, seen along the unbalance; of the shape of ``speeds``."""
-        ratio = self.natural_frequency / np.asarray(speeds, float)
-        stiffness = ratio * ratio - 1.0 + 2j * self.damping_ratio * ratio
-        nowhere = stiffness == 0.0
-        response: np.ndarray = self.rotor.parameters.rho / np.where(nowhere, 1.0, stiffness)
-        return np.where(nowhere, np.inf + 0j, response)
-
-    @checked
-    def amplitude(self, speeds: Reals) -> np.ndarray:
-        """Radius ``|U*|`` of the whirl, in clearances."""
-        radius: np.ndarray = np.abs(self.displacement(speeds))
-        return radius
-
-    @checked
     def beyond(self, radius: Positive) -> tuple[float, float] | None:
         """Range of speeds at which the amplitude exceeds a radius above 0; its end may be infinite.  ``None``: nowhere."""
         return _range(self.natural_frequency, self.damping_ratio, self.rotor.parameters.rho / radius)
