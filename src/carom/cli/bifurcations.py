@@ -91,7 +91,7 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
     now = _shown(diagram.axis, present)
-    screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {now}")
+    screen.print(f"Bifurcations over {diagram.axis.field.words}, {ends}; now {now}")
     unit = shown_in("time", diagram.model.scales)[1]
     columns = (
         diagram.parameter,

@@ -79,8 +79,7 @@ def _print_map(screen: Console, found: RegionMap) -> None:
     from carom.cli.fitting import print_table
 
     names = tuple(map(quantity, found.axes))
-    first, second = (f"{axis.field.words} {name}" for axis, name in zip(found.axes, names, strict=True))
-    screen.print(f"Plane of {first} and {second}")
+    screen.print(f"Plane of {' and '.join(axis.field.words for axis in found.axes)}")
     screen.print()
     if not found.curves and found.model.has_closed_forms:
         screen.print("No bifurcation in this plane.")
@@ -98,16 +97,22 @@ def _tables(
     found: RegionMap, names: tuple[str, ...]
 ) -> Iterator[tuple[str, tuple[str, ...], list[tuple[str, ...]], list[str]]]:
     """Title, headings, rows and styles of each table."""
+    from carom.bifurcations.planes import EDGE
     from carom.parameters.formats import format_quantity
 
     rows, styles, at = [], [], f"at {', '.join(names)}"
     for curve in found.curves:
         ends = [_place(found, curve.points[end]) for end in (0, -1)]
         virtual = "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
-        stops = ", ".join(dict.fromkeys(map(named, curve.stops)))
+        stops = ", ".join(dict.fromkeys(named(stop) for stop in curve.stops if stop != EDGE))
         rows.append((named(curve.kind), curve.subject, *ends, stops, virtual))
         styles.append("dim" if virtual == "virtual" else "")
-    yield "Curves", ("bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "possible"), rows, styles
+    yield (
+        "Curves",
+        ("bifurcation", "of", f"from {', '.join(names)}", "to", "ends before the edge of the plane", "possible"),
+        rows,
+        styles,
+    )
     rows = []
     for point in found.codimension2:
         scales = found.plane.at(found.model.parameters, *point.value).scales
