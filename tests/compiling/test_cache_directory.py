@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import carom.core
 from carom.core.compiling import cache_directory as place
 
 fresh = place.cache_directory.__wrapped__
@@ -123,10 +124,11 @@ def test_an_unusable_choice_falls_back(tmp_path):
 
 def test_the_cache_is_keyed_by_the_sources(tmp_path, monkeypatch):
     core = tmp_path / "core"
-    core.mkdir()
+    compiling = core.joinpath(*Path(place.__file__).parent.relative_to(Path(carom.core.__file__).parent).parts)
+    compiling.mkdir(parents=True)
     for name in ("layout.py", "flow.py"):
         (core / name).write_text("x = 1\n")
-    monkeypatch.setattr(place, "__file__", str(core / "cache_directory.py"))
+    monkeypatch.setattr(place, "__file__", str(compiling / "cache_directory.py"))
     monkeypatch.setenv("CAROM_CACHE_DIR", str(tmp_path / "cache"))
     first = fresh()
     assert fresh() == first

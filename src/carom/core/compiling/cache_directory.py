@@ -24,7 +24,7 @@ TRIAL = 65_536
 def cache_directory() -> Path | None:
     """Directory of compiled kernels: the one set in the environment, the user's cache or one for temporary files.
 
-    Its name contains a hash of all sources in ``core/`` and ``compiling/``.  A kernel contains the machine code of the
+    Its name contains a hash of all sources in ``core/``, of which ``compiling/`` is a part.  A kernel contains the machine code of the
     kernels it calls, so an edit of any of them makes it stale.
 
     Anyone who can write to this directory can have their own code executed.  The system's directory for temporary files
@@ -37,8 +37,7 @@ def cache_directory() -> Path | None:
         None if no directory is writable.
     """
     digest = hashlib.sha256()
-    package = Path(__file__).parents[1]
-    for source in sorted(path for part in ("compiling", "core") for path in (package / part).rglob("*.py")):
+    for source in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(source.read_bytes())
     shared = Path(tempfile.gettempdir()) / f"carom-{_user()}"
     roots = [user_cache_path("carom"), shared]
