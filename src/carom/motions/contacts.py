@@ -5,7 +5,8 @@ An impact on a rigid touchdown bearing is a contact of no duration.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -88,6 +89,43 @@ class ContactLog(Table):
     def contact_work(self) -> np.ndarray:
         """Work on the contact point, never positive in the sum over bearings struck in one instant."""
         return -self.normal_loss - self.heat
+
+    @property
+    def left(self) -> np.ndarray:
+        """Which of them the rotor has left again: an impact, where it bounced."""
+        return np.where(self.is_impact, self.radial_speed_after < 0.0, ~self.lasts)
+
+    @classmethod
+    def joined(cls, logs: Sequence[tuple[float, ContactLog]]) -> ContactLog:
+        """Logs of several stages or pieces as one, each with the time from which its times count."""
+        columns: dict[str, Any] = {
+            name: np.concatenate([getattr(log, name) for _, log in logs]) for name in cls.columns
+        }
+        begins = np.repeat([since for since, _ in logs], [len(log) for _, log in logs])
+        return cls(**columns | {name: columns[name] + begins for name in _INSTANTS}, scales=logs[0][1].scales)
+
+    @property
+    def whole(self) -> ContactLog:
+        """The same where one that is not entered goes on from one before that lasts: both are one contact."""
+        begun = np.ones(len(self), bool)
+        begun[1:] = self.entered[1:] | self.left[:-1]
+        first, last = np.flatnonzero(begun), np.flatnonzero(np.append(begun[1:], True))
+        if begun.all():
+            return self
+        peaks = np.maximum.reduceat(self.peak_force, first)
+        hardest = self.peak_force == np.repeat(peaks, last - first + 1)
+        columns: dict[str, Any] = {
+            name: getattr(self, name)[last if name in _AT_END else first] for name in self.columns
+        }
+        columns |= {name: np.add.reduceat(getattr(self, name), first) for name in _SUMS}
+        columns["peak_time"] = np.minimum.reduceat(np.where(hardest, self.peak_time, np.inf), first)
+        columns["deepest"] = np.maximum.reduceat(self.deepest, first)
+        return replace(self, **columns | {"peak_force": peaks})
+
+
+_INSTANTS = ("time", "end", "peak_time")
+_AT_END = ("end", "lasts", "radial_speed_after", "angular_speed_after", "slip_after", "sticks")
+_SUMS = ("duration", "normal_impulse", "friction_impulse", "heat", "normal_loss", "drive_work")
 
 
 def contacts_of(motion: Trajectory, works: ContactWorks | None = None) -> ContactLog:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.base.outcome import InputError
+from carom.motions.contacts import ContactLog
 from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_lead
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
@@ -118,11 +119,10 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
 
 
 def _blows(parts: list[Trajectory], until: float) -> Blows:
-    logs = [(part.begins, part.contacts) for part in parts]
-    columns = [(since + log.time, log.normal_impulse, log.friction_impulse, log.slip_before) for since, log in logs]
-    times, *rest = map(np.concatenate, zip(*columns, strict=True))
-    impulses, frictions, slips = (each[times <= until] for each in rest)
-    return Blows(times[times <= until], impulses, frictions, np.abs(slips))
+    log = ContactLog.joined([(part.begins, part.contacts) for part in parts])
+    here = log.time <= until
+    columns = log.time, log.normal_impulse, log.friction_impulse, np.abs(log.slip_before)
+    return Blows(*(each[here] for each in columns))
 
 
 def shown_until(motion: Trajectory) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,8 +15,8 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.hertz import ball_pressure
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
-from carom.motions.contacts import contacts_of
-from carom.motions.kinematics import is_compliant, presses, race_speed
+from carom.motions.contacts import ContactLog, contacts_of
+from carom.motions.kinematics import presses, race_speed
 from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads
 from carom.motions.magnets import reach_with
 from carom.motions.settling import PATIENCE
@@ -138,59 +137,6 @@ def _added(pieces: Iterable[Trajectory]) -> DropLoads:
     )
 
 
-class _Contacts(NamedTuple):
-    """Contacts, or impacts on a rigid wall; arrays of shape (n,), times from the beginning of the motion."""
-
-    starts: np.ndarray
-    peak_times: np.ndarray
-    peaks: np.ndarray
-    impulses: np.ndarray
-    speeds: np.ndarray
-    after: np.ndarray
-    heat: np.ndarray
-    entered: np.ndarray
-    left: np.ndarray
-    stages: np.ndarray
-    """Times at which the stages begin in which they end."""
-
-    @classmethod
-    def of(cls, pieces: list[tuple[np.ndarray, ...]]) -> _Contacts:
-        """Contacts of all pieces; one that lasts at the end of a piece goes on with the first of the next, if that is not entered."""
-        each = cls(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
-        begun = np.ones(len(each.starts), bool)
-        begun[1:] = each.entered[1:] | each.left[:-1]
-        first, last = np.flatnonzero(begun), np.flatnonzero(np.append(begun[1:], True))
-        if not len(first):
-            return each
-        peaks = np.maximum.reduceat(each.peaks, first)
-        hardest = each.peaks == np.repeat(peaks, last - first + 1)
-        return cls(
-            starts=each.starts[first],
-            peak_times=np.minimum.reduceat(np.where(hardest, each.peak_times, np.inf), first),
-            peaks=peaks,
-            impulses=np.add.reduceat(each.impulses, first),
-            speeds=each.speeds[first],
-            after=each.after[last],
-            heat=np.add.reduceat(each.heat, first),
-            entered=each.entered[first],
-            left=each.left[last],
-            stages=each.stages[last],
-        )
-
-    def largest(self, values: np.ndarray) -> int | None:
-        """Which of them has the largest value above zero, the first of several; ``None`` if there is none."""
-        return int(values.argmax()) if values.max(initial=0.0) > 0.0 else None
-
-    @property
-    def first(self) -> FirstContact | None:
-        """The first one that has a force."""
-        pressing = np.flatnonzero(self.peaks > 0.0)
-        if not len(pressing):
-            return None
-        peak, start, time, left = (each[pressing[0]] for each in (self.peaks, self.starts, self.peak_times, self.left))
-        return FirstContact(float(peak), float(start), float(time), bool(left))
-
-
 @dataclass
 class _AtPlane:
     """Sums of a plane."""
@@ -199,33 +145,26 @@ class _AtPlane:
     heat: float = 0.0
     restitution_loss: float = 0.0
     largest: np.ndarray = field(default_factory=lambda: np.zeros(9))
-    pieces: list[tuple[np.ndarray, ...]] = field(default_factory=list)
+    logs: list[tuple[float, ContactLog]] = field(default_factory=list)
     race: float = 0.0
     since: float | None = None
     turned_back: dict[int, float] = field(default_factory=lambda: {1: 0.0, -1: 0.0})
 
     def add(self, seen: Trajectory, works: ContactWorks) -> None:
         """Add a piece, seen at the plane."""
-        system, plane, begins = seen.rotor.system, seen.plane, seen.begins
-        self.contact_time += float(seen.durations[presses(seen.segment_phases[:, plane])].sum())
-        steps = works.found[:, plane]
+        self.contact_time += float(seen.durations[presses(seen.segment_phases[:, seen.plane])].sum())
+        steps = works.found[:, seen.plane]
         self.heat += float(steps[:, HEAT].sum())
         self.largest = np.maximum(self.largest, steps.max(axis=0, initial=0.0))
         log = contacts_of(seen, works)
-        impacts, loss = log.is_impact, float(log.normal_loss.sum())
-        if not is_compliant(system, plane):
+        loss = float(log.normal_loss.sum())
+        if not seen.is_compliant:
             # A landing stands for the last bounces of a chatter.
-            landings = seen.log_of(seen.is_landing & (seen.event_planes == plane))
+            landings = seen.log_of(seen.is_landing & (seen.event_planes == seen.plane))
             self.heat += float(log.heat.sum() + landings.heat.sum())
             loss += float(landings.normal_loss.sum())
         self.restitution_loss += loss
-        peaks, left = (
-            np.where(impacts, 0.0, log.peak_force),
-            np.where(impacts, log.radial_speed_after < 0.0, ~log.lasts),
-        )
-        speeds, stages = (log.radial_speed, log.radial_speed_after), np.full(len(log), begins)
-        times = begins + log.time, begins + log.peak_time
-        self.pieces.append((*times, peaks, log.normal_impulse, *speeds, log.heat, log.entered, left, stages))
+        self.logs.append((seen.begins, log))
         self._move(seen)
 
     def _move(self, seen: Trajectory) -> None:
@@ -249,51 +188,68 @@ class _AtPlane:
     def found(self, last: Trajectory) -> TouchdownLoads:
         """All that is told of the plane at the end of a piece, which reaches back over the last turns."""
         rotor, scales, plane = last.rotor, last.scales, last.plane
-        soft, race, contacts = is_compliant(rotor.system, plane), rotor.races[plane], _Contacts.of(self.pieces)
+        soft, race, contacts = last.is_compliant, rotor.races[plane], ContactLog.joined(self.logs).whole
+        peaks, left = np.nan_to_num(contacts.peak_force), contacts.left
         force, bearing = float(self.largest[FORCE]), rotor.definition.bearing_at(plane)
         if not soft and last.outcome is Outcome.ROLLING:
             force = max(force, exact_results(rotor).rolling_force)
         # The impulse of a contact that lasts grows on.
-        hardest = contacts.largest(np.where(contacts.left | (contacts.peaks == 0.0), contacts.impulses, 0.0))
-        strongest = contacts.largest(contacts.peaks)
-        fastest = contacts.largest(np.where(contacts.entered & contacts.left, contacts.speeds, 0.0))
+        hardest = _largest(np.where(left | (peaks == 0.0), contacts.normal_impulse, 0.0))
+        strongest = _largest(peaks)
+        fastest = _largest(np.where(contacts.entered & left, contacts.radial_speed, 0.0))
         at_end = race_speed(rotor.system, plane, last.last_amplitudes)
         return TouchdownLoads(
             plane=plane,
             gives_way=soft,
             outcome=last.outcome,
-            contacts=len(contacts.starts),
-            bounces=int(contacts.left.sum()),
-            impulse=0.0 if hardest is None else float(contacts.impulses[hardest]),
-            impulse_at=None if hardest is None else float(contacts.peak_times[hardest]),
+            contacts=len(contacts),
+            bounces=int(left.sum()),
+            impulse=0.0 if hardest is None else float(contacts.normal_impulse[hardest]),
+            impulse_at=None if hardest is None else float(contacts.peak_time[hardest]),
             force=force,
-            force_at=None if strongest is None else float(contacts.peak_times[strongest]),
+            force_at=None if strongest is None else float(contacts.peak_time[strongest]),
             depth=float(self.largest[DEPTH]),
             power=float(self.largest[POWER]),
             heat=self.heat,
             restitution_loss=self.restitution_loss,
             contact_time=self.contact_time,
             lasting_power=_lasting_power(last, contacts),
-            restitution=None if fastest is None else float(-contacts.after[fastest] / contacts.speeds[fastest]),
+            restitution=None
+            if fastest is None
+            else float(-contacts.radial_speed_after[fastest] / contacts.radial_speed[fastest]),
             race_at_end=None if race is None else float(at_end / race.radius),
             fastest_race=None if race is None else self.race / race.radius,
             in_contact_since=self.since,
             whirl=_last_whirl(last, self.turned_back, self.since),
-            first=contacts.first,
+            first=_first(contacts),
             pressure=None if bearing is None or scales is None else ball_pressure(bearing, force * scales.force),
             scales=scales,
         )
 
 
-def _lasting_power(last: Trajectory, contacts: _Contacts) -> float:
+def _largest(values: np.ndarray) -> int | None:
+    """Which has the largest value above zero, the first of several; ``None`` if there is none."""
+    return int(values.argmax()) if values.max(initial=0.0) > 0.0 else None
+
+
+def _first(contacts: ContactLog) -> FirstContact | None:
+    """The first contact that has a force."""
+    pressing = np.flatnonzero(contacts.peak_force > 0.0)
+    if not len(pressing):
+        return None
+    peak, start, time = (float(each[pressing[0]]) for each in (contacts.peak_force, contacts.time, contacts.peak_time))
+    return FirstContact(peak, start, time, bool(contacts.left[pressing[0]]))
+
+
+def _lasting_power(last: Trajectory, contacts: ContactLog) -> float:
     """Power of friction with which a settled motion goes on."""
     phase = last.segment_phases[-1, last.plane]
     if not last.outcome.settled or last.outcome is Outcome.LEVITATED or phase == Phase.ROLLING:
         return 0.0
     if presses(phase):
         return float(-last.history(np.array([last.time])).friction_power[0])
-    recent = np.flatnonzero(contacts.stages == last.begins)[-max(RECENT, 2 * last.multiplicity) - 1 :]
-    times, works = contacts.starts[recent], contacts.heat[recent]
+    recent = np.flatnonzero(contacts.end >= last.begins)[-max(RECENT, 2 * last.multiplicity) - 1 :]
+    times, works = contacts.time[recent], contacts.heat[recent]
     return float(works[1:].sum() / (times[-1] - times[0])) if len(times) > 1 else 0.0
 
 
