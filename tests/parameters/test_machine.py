@@ -300,7 +300,7 @@ def test_physical_changes_come_first():
         ({"gamma": -0.1}, "gamma = -0.1: sets damping to -921.0, which must be a damping in N s/m, >= 0"),
         ({"gamma": 0.1, "damping": 3}, "gamma = 0.1: sets damping, which is set too"),
         ({"gamma": 2000}, "gamma = 2000: must be a number, -1000 to 1000"),
-        ({"omega": 1, "gamma": 0}, "gamma = 0: sets damping to 0.0, which gives gamma"),
+        ({"omega": 1, "gamma": 0}, "gamma = 0: gives damping = 0 N s/m, which gives gamma"),
         ({"damping": 0, "omega": 1}, "damping = 0: gives gamma"),
         ({"omega": 0}, "omega = 0: must be a number, > 0"),
         ({"gama": 1}, "gama = 1: unknown name in a machine or its parameters; did you mean gamma?"),

@@ -10,9 +10,8 @@ from fractions import Fraction
 from carom.parameters.fields import Field
 from carom.parameters.quantities import number_and_unit, read_quantity, unit_advice, unit_factor, without_separators
 
-_NUMBER = re.compile(
-    r"(?P<number>[+-]?[0-9]+ */ *[0-9]+|[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(?P<unit>.*)"
-)
+_DECIMAL = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_NUMBER = re.compile(rf"(?P<number>[+-]?[0-9]+ */ *[0-9]+|{_DECIMAL}) *(?P<unit>.*)")
 _TURNS = {
     **dict.fromkeys(("rpm", "RPM", "rev/min", "r/min", "U/min"), Fraction(1, 30)),
     **dict.fromkeys(("deg", "degree", "degrees", "°", "deg/s"), Fraction(1, 180)),
@@ -66,17 +65,12 @@ def read_exact(field: Field, text: str) -> ExactNumber:
         return ExactNumber(low.low, high.high, low.turns)
     if text.startswith("double "):
         digits = text.removeprefix("double ")
-        try:
-            number = float(digits)
-        except ValueError:
-            raise field.error(text, "this is not a number") from None
-        # Python reads digits of all scripts, with underscores between them.
-        if "_" in digits or not digits.isascii():
+        if not re.fullmatch(_DECIMAL, digits):
             raise field.error(text, "this is not a number")
         if field.needs_unit:
-            raise field.error(text, unit_advice(field, repr(number)))
-        read_quantity(field, number)
-        return ExactNumber(Fraction(number), Fraction(number))
+            raise field.error(text, unit_advice(field, repr(float(digits))))
+        number = Fraction(read_quantity(field, float(digits)))
+        return ExactNumber(number, number)
     return _from_text(field, text)
 
 

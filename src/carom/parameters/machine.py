@@ -146,8 +146,6 @@ class Machine(Tabular, pydantic.BaseModel):
         source = self._resolved.source(field) or field
         if source == field or source not in entries:
             return InputError(field, shown(entries.get(field, value)), gives)
-        if source in DIMENSIONLESS_FIELDS:
-            return InputError(source, shown(entries[source]), f"sets {field} to {value}, which {gives}")
         unit = MACHINE_FIELDS[field].unit
         return InputError(source, shown(entries[source]), f"gives {field} = {value:.6g} {unit}, which {gives}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
@@ -24,6 +24,7 @@ from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
 
 _SETTING = "--set"
+_Table = TypeVar("_Table", Gravity, TouchdownBearing)
 UNUSED = 0.0
 """Restitution of a machine whose touchdown bearing is compliant."""
 _UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
@@ -244,11 +245,16 @@ class Case(Tabular):
         if GRAVITY_NAME in changes:
             if self.parameters.scales is None:
                 raise Gravity.without_scales(changes[GRAVITY_NAME])
-            return replace(self, gravity=_pulled(self.gravity, changes.pop(GRAVITY_NAME))).replace(**changes)
+            gravity = _changed(self.gravity or Gravity(), {"acceleration": changes.pop(GRAVITY_NAME)}, GRAVITY_NAME)
+            return replace(self, gravity=gravity).replace(**changes)
         if not isinstance(self.parameters, Parameters):
             return replace(self, parameters=self.parameters.replace(**changes)) if changes else self
         if of_bearing := {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}:
-            return replace(self, touchdown=_changed(self.touchdown, of_bearing)).replace(**changes)
+            own = {name.removeprefix(PREFIX): value for name, value in of_bearing.items()}
+            if unknown := unknown_names(own, {**TOUCHDOWN_FIELDS, "law": TOUCHDOWN_FIELDS["exponent"]}, "[touchdown]"):
+                raise together(unknown)
+            touchdown = _changed(self.touchdown or TouchdownBearing(), own)
+            return replace(self, touchdown=touchdown).replace(**changes)
         is_compliant = self.touchdown is not None and self.touchdown.is_compliant
         if is_compliant and (unused := {"d", "restitution"} & changes.keys()):
             raise _unused_restitution(changes[min(unused)])
@@ -333,24 +339,12 @@ def split_settings(settings: Iterable[str], problems: Problems) -> dict[str, str
     return texts
 
 
-def _pulled(present: Gravity | None, acceleration: Any) -> Gravity:
-    """Gravity with another acceleration, in the same direction."""
+def _changed(table: _Table, changes: Mapping[str, Any], entry: str = "") -> _Table:
+    """A table with other entries; errors name them as settings, with the prefix of a touchdown bearing or as one ``entry``."""
     try:
-        return replace(present or Gravity(), acceleration=acceleration)
+        return table.replace(**changes)
     except InputError as problem:
-        raise InputError(GRAVITY_NAME, shown(acceleration), problem.allowed) from None
-
-
-def _changed(present: TouchdownBearing | None, changes: Mapping[str, Any]) -> TouchdownBearing:
-    """A touchdown bearing with other entries, which have a prefix."""
-    own = {name.removeprefix(PREFIX): value for name, value in changes.items()}
-    unknown = unknown_names(own, {**TOUCHDOWN_FIELDS, "law": TOUCHDOWN_FIELDS["exponent"]}, "[touchdown]")
-    if unknown:
-        raise together(unknown)
-    try:
-        return (present or TouchdownBearing()).replace(**own)
-    except InputError as problem:
-        raise InputError(PREFIX + problem.field, problem.value, problem.allowed) from None
+        raise InputError(entry or PREFIX + problem.field, shown(problem.value), problem.allowed) from None
 
 
 def _with_restitution(

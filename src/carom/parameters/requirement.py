@@ -6,6 +6,7 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 from carom.base.arguments import Positive, Whole, checked
@@ -242,7 +243,8 @@ def _fall_speed(scales: Scales) -> float:
 def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales | None, source: Source) -> Requirement:
     """Read the entries that are given; ``names`` are what errors call them."""
     problems, found = Problems(), dict[str, Any]()
-    readers = {"kick": _read_kick, "shock": _read_shock, "blade_loss": _read_loss, "blade_loss_node": _read_node}
+    sizes = {name: partial(_size, kind=kind) for name, kind in (("kick", "velocity"), ("blade_loss", "unbalance"))}
+    readers: dict[str, Any] = {**sizes, "shock": _read_shock, "blade_loss_node": _read_node}
     for name, read in readers.items():
         if entries.get(name) is not None:
             found[name] = problems.attempt(read, names[name], entries[name], scales)
@@ -250,21 +252,13 @@ def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales |
     return Requirement(**found, source=source)
 
 
-def _read_kick(name: str, given: object, scales: Scales | None) -> float:
-    return _size(name, given, "velocity", scales)
-
-
 def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:
     parts = [part.strip() for part in given.split(",")] if isinstance(given, str) else [given]
     if len(parts) > 2 or (len(parts) == 1 and not scales):
         example = SURVIVE_ENTRIES["shock"][1] if scales else '"0.5, 3"'
         raise InputError(name, shown(given), f"must be PEAK, DURATION, such as {example}")
-    peak = _size(name, parts[0], "acceleration", scales)
-    return Shock(peak, _size(name, parts[1], "time", scales) if len(parts) == 2 else SHOCK_DURATION)
-
-
-def _read_loss(name: str, given: object, scales: Scales | None) -> float:
-    return _size(name, given, "unbalance", scales)
+    peak = _size(name, parts[0], scales, "acceleration")
+    return Shock(peak, _size(name, parts[1], scales, "time") if len(parts) == 2 else SHOCK_DURATION)
 
 
 def _read_node(name: str, given: object, scales: Scales | None) -> int:
@@ -274,7 +268,7 @@ def _read_node(name: str, given: object, scales: Scales | None) -> int:
     return number
 
 
-def _size(name: str, given: object, kind: str, scales: Scales | None) -> float:
+def _size(name: str, given: object, scales: Scales | None, kind: str) -> float:
     """Read a size above 0, in SI units where the scales are known; there it needs a unit."""
     text = given if scales is None or isinstance(given, str) else shown(given)
     if kind == "unbalance":

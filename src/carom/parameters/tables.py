@@ -116,6 +116,10 @@ class Table:
         """SI unit of an entry."""
         return self.entries[name].unit
 
+    def replace(self, **changes: Any) -> Self:
+        """Return the table with other entries."""
+        return dataclasses.replace(self, **changes)
+
     def to_toml(self) -> str:
         """Return the text of a table that is read as this value; nothing if nothing is stated."""
         lines = [f'{name} = "{getattr(self, name)}"' for name in self.texts]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import dataclasses
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -208,10 +207,6 @@ class TouchdownBearing(Table):
         if name == "stiffness" and self._is_curved:
             return f"N/m^{self.exponent:.6g}"
         return super().unit(name)
-
-    def replace(self, **changes: Any) -> TouchdownBearing:
-        """Return the bearing with other entries."""
-        return dataclasses.replace(self, **changes)
 
 
 TOUCHDOWN_FIELDS = entries_of(TouchdownBearing)
