@@ -14,7 +14,7 @@ from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, 
 from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.motions.starts import State
 from carom.orbits.closing import close
-from carom.orbits.happenings import arrives
+from carom.orbits.happenings import begins_contact
 
 PAPER = cm.load("examples/source-paper.toml").parameters
 STAR = float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2))
@@ -41,7 +41,7 @@ def closed(rotor, meeting, cycle):
     position = position / max(1.0, float(np.abs(rotor.system.planes @ position).max()))  # on the wall to second order
     state = State(position, velocity) if len(position) > 1 else State(position[0], velocity[0])
     motion = cm.simulate(rotor, state, 2.6 * cycle.period)
-    begins = motion.segment_starts[1:][arrives(motion)]
+    begins = motion.segment_starts[1:][begins_contact(motion)]
     return close(motion, float(begins[0]) + 0.5 * cycle.period, cycle.period)
 
 

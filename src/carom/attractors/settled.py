@@ -16,7 +16,7 @@ from carom.base.roots import bracketed_root, sign_change
 from carom.closed_forms.exact_results import exact_results
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
-from carom.orbits.happenings import arrives, first_of_period
+from carom.orbits.happenings import begins_contact, first_of_period
 from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.simulated import SimulatedOrbit
@@ -76,7 +76,7 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
 def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> SettledMotion:
     """What periodic bouncing repeats, with the orbit that it ends on."""
     count, outcome = motion.multiplicity, motion.outcome
-    span = motion.time - float(motion.segment_starts[1:][arrives(motion)][first_of_period(motion, count)])
+    span = motion.time - float(motion.segment_starts[1:][begins_contact(motion)][first_of_period(motion, count)])
     if orbit is None:
         return SettledMotion(motion, outcome, count, period=span)
     return SettledMotion(motion, outcome, max(1, round(count * orbit.period / span)), orbit, orbit.period)
@@ -85,7 +85,7 @@ def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> Settl
 def seen_in_contact(motion: Trajectory) -> Trajectory:
     """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last arrival at a wall."""
     touching = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
-    struck = motion.event_planes[arrives(motion)]
+    struck = motion.event_planes[begins_contact(motion)]
     return motion.seen_at(int(touching[0]) if len(touching) else int(struck[-1]) if len(struck) else 0)
 
 
@@ -134,7 +134,7 @@ def same_motion(first: SettledMotion, second: SettledMotion) -> bool:
 def _last_states(settled: SettledMotion) -> np.ndarray:
     """Coordinates and rates just before the arrivals at walls of the last period, complex, shape (p, 2n)."""
     motion = settled.motion
-    last = np.flatnonzero(arrives(motion))[first_of_period(motion, settled.multiplicity) :]
+    last = np.flatnonzero(begins_contact(motion))[first_of_period(motion, settled.multiplicity) :]
     return motion.rotor.system.nodes.of(motion.arrivals[last[-settled.multiplicity :]])
 
 
@@ -164,7 +164,7 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
         return 0.0, 0.0
     if settled.outcome is Outcome.ROLLING and (force := exact_results(motion.rotor).rolling_force):
         return 0.0, force
-    hits = np.flatnonzero(arrives(motion))
+    hits = np.flatnonzero(begins_contact(motion))
     # Of irregular bouncing only the later half is used: the first half may be a transient.
     first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(hits) // 2
     late = np.isin(np.arange(len(motion.is_impact)), hits[first:])

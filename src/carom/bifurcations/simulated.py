@@ -22,7 +22,7 @@ from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.closing import multipliers_from, newton
 from carom.orbits.flow import Budget, Flow
-from carom.orbits.happenings import happenings, told
+from carom.orbits.happenings import happenings, word_of
 from carom.orbits.names import CountedName
 from carom.orbits.simulated import SimulatedOrbit
 
@@ -251,7 +251,7 @@ def _point(family: Family, kind: str, orbit: SimulatedOrbit, value: float, place
 def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
     """Points between which something joins or leaves the period, by bisection on the chord."""
     found = []
-    known = [_told(family, u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
+    known = [_word_at(family, u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
     for i, (before, after) in enumerate(pairwise(known)):
         if before is None or after is None or before[0] == after[0]:
             continue
@@ -261,7 +261,7 @@ def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
             middle = _corrected(family, 0.5 * (low + high))
             if middle is None:
                 break
-            here = _told(family, middle[:-1], float(middle[-1]))
+            here = _word_at(family, middle[:-1], float(middle[-1]))
             low, high = (middle, high) if here is not None and here[0] == before[0] else (low, middle)
         orbit = family.orbit_at(low[:-1], float(low[-1]), name)
         if orbit is not None:
@@ -272,16 +272,16 @@ def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
     return found
 
 
-def _told(family: Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
+def _word_at(family: Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
     """What happens in a period, from its first arrival on in the order of the alphabet, and the number of arrivals."""
     motion = family.motion(u, p)
     if motion is None:
         return None
     found = happenings(motion)
-    turns = [told([*found[k:], *found[:k]]) for k in range(len(found))] or [
+    turns = [word_of([*found[k:], *found[:k]]) for k in range(len(found))] or [
         str(bool((motion.segment_phases != Phase.FLIGHT).any()))
     ]
-    return min(turns), sum(each.arrives for each in found)
+    return min(turns), sum(each.begins_contact for each in found)
 
 
 def _corrected(family: Family, guess: np.ndarray) -> np.ndarray | None:

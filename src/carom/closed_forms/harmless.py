@@ -38,7 +38,7 @@ class _Levitation(NamedTuple):
 
     rooms: np.ndarray
     """Distance of each contact plane from its wall, and of what is asked for from each limit, less the margin, shape (P + L,)."""
-    yields: np.ndarray
+    reaches: np.ndarray
     """``√(d K⁻¹ dᴴ + v M⁻¹ vᴴ)`` of each: its largest change per root of the energy, shape (P + L,)."""
     has_energy: bool = True
 
@@ -46,7 +46,7 @@ class _Levitation(NamedTuple):
         """Largest change of each, shape (P + L,), after a deviation of the coordinates and their rates: ``moving`` are those of the fixed frame."""
         if self.has_energy:
             energy = _energy(model.matrices.stiffness, position) + _energy(model.matrices.mass, moving)
-            return np.asarray(self.yields * math.sqrt(energy))
+            return np.asarray(self.reaches * math.sqrt(energy))
         arrays = model.system.arrays
         seen = np.abs(np.concatenate([arrays["rows"], arrays["limit_rows"]]))
         return np.asarray(seen @ np.abs(model.system.amplitude_change(position, velocity)))
@@ -72,9 +72,9 @@ def _levitation(model: Rotor) -> _Levitation | None:
     if not energy:
         return _Levitation(rooms, np.empty(0), has_energy=False)
     shown, rates = _watched(model)
-    yields = np.einsum("pn,np->p", shown, np.linalg.solve(stiffness, shown.conj().T)).real
-    yields += np.einsum("pn,np->p", rates, np.linalg.solve(mass, rates.conj().T)).real
-    return _Levitation(rooms, np.sqrt(yields))
+    reaches = np.einsum("pn,np->p", shown, np.linalg.solve(stiffness, shown.conj().T)).real
+    reaches += np.einsum("pn,np->p", rates, np.linalg.solve(mass, rates.conj().T)).real
+    return _Levitation(rooms, np.sqrt(reaches))
 
 
 def _has_energy(model: Rotor) -> bool:

@@ -6,11 +6,11 @@ amplitudes ``c`` of the free modes, ``ċ = Mc``, the row ``W`` of the plane and 
 
 *Rigid wall.*  An arrival at ``δ = 0`` with ``δ̇ > 0`` changes ``c`` by ``−Bqnδ̇`` with ``q = (1 + d)(1 + iμ)``.
 
-*Wall with a linear spring.*  While the force ``N = κδ + ηδ̇`` per felt mass pushes, ``ċ = Mc − (1 + iμ)Bn N``.  Where contact begins
+*Wall with a linear spring.*  While the force ``N = κδ + ηδ̇`` per effective mass pushes, ``ċ = Mc − (1 + iμ)Bn N``.  Where contact begins
 the rates jump by ``ηδ̇``; where it ends nothing does.
 
 All of it is homogeneous in ``c`` and ``g``: only the sign of ``g`` matters, and motions are proportional to its size.  A wall whose force grows with a
-higher power of the depth is not felt to first order.
+higher power of the depth has no effect to first order.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Pieces:
     depth, speed : ndarray, shape (2N,)
         ``δ − g`` and ``δ̇`` per state.
     push : ndarray, shape (2N,)
-        What changes the state with a normal force of one, per felt mass.
+        What changes the state with a normal force of one, per effective mass.
     strike : ndarray, shape (2N,)
         What changes it with an arrival of speed one at a rigid wall.
     stiffness, loss : float

@@ -175,9 +175,9 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     if place >= len(radii):
         raise InputError("plane", place, f"a contact plane of the rotor, from 0 to {len(radii) - 1}")
     pieces = Pieces.of(system, place)
-    felt = pieces.rigid or exponent_of(system.contacts[place].wall) == 1.0
-    eigenvalues = np.linalg.eigvals(pieces.contact if felt else pieces.flight) if not pieces.rigid else np.empty(0)
-    lever = pieces.compliance if felt else math.inf
+    linear = pieces.rigid or exponent_of(system.contacts[place].wall) == 1.0
+    eigenvalues = np.linalg.eigvals(pieces.contact if linear else pieces.flight) if not pieces.rigid else np.empty(0)
+    lever = pieces.compliance if linear else math.inf
     found: list[SmallCycle] = []
     complete = False
     if pieces.rigid:

@@ -1,7 +1,7 @@
 r"""Steady motions of a rotor that is pressed on a compliant wall: synchronous rubs, slipping backward whirl.
 
 At a constant indentation ``δ`` the rate ``δ̇`` vanishes, and the dashpot of a Kelvin–Voigt wall or the dissipation of a
-Hunt–Crossley wall does nothing: both push with ``N = κδⁿ`` per felt mass (``n = 1`` for Kelvin–Voigt).  Lengths are clearances.
+Hunt–Crossley wall does nothing: both push with ``N = κδⁿ`` per effective mass (``n = 1`` for Kelvin–Voigt).  Lengths are clearances.
 
 *Synchronous rub.*  At rest in the co-rotating frame, at the displacement ``y = (1 + δ)e^{iθ}``, slip is forward, so that the
 contact force is ``−(1 + iμ)N e^{iθ}``.  Through the static receptance ``H`` of the plane (that of the fixed frame at the frequency
@@ -93,7 +93,7 @@ def slipping_whirls(
     machine : Machine, Case, Parameters or model
         Any linear rotor; its unbalance and the law of its walls are not used.  A race that turns counts as held.
     stiffness : float
-        ``κ`` of the force ``κδⁿ`` per felt mass, in ``Ω²`` and clearances.
+        ``κ`` of the force ``κδⁿ`` per effective mass, in ``Ω²`` and clearances.
     exponent : float
         ``n``, at least 1; 1 for a Kelvin–Voigt wall.
     plane : int

@@ -166,7 +166,7 @@ def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None)
     if motion is None or not _touches(motion) or float(np.abs(flow.rate(vector, period)).max()) < STILL:
         return None
     found = happenings(motion)
-    arrivals = sum(each.arrives for each in found)
+    arrivals = sum(each.begins_contact for each in found)
     most = arrivals or MOST_PARTS
     for parts in range(min(most, MOST_PARTS), 1, -1):
         part = period / parts

@@ -35,9 +35,9 @@ def extremes_of(motion: Trajectory) -> Extremes:
     amplitudes, phases = motion.amplitudes_at(times)
     radius = depth = force = 0.0
     for plane in range(phases.shape[1]):
-        seen, yields = motion.seen_at(plane), bool(system.arrays["stiffness"][plane])
+        seen, compliant = motion.seen_at(plane), bool(system.arrays["stiffness"][plane])
         far = float(np.abs(system.at_plane(amplitudes, plane)[0]).max())
-        if yields:
+        if compliant:
             touches = seen.contacts
             far = max(far, 1.0 + float(touches.deepest.max(initial=0.0)) if len(touches.deepest) else 0.0)
             force = max(force, float(touches.peak_force.max(initial=0.0)) / float(system.widths[plane]))

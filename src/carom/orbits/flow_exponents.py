@@ -71,7 +71,7 @@ class Grown:
             self.directions, triangle = np.linalg.qr(slopes @ self.directions)
             found.append(np.log(np.maximum(np.abs(np.diag(triangle)), NOTHING)))
             durations.append(motion.time)
-            struck += sum(each.arrives for each in happened)
+            struck += sum(each.begins_contact for each in happened)
             landed += sum(each.label == "land" for each in happened)
             self.flow, self.vector = Flow.at(motion, motion.time, self.budget)
         return np.array(durations), np.array(found).reshape(len(found), -1), (struck, landed)

@@ -41,15 +41,15 @@ class Happening(NamedTuple):
         Event of the motion.
     time : float
         In ``1/Ω``, since the motion began.
-    arrives : bool
-        Whether the rotor arrives at a wall there.
+    begins_contact : bool
+        Whether contact with a wall begins there: an impact, or contact with a compliant one.
     """
 
     label: str
     place: int
     event: int
     time: float
-    arrives: bool
+    begins_contact: bool
 
     @property
     def limits(self) -> bool:
@@ -66,7 +66,7 @@ def happenings(motion: Trajectory) -> list[Happening]:
     """Read them from the events of a motion; impacts that lead to lasting contact without anything in between are one landing."""
     found: list[Happening] = []
     times, impacts = motion.segment_starts[1:], motion.is_impact
-    phases, yields = motion.segment_phases, motion.rotor.system.arrays["stiffness"] > 0.0
+    phases, compliant = motion.segment_phases, motion.rotor.system.arrays["stiffness"] > 0.0
     limited = np.isin(motion.segment_limits, (UPPER, LOWER))
     changes = (np.diff(phases, axis=0) != 0).any(axis=1) | impacts
     if limited.size:
@@ -80,10 +80,10 @@ def happenings(motion: Trajectory) -> list[Happening]:
             found.append(Happening(Kind(kinds[event]).label, int(motion.event_planes[event]), event, time, True))
         for plane in np.flatnonzero(phases[event] != phases[event + 1]).tolist():
             before, after = phases[event, plane], phases[event + 1, plane]
-            if before == Phase.FLIGHT and not yields[plane]:
+            if before == Phase.FLIGHT and not compliant[plane]:
                 _land(found, plane, event, time)
-            arrives = bool(before == Phase.FLIGHT and yields[plane])
-            found.append(Happening(CHANGES[Phase(after)], plane, event, time, arrives))
+            begun = bool(before == Phase.FLIGHT and compliant[plane])
+            found.append(Happening(CHANGES[Phase(after)], plane, event, time, begun))
         if limited.size:
             for axis in np.flatnonzero(limited[event] != limited[event + 1]).tolist():
                 label = SATURATES if limited[event + 1, axis] else RECOVERS
@@ -95,7 +95,7 @@ def _land(found: list[Happening], plane: int, event: int, time: float) -> None:
     """Make the impacts that lead to a landing one chatter."""
     begun = Happening(LANDS, plane, event, time, False)
     while found and found[-1].place == plane and found[-1].label.startswith("impact"):
-        begun = found.pop()._replace(label=LANDS, arrives=False)
+        begun = found.pop()._replace(label=LANDS, begins_contact=False)
     found.append(begun)
 
 
@@ -111,17 +111,17 @@ def impact_kinds(motion: Trajectory) -> np.ndarray:
     return np.where(arrays.friction[planes] > 0.0, kinds, Kind.IMPACT_FORWARD)
 
 
-def arrives(motion: Trajectory) -> np.ndarray:
+def begins_contact(motion: Trajectory) -> np.ndarray:
     """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with compliant walls; bool, shape (n,)."""
     before, after = flying(motion.segment_phases, motion.event_planes)
-    yields = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
-    arrivals: np.ndarray = motion.is_impact | (before & ~after & yields)
+    compliant = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
+    arrivals: np.ndarray = motion.is_impact | (before & ~after & compliant)
     return arrivals
 
 
 def first_of_period(motion: Trajectory, count: int) -> int:
     """Number of the impact with which the last period of a motion begins, of ``count`` impacts at different instants."""
-    times = motion.segment_starts[1:][arrives(motion)]
+    times = motion.segment_starts[1:][begins_contact(motion)]
     if len(motion.rotor.system.arrays.rows) == 1 or not count:
         return len(times) - count
     noted, last = [], -math.inf
@@ -132,6 +132,6 @@ def first_of_period(motion: Trajectory, count: int) -> int:
     return noted[-min(count, len(noted))]
 
 
-def told(found: Sequence[Happening]) -> str:
+def word_of(found: Sequence[Happening]) -> str:
     """The same as text."""
     return " ".join(map(str, found))

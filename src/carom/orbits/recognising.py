@@ -8,7 +8,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import Outcome
 from carom.models import Rotor
 from carom.motions.trajectories import Trajectory
-from carom.orbits.happenings import arrives, first_of_period, impact_kinds
+from carom.orbits.happenings import begins_contact, first_of_period, impact_kinds
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
 from carom.orbits.simulated import SimulatedOrbit
@@ -50,7 +50,7 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | SimulatedOrbit | None:
     """
     if not motion.rotor.has_closed_forms:
         return periodic_of(motion)
-    count, struck = motion.multiplicity, np.flatnonzero(arrives(motion))
+    count, struck = motion.multiplicity, np.flatnonzero(begins_contact(motion))
     if motion.outcome in PERIODIC and 0 < count <= len(struck):
         first = int(struck[first_of_period(motion, count)])
         if motion.is_impact[first:].all():

@@ -19,7 +19,7 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.flow import TURN, Flow
-from carom.orbits.happenings import Happening, happenings, told
+from carom.orbits.happenings import Happening, happenings, word_of
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, RubbingName
 from carom.orbits.stability import Multipliers
@@ -100,17 +100,17 @@ class SimulatedOrbit(Result):
     def happenings(self) -> tuple[Happening, ...]:
         """What happens in a period, from the fastest arrival at a wall on."""
         found = happenings(self.motion)
-        arrivals = [place for place, each in enumerate(found) if each.arrives]
-        if not arrivals:
+        impacts = [place for place, each in enumerate(found) if each.begins_contact]
+        if not impacts:
             return tuple(found)
-        speeds = [self.section_of(found[place]).radial_speed for place in arrivals]
-        first = arrivals[int(np.argmax(speeds))]
+        speeds = [self.section_of(found[place]).radial_speed for place in impacts]
+        first = impacts[int(np.argmax(speeds))]
         return (*found[first:], *found[:first])
 
     @property
     def segments(self) -> str:
         """The same as text."""
-        return told(self.happenings) or "contact that never changes"
+        return word_of(self.happenings) or "contact that never changes"
 
     @property
     def word(self) -> str:
@@ -125,7 +125,7 @@ class SimulatedOrbit(Result):
     @property
     def impacts(self) -> int:
         """Arrivals at a wall in a period, without those of a chatter."""
-        return sum(each.arrives for each in self.happenings)
+        return sum(each.begins_contact for each in self.happenings)
 
     @property
     def turns(self) -> int | None:
@@ -225,9 +225,9 @@ class SimulatedOrbit(Result):
         return extremes_of(self.motion)
 
     @cached_property
-    def arrivals(self) -> np.ndarray:
+    def impact_states(self) -> np.ndarray:
         """States just before the arrivals at walls, complex, shape (k, 2n)."""
-        events = [each.event for each in self.happenings if each.arrives]
+        events = [each.event for each in self.happenings if each.begins_contact]
         return self.rotor.system.states_of(self.motion.arrivals[events])
 
 
@@ -236,9 +236,9 @@ def same_simulated(first: SimulatedOrbit, second: SimulatedOrbit) -> bool:
     if abs(first.period - second.period) > CLOSE * first.period or first.impacts != second.impacts:
         return False
     if first.impacts:
-        size = CLOSE * (1.0 + float(np.abs(first.arrivals).max()))
-        places = range(len(first.arrivals))
-        return any(np.abs(np.roll(first.arrivals, -k, axis=0) - second.arrivals).max() < size for k in places)
+        size = CLOSE * (1.0 + float(np.abs(first.impact_states).max()))
+        places = range(len(first.impact_states))
+        return any(np.abs(np.roll(first.impact_states, -k, axis=0) - second.impact_states).max() < size for k in places)
     return bool(np.abs(np.subtract(first.extremes, second.extremes)).max() < CLOSE * (1.0 + max(first.extremes)))
 
 

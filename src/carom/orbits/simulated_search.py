@@ -17,7 +17,7 @@ from carom.motions.starts import State, levitating
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import OFF_PERIOD, close, quietest
 from carom.orbits.flow import Budget, repeats_after
-from carom.orbits.happenings import arrives, first_of_period
+from carom.orbits.happenings import begins_contact, first_of_period
 from carom.orbits.searched import FASTEST, KIND, Searched, random_starts
 from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
 
@@ -139,7 +139,7 @@ class _Search:
         """For each number of impacts the stretch of a motion that comes back closest: the motion, where it begins, and how long it is."""
         most = IN_WALL * 4 * (self.impacts + 1)
         motion = self.budget.pay(simulate(self.rotor, start, FOLLOWED, settle=False, max_events=most))
-        events = np.flatnonzero(arrives(motion))
+        events = np.flatnonzero(begins_contact(motion))
         if len(events) < 2:
             return
         times = motion.segment_starts[1:][events]
@@ -173,7 +173,7 @@ def start_of(rotor: Rotor, random: np.random.Generator) -> State:
 def periodic_of(motion: Trajectory, budget: Budget | None = None) -> SimulatedOrbit | None:
     """Close the periodic motion on which a motion of any machine has settled; ``None`` if it has not, or repeats nothing."""
     if motion.outcome in REPEATING and motion.multiplicity:
-        times = motion.segment_starts[1:][arrives(motion)]
+        times = motion.segment_starts[1:][begins_contact(motion)]
         begun = first_of_period(motion, motion.multiplicity)
         span = motion.time - float(times[begun])
     elif motion.outcome in WHIRLS and np.abs(motion.final.velocity).max() > AT_REST:
