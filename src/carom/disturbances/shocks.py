@@ -31,7 +31,7 @@ from carom.core.fate import memory
 from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
-from carom.models import Force, Rotor
+from carom.models import Force, Rotor, System
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 
@@ -76,67 +76,53 @@ def states_after_shocks(
         for size, turn in zip(sizes, turns, strict=True)
     ]
     motions = np.array(each, complex).reshape(-1, system.modes)
-    planes = len(system.arrays["rows"])
-    contacts = np.full((len(motions), planes), AWAY)
-    outcomes, events = np.zeros((2, len(motions)), np.int64)
-    log, work, rub = (
-        EventLog.empty(LOGGED, system.modes, planes, system.limits),
-        workspace(system.modes),
-        rub_workspace(system.modes, planes, system.limits),
-    )
-    tools = log, memory(system.modes, limits=system.limits), work, rub
-    clocks = np.mod(begins.ravel(), TURN)
-    for first in range(0, len(motions), TOGETHER):
-        here = slice(first, first + TOGETHER)
-        limits = clocks[here], duration, MOST_EVENTS, contacts[here]
-        advance_in_turn(system.arrays, system.table, motions[here], *limits, *tools, outcomes[here], events[here])
+    contacts, outcomes, events = _follow(system, motions, begins.ravel(), duration)
     positions, velocities = np.split(_states(system.basis, motions) + at_rest, 2, axis=1)
     if rotor.system.is_planar:
         touches = contacts[:, 0] != AWAY
         positions[touches] /= np.abs(positions[touches])
     shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
-    outcomes[outcomes == Outcome.TIME_REACHED] = Outcome.CLEAR
-    return (
-        positions.reshape(shape),
-        velocities.reshape(shape),
-        outcomes.reshape(peaks.shape),
-        (events > 0).reshape(peaks.shape),
-    )
+    ended, touched = outcomes.reshape(peaks.shape), (events > 0).reshape(peaks.shape)
+    return positions.reshape(shape), velocities.reshape(shape), ended, touched
 
 
 def _states_one_by_one(
     rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """:func:`states_after_shocks` where bearings are anisotropic or the shaft changes its speed: the motion is no multiple of that of another shock."""
-    planes, limits = len(rotor.system.arrays["rows"]), rotor.system.limits
     found, ended, touched = [], [], []
     for peak, direction, begun in zip(*(each.ravel().tolist() for each in (peaks, directions, begins)), strict=True):
         system = shaken(rotor, duration, cmath.rect(peak, direction) / 2j, begun).system
-        start = np.concatenate(rotor.system.kicked(0.0, begun))[None]
-        modes = system.modes
-        tools = (
-            EventLog.empty(LOGGED, modes, planes, limits),
-            memory(modes, limits=limits),
-            workspace(modes),
-            rub_workspace(modes, planes, limits),
-        )
-        motion, contact = system.amplitudes_of(start, begun), np.full((1, planes), AWAY)
-        outcomes, events = np.zeros((2, 1), np.int64)
-        clock = np.array([begun % TURN])
-        advance_in_turn(
-            system.arrays, system.table, motion, clock, duration, MOST_EVENTS, contact, *tools, outcomes, events
-        )
+        motion = system.amplitudes_of(np.concatenate(rotor.system.kicked(0.0, begun))[None], begun)
+        _, outcomes, events = _follow(system, motion, np.array([begun]), duration)
         found.append(system.states_of(motion)[0])
-        ended.append(Outcome.CLEAR if outcomes[0] == Outcome.TIME_REACHED else outcomes[0])
+        ended.append(outcomes[0])
         touched.append(events[0] > 0)
     positions, velocities = np.split(np.reshape(found, (-1, 2 * len(rotor.system.rest))), 2, axis=1)
     shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
-    return (
-        positions.reshape(shape),
-        velocities.reshape(shape),
-        np.reshape(ended, peaks.shape),
-        np.reshape(touched, peaks.shape),
+    shaped = np.reshape(ended, peaks.shape), np.reshape(touched, peaks.shape)
+    return positions.reshape(shape), velocities.reshape(shape), *shaped
+
+
+def _follow(
+    system: System, motions: np.ndarray, begins: np.ndarray, duration: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Follow amplitudes (m, N) through a pulse, in place; contacts (m, P) at its end, how it was ended, and numbers of events, both (m,)."""
+    planes, clocks = len(system.arrays["rows"]), np.mod(begins, TURN)
+    contacts = np.full((len(motions), planes), AWAY)
+    outcomes, events = np.zeros((2, len(motions)), np.int64)
+    tools = (
+        EventLog.empty(LOGGED, system.modes, planes, system.limits),
+        memory(system.modes, limits=system.limits),
+        workspace(system.modes),
+        rub_workspace(system.modes, planes, system.limits),
     )
+    for first in range(0, len(motions), TOGETHER):
+        here = slice(first, first + TOGETHER)
+        given = clocks[here], duration, MOST_EVENTS, contacts[here]
+        advance_in_turn(system.arrays, system.table, motions[here], *given, *tools, outcomes[here], events[here])
+    outcomes[outcomes == Outcome.TIME_REACHED] = Outcome.CLEAR
+    return contacts, outcomes, events
 
 
 def _states(basis: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
