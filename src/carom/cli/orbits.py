@@ -11,7 +11,7 @@ from carom.cli.options import option
 from carom.cli.terminal import console, print_document, progress, read_machine
 
 if TYPE_CHECKING:
-    from carom.closed_forms.yielding_walls import SlippingWhirl
+    from carom.closed_forms.compliant_walls import SlippingWhirl
     from carom.models import Rotor
 
 LONGEST_PERIOD = option("T", "Search only periods up to T, in 1/Omega or with a unit; by default all.")
@@ -90,8 +90,8 @@ def orbits(
 
 def _whirls(rotor: Rotor) -> list[tuple[int, SlippingWhirl]]:
     """Slipping backward whirls at each compliant touchdown bearing, of the rotor without its unbalance, with its force in ``m c_r Ω²``; none under weight or on races that turn."""
+    from carom.closed_forms.compliant_walls import slipping_whirls
     from carom.closed_forms.statics import exponent_of
-    from carom.closed_forms.yielding_walls import slipping_whirls
 
     if rotor.system.forced is not None or rotor.system.races is not None:
         return []

@@ -30,8 +30,8 @@ from carom.studies.summaries import (
 from carom.studies.wording import counted, listed
 
 if TYPE_CHECKING:
+    from carom.closed_forms.compliant_walls import SlippingWhirl
     from carom.closed_forms.equilibria import SteadyMotion
-    from carom.closed_forms.yielding_walls import SlippingWhirl
     from carom.models import Rotor
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet

@@ -1,28 +1,29 @@
 """Exact results: equilibria and harmless disturbances of any linear rotor, impacts of a free mass, the rest of the planar rotor.
 
-==================  ===================================================
-``equilibria``      contact-free and rubbing equilibria of any linear rotor
-``sag``             levitation with or without weight: a circle about the sag
-``statics``         forces of rubs at rest, at one plane and at several
-``power_sums``      all positive roots of a sum of powers
-``rub_stability``   whether a rub at rest attracts sliding
-``thresholds``      where motions begin and end
-``harmless``        disturbances of any linear rotor that never reach the wall
-``unbalance``       contact-free response over the speed of the shaft, of a rotor with one mass in closed form
-``whirl``           backward whirl: runaway and rolling
-``fading``          rolling in bounces, and when they certainly fade
-``absorbing``       neighbourhoods of the rub that sliding never leaves
-``periods``         periods of all orbits with one impact a period
-``local``           cycles that shrink into a boundary equilibrium
-``piecewise``       motion next to a point of a wall that levitation touches
-``wall_meetings``   what is born there, for any number of modes and both kinds of walls
-``yielding_walls``  slipping whirl on compliant walls
-``hertz``           pressure between the balls and the race of a touchdown bearing
-``exact_results``   what general code may ask of any rotor
-==================  ===================================================
+====================  ===================================================
+``equilibria``        contact-free and rubbing equilibria of any linear rotor
+``sag``               levitation with or without weight: a circle about the sag
+``statics``           forces of rubs at rest, at one plane and at several
+``power_sums``        all positive roots of a sum of powers
+``rub_stability``     whether a rub at rest attracts sliding
+``thresholds``        where motions begin and end
+``harmless``          disturbances of any linear rotor that never reach the wall
+``unbalance``         critical speed, width of the peak and rubs over the speed of the shaft, of a rotor with one mass
+``whirl``             backward whirl: runaway and rolling
+``fading``            rolling in bounces, and when they certainly fade
+``absorbing``         neighbourhoods of the rub that sliding never leaves
+``periods``           periods of all orbits with one impact a period
+``local``             cycles that shrink into a boundary equilibrium
+``piecewise``         motion next to a point of a wall that levitation touches
+``wall_meetings``     what is born there, for any number of modes and both kinds of walls
+``compliant_walls``   slipping whirl on compliant walls
+``hertz``             pressure between the balls and the race of a touchdown bearing
+``exact_results``     what general code may ask of any rotor
+====================  ===================================================
 """
 
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
+from carom.closed_forms.compliant_walls import SlippingWhirl, slipping_whirls
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.harmless import (
@@ -38,7 +39,6 @@ from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
-from carom.closed_forms.yielding_walls import SlippingWhirl, slipping_whirls
 
 __all__ = [
     "ContactSystem",

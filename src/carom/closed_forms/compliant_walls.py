@@ -83,7 +83,7 @@ class SlippingWhirl:
 def slipping_whirls(
     machine: Subject, stiffness: Positive, exponent: Exponent = 1.0, *, plane: Whole = 0
 ) -> tuple[SlippingWhirl, ...]:
-    """All slipping backward whirls of a rotor without unbalance on one plane, derived in :mod:`carom.closed_forms.yielding_walls`.
+    """All slipping backward whirls of a rotor without unbalance on one plane, derived in :mod:`carom.closed_forms.compliant_walls`.
 
     Their speeds depend on the rotor and on friction alone, their radii on the wall.  Stability is not judged, and whether other planes
     are clear is not asked.
