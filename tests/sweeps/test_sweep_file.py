@@ -24,10 +24,6 @@ GOOD = {
 }
 
 
-def slice_at(velocity):
-    return f'[basins]\nstarts = 10\ndisturbance = {{kind = "slice", velocity = {velocity}}}'
-
-
 @pytest.fixture
 def write(tmp_path):
     (tmp_path / "machine.toml").write_text((EXAMPLES / "keogh-cole.toml").read_text(encoding="utf-8"), encoding="utf-8")
@@ -134,19 +130,6 @@ def test_examples_are_plans(name):
     assert json.loads(json.dumps(plan.describe())) == plan.describe()
 
 
-def test_velocity_of_a_slice_is_a_pair(write):
-    with_unit, plain = (load_sweep(write(do=slice_at(pair))) for pair in ('["0.3 m/s", "-20 cm/s"]', "[0.5, -1]"))
-    at_rest = load_sweep(write(do='[basins]\nstarts = 10\ndisturbance = {kind = "slice"}'))
-    scales = [with_unit.case_at((0, place)).parameters.scales for place in (0, 1)]
-
-    velocities = [with_unit.task.model(scale).velocity * scale.velocity for scale in scales]
-    np.testing.assert_allclose(velocities, 0.3 - 0.2j, rtol=1e-15)
-    assert [plain.task.model(scale).velocity for scale in scales] == [0.5 - 1j, 0.5 - 1j]
-    assert at_rest.task.model(scales[0]).velocity == 0j
-    for plan in (with_unit, plain, at_rest):
-        assert json.loads(json.dumps(plan.describe())) == plan.describe()
-
-
 def test_description_changes_with_everything_but_the_texts(write):
     digests = {load_sweep(write()).digest, load_sweep(write(top=GOOD["top"] + " # a word")).digest}
     assert len(digests) == 1
@@ -207,11 +190,6 @@ def test_description_changes_with_everything_but_the_texts(write):
         ({"do": GOOD["do"].replace("fastest", "fast")}, "fast", "did you mean fastest?"),
         ({"do": GOOD["do"].replace("m/s", "m")}, "basins.disturbance.fastest", "0.1 m: must be a velocity in m/s"),
         ({"do": GOOD["do"].replace('"0.1 m/s"', "-1.0")}, "basins.disturbance.fastest", "a size, above 0"),
-        ({"do": slice_at("0.5")}, "basins.disturbance.velocity", "0.5: must be two sizes along x and y"),
-        ({"do": slice_at("[0.5]")}, "basins.disturbance.velocity", "must be two sizes along x and y"),
-        ({"do": slice_at('[0.5, "1 m/s"]')}, "basins.disturbance.velocity", "must be two sizes along x and y"),
-        ({"do": slice_at('[0.5, "1 kg"]')}, "basins.disturbance.velocity", "1 kg: must be a velocity in m/s"),
-        ({"do": slice_at("[0.5, [1]]")}, "basins.disturbance.velocity", "must be"),
         ({"do": GOOD["do"].replace("10", '"ten"')}, "basins.starts", "ten: must be a whole number"),
     ],
 )

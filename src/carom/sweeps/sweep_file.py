@@ -28,7 +28,7 @@ from carom.parameters import (
     unknown_name,
     usual_kick,
 )
-from carom.parameters.fields import nearest_name
+from carom.parameters.fields import nearest_name, unknown_names
 from carom.parameters.terms import check_names
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis
@@ -274,14 +274,15 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
     where = "basins.disturbance"
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in MODELS:
-        raise _unknown(f"{where}.kind", kind, MODELS)
-    fields = {field.name: field for field in dataclasses.fields(MODELS[kind])}
-    unknown = [name for name in table if name != "kind" and name not in fields]
+        allowed = f"missing; allowed: {', '.join(MODELS)}"
+        if kind is not None:
+            allowed = unknown_name(shown(kind), kind, MODELS, f"{where}.kind").allowed
+        raise InputError(f"{where}.kind", None if kind is None else shown(kind), allowed)
+    # The velocity of a slice has two parts, and stays zero here.
+    fields = {each.name: each for each in dataclasses.fields(MODELS[kind]) if not isinstance(each.default, complex)}
     problems = Problems()
-    problems.errors += [
-        unknown_name(name, table[name], {"kind": None, **fields}, f"[{where}] of a {kind}") for name in unknown
-    ]
-    meant = {nearest_name(name, fields) for name in unknown}
+    problems.errors += unknown_names(table, {"kind": None, **fields}, f"[{where}] of a {kind}")
+    meant = {nearest_name(name, fields) for name in table if name not in fields}
     sizes = {}
     for name, field in fields.items():
         if name in table:
@@ -296,24 +297,13 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
     return kind, cast("_Sizes", sizes)
 
 
-def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
-    if given is None:
-        return InputError(where, None, f"missing; allowed: {', '.join(known)}")
-    return InputError(where, shown(given), unknown_name(shown(given), given, known, where).allowed)
-
-
 def _size(
     where: str, given: object, kind: str, field: dataclasses.Field[Any], scales: Scales | None
 ) -> tuple[Any, bool]:
-    """Read a size: its value (complex from two parts), and whether it is in SI units."""
+    """Read a size: its value, and whether it is in SI units."""
     scale = MODELS[kind].measured_in.get(field.name, "")
     if not scale:
         return given, False
-    if not isinstance(field.default, complex):
-        size = (read_unbalance if scale == "unbalance" else partial(read_size, kind=scale))(where, given, scales=scales)
-        return size.value, size.in_si
-    parts = [read_size(where, part, scale, scales) for part in given] if isinstance(given, list) else []
-    if len(parts) != 2 or parts[0].in_si != parts[1].in_si:
-        allowed = 'must be two sizes along x and y, both with a unit or none, such as [0.5, 0], or ["0.3 m/s", "0 m/s"]'
-        raise InputError(where, shown(given), allowed)
-    return complex(parts[0].value, parts[1].value), parts[0].in_si
+    read = read_unbalance if scale == "unbalance" else partial(read_size, kind=scale)
+    size = read(where, given, scales=scales)
+    return size.value, size.in_si
