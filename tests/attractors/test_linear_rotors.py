@@ -8,7 +8,6 @@ from linear_rotors import random_rotor, single, tilting, touchdowns
 from machines import PAPER
 
 import carom
-from carom.attractors.settled import settled_motion
 from carom.base.outcome import Outcome
 from carom.models import from_matrices
 from carom.motions.starts import State
@@ -88,17 +87,6 @@ def test_a_kick_counts_by_the_speed_of_the_rotor_as_a_whole():
     assert found.endings[0].start.speed == pytest.approx(abs(states[0].velocity)) == pytest.approx(6.0)
     if not found.endings[0].recovered:
         assert found.smallest_unrecovered_kick == pytest.approx(3.0)
-
-
-def test_bouncing_is_the_exact_orbit():
-    one = PAPER.replace(gamma=0.1)
-    orbit = carom.find_orbits(one)["B1,d"]
-    state = State(np.array([orbit.departure.position, 0.1]), np.array([1.001 * orbit.departure.velocity, 0.0]))
-    ended = settled_motion(carom.simulate(beside(one), state, settle=True))
-    assert ended.multiplicity == 1
-    assert ended.period == pytest.approx(orbit.period, rel=1e-11)
-    assert ended.orbit.section.angle == pytest.approx(orbit.angle, abs=1e-9)
-    assert ended.orbit.radial_speed == pytest.approx(orbit.radial_speed, abs=1e-9)
 
 
 def test_an_impact_at_one_plane_while_another_rubs_is_an_orbit_of_the_flow():

@@ -12,7 +12,6 @@ from carom.attractors import survival as module
 from carom.attractors.survival import (
     LOOK,
     Survival,
-    document_of,
     follow_until_settled,
     measure_survival,
     still_irregular,
@@ -58,28 +57,6 @@ def test_the_interval_holds_the_half_life_as_often_as_it_says(monkeypatch, half_
         assert low < found.half_life < high
         inside += low < half_life < high
     assert inside >= 90  # of 95 to be expected
-
-
-def test_what_never_dies_is_told_with_how_many_were_followed_for_how_long(monkeypatch):
-    monkeypatch.setattr(module, "settle", mortal(math.inf, 0))
-    found = measure_survival(None, np.ones(300, complex), np.ones(300, complex), impacts=20_000)
-    assert (found.motions, found.impacts, found.died, found.transient) == (200, 20_000, 0, False)
-    # 4000 looks without a death: with twenty deaths in that time one would be missed once in e^20, with three once in 20.
-    assert found.interval[0] == pytest.approx(4000 * LOOK * math.log(2.0) / math.log(20.0), rel=1e-3)
-    assert found.words == "none of 200 died in 20,000 impacts (half-life above 930,000 impacts at 95 %)"
-    assert document_of(found)["half_life_impacts"] is None
-    assert document_of(None) == {"transient": False, "half_life_impacts": None}
-
-
-def test_half_life_is_told_with_two_digits():
-    found = Survival(100, 20_000, 100, 1624.3, (1333.0, 1987.0))
-    assert found.words == "transient, half-life 1,600 impacts (1,300 to 2,000)"
-    assert document_of(found) == {
-        "transient": True,
-        "half_life_impacts": 1624.3,
-        "half_life_interval_impacts": [1333.0, 1987.0],
-        "survival": found.words,
-    }
 
 
 def test_a_transient_is_named_only_if_it_was_followed_for_several_half_lives():

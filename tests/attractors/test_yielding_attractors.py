@@ -9,7 +9,6 @@ import carom as cm
 from carom.attractors import exponents_of
 from carom.attractors.settled import settled_motion
 from carom.base.outcome import Outcome
-from carom.disturbances import Grid, StateSlice
 from carom.models import KelvinVoigt
 from tests.yielding_rotors import Yielding
 
@@ -67,8 +66,3 @@ def test_a_whirl_that_never_leaves_the_wall_is_an_orbit():
             assert end.orbit.stable
             return
     pytest.fail("no motion whirls backward")
-
-
-def test_basins_name_the_same_motions(found):
-    basin = cm.map_basins(VOIGT.model, Grid(StateSlice(), (5, 5)))
-    assert set(basin.fractions) <= set(found)

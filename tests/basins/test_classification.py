@@ -11,7 +11,6 @@ import xarray
 from machines import PAPER
 
 import carom
-from carom.attractors.naming import _alike
 from carom.base.outcome import InputError, Outcome
 from carom.basins import Basin, map_basins, map_cells
 from carom.disturbances import (
@@ -91,14 +90,6 @@ def test_irregular_bouncing_is_told_from_periodic():
     assert "1500 impacts" in basin.dataset.attrs["criteria"]
 
 
-def test_motions_that_are_alike_are_found_without_comparing_all(rotor):
-    rng = np.random.default_rng(0)
-    features = rng.integers(0, 3, (4, 200)).astype(float)
-    first, groups = _alike(*features)
-    np.testing.assert_array_equal(features[:, first[groups]], features)
-    assert len(first) == len(np.unique(features, axis=1).T)
-
-
 def test_threads_change_nothing(rotor, kicks):
     one, two = (
         map_basins(rotor, kicks.plan, threads=threads, source={"machine_file": "machine.toml"}) for threads in (1, 2)
@@ -174,33 +165,6 @@ def test_no_levitation_no_kick():
         map_basins(grounded, Grid(VelocityKick(), (3, 3)))
     released = map_basins(grounded, Grid(ContactRelease(), (5,)))
     assert released.share_recovered.count == 0
-
-
-def test_files_that_hold_no_basin(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
-        Basin.load(tmp_path / "nothing.nc")
-    (tmp_path / "text.nc").write_text("no data")
-    with pytest.raises(InputError, match="cannot be read"):
-        Basin.load(tmp_path / "text.nc")
-    import xarray
-
-    xarray.Dataset({"other": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    with pytest.raises(InputError, match="must hold"):
-        Basin.load(tmp_path / "other.nc")
-
-
-def test_a_failed_write_leaves_the_old_file(kicks, tmp_path, monkeypatch):
-    target = tmp_path / "basins.nc"
-    target.write_text("before")
-
-    def full(*_, **__):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("xarray.Dataset.to_netcdf", full)
-    with pytest.raises(InputError, match="No space left"):
-        kicks.save(target)
-    assert target.read_text() == "before"
-    assert [path.name for path in tmp_path.iterdir()] == ["basins.nc"]
 
 
 def test_a_time_may_have_a_unit(rotor):

@@ -52,12 +52,6 @@ def test_fresh_drops_agree_with_the_map(balls, found):
         assert float(dataset["time"].values[at]) == pytest.approx(loads.time * machine.parameters.scales.time, rel=1e-9)
 
 
-def test_threads_do_not_change_it(balls, found):
-    drop = cm.drop(regained_after="12 ms", race_speed="500 rpm")
-    other = map_drops(balls, drop, shape=(5, 3), until="40 ms", threads=1)
-    assert found.dataset.identical(other.dataset)
-
-
 def test_it_is_kept(found, tmp_path):
     found.save(tmp_path / "drops.nc")
     again = DropMap.load(tmp_path / "drops.nc")

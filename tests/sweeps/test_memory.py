@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
-from sweep_tasks import Drop, Failing, basins_plan, plan_of, stored_bytes
+from sweep_tasks import Drop, Failing, plan_of, stored_bytes
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -96,14 +96,6 @@ def test_failures_are_kept_in_memory():
     assert (tally.done, tally.failed) == (4, 6)
     assert tally.failures[0]["values"] == {"gamma": 0.5}
     np.testing.assert_array_equal(tally.dataset["status"], [1] * 4 + [2] * 6)
-
-
-@pytest.mark.jit_only
-def test_workers_change_nothing_in_memory():
-    plan = basins_plan(starts=20)
-    many, one = (run_sweep(plan, workers=workers).dataset for workers in (2, 1))
-
-    xarray.testing.assert_identical(without_history(many), without_history(one))
 
 
 def test_sizes_keep_si_or_their_number(tmp_path, machine):

@@ -18,7 +18,6 @@ from sweep_tasks import Deadly, Drawn, Failing, Warned, basins_plan, plan_of, st
 from carom.base.outcome import CaromError, CaromWarning, InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
 from carom.sweeps.local import AHEAD, on_processes, on_threads
-from carom.sweeps.studies import StudyTask
 
 SWEEP = """
 machine = "machine.toml"
@@ -68,15 +67,6 @@ def test_threads_and_processes_give_the_same_bytes(tmp_path):
 
     assert stores["one thread"] == stores["two threads"] == stores["two processes"]
     assert len(stores["one thread"]) > 12
-
-
-@pytest.mark.jit_only
-def test_studies_are_the_same_on_processes(tmp_path):
-    plan = plan_of(StudyTask(12, (0.3, 0.4, 0.5), has_scales=False), count=6, chunk=1)
-    run_sweep(plan, tmp_path / "thread", workers=1, threads=True)
-    run_sweep(plan, tmp_path / "processes", workers=2)
-
-    assert stored_bytes(tmp_path / "thread") == stored_bytes(tmp_path / "processes")
 
 
 @pytest.mark.jit_only
