@@ -93,7 +93,7 @@ def basins(
             over = (found, asked.told_by)
         document = basin_document(basin, smallest, harmless, *over)
         figures: dict[str, Any] = {"basins": lambda: basin.plot(smallest)}
-        files = {"basins.nc": basin.save}
+        files: dict[str, Any] = {"basins.nc": basin.save}
         if over:
             figures["gain-map"] = lambda: found.plot(told_by=asked.told_by)
             files["gains.nc"] = found.save
