@@ -10,7 +10,7 @@ import carom as cm
 
 machine = cm.load("../keogh-cole.toml", ["eccentricity=0.1 mm"])
 response = cm.studies.unbalance_response(machine, ("500 rpm", "4000 rpm"))
-print(f"amplification factor {response.contact_free.amplification_factor:.3f}")
+print(f"amplification factor {response.criticals[0].factor:.3f}")
 
 # %%
 # What to see: the vibration peaks at the critical speed, the dotted line, and at the speed of the machine, the dashed one, it is in zone B of ISO

@@ -56,7 +56,7 @@ def test_zones_and_marks(real):
     assert texts == ["zone A", "zone B", "zone C", "zone D"]
     for axes in (upper, lower):
         upright = {round(line.get_xdata()[0] * RPM, 6) for line in axes.lines if len(set(line.get_xdata())) == 1}
-        assert {round(real.present, 6), round(real.contact_free.critical_speed, 6)} <= upright
+        assert {round(real.present, 6), round(real.criticals[0].speed, 6)} <= upright
     title = upper.figure.get_suptitle()
     assert "1,759 rpm" in title
     assert "1,337 µm" in title

@@ -15,13 +15,13 @@ from carom.rotors.synchronous import synchronous_response
 from carom.studies.facts import about
 from carom.studies.findings import facts_of
 from carom.studies.full_size import DIRECTIONS, all_round, at_full_size
-from carom.studies.levitating import levitating_of_machine
+from carom.studies.levitating import levitating
 from carom.studies.standards import required_margin
 
 pytestmark = pytest.mark.jit_only
 
 FILE = "examples/tum-flexible-rotor.toml"
-MACHINE = load_machine(FILE)
+MACHINE, CASE = load_machine(FILE), cm.load(FILE)
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +96,7 @@ def test_what_is_withheld_and_the_accuracy_are_told(studied):
 
 
 def test_critical_speeds_are_peaks_of_the_response():
-    found = levitating_of_machine(MACHINE)
+    found = levitating(CASE, cm.models.rotor_of(CASE))
     assert found.criticals
     for each in found.criticals:
         step = 0.01 * each.speed
@@ -109,7 +109,7 @@ def test_critical_speeds_are_peaks_of_the_response():
 
 def test_the_amplification_factor_is_that_of_the_damping_ratio():
     """Of a single narrow peak, 1/(2ζ), to the next order in ζ and what other whirls add."""
-    found = levitating_of_machine(MACHINE)
+    found = levitating(CASE, cm.models.rotor_of(CASE))
     lowest = min(found.criticals, key=lambda each: each.speed)
     whirl = min(
         (each for each in find_whirls(MACHINE, lowest.speed) if each.sense == "forward"),

@@ -46,7 +46,7 @@ class Effort(NamedTuple):
 
 
 FULL = Effort()
-COARSE, COARSEST, MANY_MODES = Effort(48, 48), Effort(12, 24), 16
+COARSE, COARSEST, MANY_MODES = Effort(24, 24, drawn=500, around=120), Effort(12, 24, drawn=500, around=120), 16
 """For rotors whose motions are followed one after another, and for those of more modes than that."""
 ONE_EACH = Effort(24, 12, beside=3, below=4, near=12, drawn=300, around=96)
 """Where each disturbance leads to a machine of its own, the exact results of which take milliseconds."""

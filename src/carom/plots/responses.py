@@ -133,14 +133,14 @@ def _top(response: Any) -> float:
 
 
 def _half_power(axes: Axes, response: Any, width: float, top: float) -> None:
-    """Mark the width of the peak, where it is on the page."""
-    free = response.contact_free
-    if free is None or free.half_power is None or not math.isfinite(free.peak):
-        return
-    height, (low, high) = free.peak / math.sqrt(2.0), free.half_power
-    if height < top and math.isfinite(high):
-        ends = [low / RPM, high / RPM]
-        axes.plot(ends, [width * height] * 2, **_HALF.stroke, marker="|", ms=5.0, label=_HALF.words, zorder=4)
+    """Mark the widths of peaks at touchdown bearings, where they are on the page."""
+    label: str | None = _HALF.words
+    for each in () if response.whirl.sensors.forward.shape[1] else response.criticals:
+        height = math.sqrt(2.0) * 1e6 * each.amplitude
+        if each.half_power is not None and height < width * top:
+            ends = [end / RPM for end in each.half_power]
+            axes.plot(ends, [height] * 2, **_HALF.stroke, marker="|", ms=5.0, label=label, zorder=4)
+            label = None
 
 
 def _phases(axes: Axes, response: Any, speeds: Floats) -> None:

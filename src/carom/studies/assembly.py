@@ -53,7 +53,7 @@ from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
 
-TRIED, TRIED_SINGLY = 1000, 200
+TRIED, TRIED_SINGLY = 1000, 100
 """Disturbances tried at each value of a gain, and those of rotors whose motions are followed one after another."""
 FIRST, FRESH = 2000, 10_000
 """Fresh disturbances at the machine's own gains: at first, and if all of these came back."""

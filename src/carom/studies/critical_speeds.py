@@ -3,15 +3,34 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq, minimize_scalar  # type: ignore[import-untyped]
 
-from carom.closed_forms import SpeedResponse
-from carom.rotors.synchronous import SynchronousResponse
+from carom.base.results import record
+from carom.models import Subject, rotor_of
+from carom.parameters.fields import RPM
+from carom.rotors import Whirl
+from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.standards import Side, required_margin
 
 HALF_POWER = math.sqrt(0.5)
+AROUND = (0.25, 1.5)
+"""Default range of a response: these multiples of the smaller and of the larger one of critical and operating speed."""
+SPEEDS = 400
+"""Number of speeds of a curve."""
+NARROW = 0.2
+"""Damping ratio below which the response is computed densely about a whirl."""
+REFINED, UNDAMPED = 1e-9, 1e-7
+"""Relative width to which a peak is refined, and that of a peak that counts as one without damping."""
+CRITICAL = (
+    "bearing speed_si=speed amplitude_si=amplitude amplification_factor=factor half_power_si=half_power side=separation.side "
+    "separation=separation.actual required=separation.required met=separation.met"
+)
 
 
 @dataclass(frozen=True)
@@ -59,6 +78,8 @@ class Critical:
     factor : float or None
         Amplification factor: speed over the width of the peak at 0.707 of its height (API 617); ``None`` of a peak that is flatter than that, or cut
         off by the range.
+    half_power : tuple of float, or None
+        Speeds at which it is 0.707 of that, rad/s; ``None`` without the factor.
     separation : Separation
         From the operating speeds.
     """
@@ -67,41 +88,94 @@ class Critical:
     speed: float
     amplitude: float
     factor: float | None
+    half_power: tuple[float, float] | None
     separation: Separation
 
-
-def exact_criticals(free: SpeedResponse, clearance: float, operating: tuple[float, float]) -> tuple[Critical, ...]:
-    """The critical speed of a rotor with one mass, if there is one."""
-    if free.critical_speed is None:
-        return ()
-    margin = Separation.of(free.critical_speed, operating, free.amplification_factor)
-    return (Critical(1, free.critical_speed, clearance * free.peak, free.amplification_factor, margin),)
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON."""
+        return record(self, CRITICAL) | {"speed_rpm": self.speed / RPM}
 
 
-def criticals_of(found: SynchronousResponse, operating: tuple[float, float]) -> tuple[Critical, ...]:
-    """Peaks of what the sensors measure, or of the whirl at the touchdown bearings of a machine without sensors, with the speeds at which they fall to 0.707."""
-    measured = found.sensors if found.sensors.forward.shape[1] else found.touchdowns
+def usual_range(whirls: Iterable[Whirl], run: tuple[float, float]) -> tuple[float, float]:
+    """Speeds of a response that are not stated, rad/s: around the operating ones and the slowest whirl that may resonate."""
+    slow = [abs(each.exponent.imag) for each in whirls if each.sense != "backward" and each.damping_ratio < HALF_POWER]
+    known = [*run, *([min(slow)] if slow else [])]
+    return AROUND[0] * min(known), AROUND[1] * max(known)
+
+
+def response_curve(
+    machine: Subject,
+    whirls: Iterable[Whirl],
+    interval: tuple[float, float],
+    operating: tuple[float, float],
+    marks: Iterable[float] = (),
+) -> tuple[SynchronousResponse, tuple[Critical, ...]]:
+    """Response to unbalance over an interval of speeds, rad/s, and its peaks, which are among the speeds of the curve as the marks are.
+
+    Speeds lie evenly over the interval, and densely about the frequencies of whirls that unbalance excites, whose peaks may be narrow: anisotropic
+    supports let it excite backward ones too.
+    """
+    speeds = [np.linspace(*interval, SPEEDS), np.fromiter(marks, float)]
+    for whirl in whirls:
+        excited = whirl.sense == "forward" or rotor_of(machine).system.is_anisotropic
+        if excited and whirl.damping_ratio < NARROW:
+            speeds.append(abs(whirl.exponent.imag) + abs(whirl.exponent.real) * np.linspace(-4.0, 4.0, 41))
+
+    def inside(speeds: np.ndarray) -> SynchronousResponse:
+        return synchronous_response(
+            machine, np.unique(speeds[(speeds >= interval[0]) & (speeds <= interval[1])]).tolist()
+        )
+
+    found = inside(np.concatenate(speeds))
+    criticals = criticals_of(found, operating, lambda speed: synchronous_response(machine, [speed]))
+    peaks = [each.speed for each in criticals]
+    return inside(np.append(found.speeds, peaks)) if peaks else found, criticals
+
+
+def criticals_of(
+    found: SynchronousResponse, operating: tuple[float, float], at: Callable[[float], SynchronousResponse]
+) -> tuple[Critical, ...]:
+    """Peaks of what the sensors measure, or of the whirl at the touchdown bearings of a machine without sensors, refined between the speeds of a curve."""
+    measured = "sensors" if found.sensors.forward.shape[1] else "touchdowns"
     criticals = []
-    for bearing, sizes in enumerate(measured.major.T, start=1):
+    for bearing, sizes in enumerate(getattr(found, measured).major.T):
+        size = partial(_size, at, measured, bearing)
         inner = (sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:])
         for place in (np.flatnonzero(inner) + 1).tolist():
-            factor, at = _factor(found.speeds, sizes, place), float(found.speeds[place])
-            criticals.append(Critical(bearing, at, float(sizes[place]), factor, Separation.of(at, operating, factor)))
+            peak, half = _refined(found.speeds, sizes, place, size)
+            width = half[1] - half[0] if half else math.inf
+            factor = None if width == math.inf else peak / width if width > UNDAMPED * peak else math.inf
+            separation = Separation.of(peak, operating, factor)
+            criticals.append(Critical(bearing + 1, peak, size(peak), factor, half, separation))
     return tuple(criticals)
 
 
-def _factor(speeds: np.ndarray, sizes: np.ndarray, place: int) -> float | None:
-    """Amplification factor of a peak; ``None`` if it does not fall to 0.707 of its height on both sides before it rises again."""
-    half, ends = HALF_POWER * sizes[place], []
+def _size(at: Callable[[float], SynchronousResponse], measured: str, bearing: int, speed: float) -> float:
+    """Amplitude 0-to-peak at a bearing at one speed."""
+    return float(getattr(at(speed), measured).major[0, bearing])
+
+
+def _refined(
+    speeds: np.ndarray, sizes: np.ndarray, place: int, size: Callable[[float], float]
+) -> tuple[float, tuple[float, float] | None]:
+    """Speed of a peak next to one of a curve, and those at which it has fallen to 0.707 of its height."""
+    ends, options = (speeds[place - 1], speeds[place + 1]), {"xatol": REFINED * speeds[place]}
+    near = minimize_scalar(lambda speed: -size(speed), bounds=ends, method="bounded", options=options).x
+    peak = max(float(speeds[place]), float(near), key=size)
+    return peak, _half_power(speeds, sizes, place, peak, size)
+
+
+def _half_power(
+    speeds: np.ndarray, sizes: np.ndarray, place: int, peak: float, size: Callable[[float], float]
+) -> tuple[float, float] | None:
+    """Speeds at which a peak has fallen to 0.707 of its height; ``None`` if it does not on both sides before it rises again."""
+    height, ends = size(peak), []
     for step in (-1, 1):
-        here = place
-        while 0 <= here + step < len(sizes) and sizes[here] > half:
-            if sizes[here + step] > sizes[place]:
-                return None
+        here = place + step
+        while 0 <= here < len(sizes) and HALF_POWER * height < sizes[here] <= height:
             here += step
-        if sizes[here] > half:
+        if not 0 <= here < len(sizes) or sizes[here] > height:
             return None
-        inside = here - step
-        share = (half - sizes[here]) / (sizes[inside] - sizes[here])
-        ends.append(float(speeds[here] + share * (speeds[inside] - speeds[here])))
-    return float(speeds[place]) / (ends[1] - ends[0])
+        inside = peak if here == place + step else float(speeds[here - step])
+        ends.append(float(brentq(lambda speed: size(speed) - HALF_POWER * height, inside, float(speeds[here]))))
+    return ends[0], ends[1]

@@ -9,14 +9,12 @@ the square ``y`` of the frequency.  Its derivative vanishes at one ``y`` alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from carom.base.results import Result, record
-from carom.closed_forms import speed_response
 from carom.models import Rotor
 from carom.parameters import Case, Machine
 from carom.parameters.fields import RPM
@@ -33,19 +31,11 @@ from carom.rotors.collocation import Collocation, collocations
 from carom.rotors.loop_sensitivity import zone_of
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.rotors.whirls import turns
-from carom.studies.critical_speeds import Critical, criticals_of, exact_criticals
+from carom.studies.critical_speeds import Critical, response_curve, usual_range
 
-SLOWEST, FASTEST = 0.05, 1.5
-"""Multiples of the speed of the machine between which the response is computed and whirls are followed."""
-SPEEDS, FOLLOWED = 300, 40
-"""Number of speeds of the response, and of those at which whirls are followed."""
-NARROW = 0.2
-"""Damping ratio below which the response is computed densely about a whirl."""
+SLOWEST, FASTEST, FOLLOWED = 0.05, 1.5, 40
+"""Multiples of the speed of the machine between which whirls are followed, and the number of speeds."""
 WHIRLS = 10
-CRITICAL = (
-    "bearing amplitude_si=amplitude amplification_factor=factor side=separation.side separation=separation.actual "
-    "required=separation.required met=separation.met"
-)
 COLLOCATION = "bearing frequency_hz=whirl.frequency sense=whirl.sense node_between=opposed node_at=hardly"
 
 
@@ -73,14 +63,14 @@ class Levitating(Result):
         The slowest ones at the speed of the machine; none where all that is free fades before it goes round.
     loops : tuple of LoopPeak
         One for each magnetic bearing whose loop is known; one for all equal bearings of one mass.
-    machine : FlexibleMachine or None
-        What follows is known of a flexible machine alone.
-    campbell : Campbell or None
     response : SynchronousResponse or None
-        ``None`` without an unbalance too.
+        ``None`` without an unbalance or scales.
     at_speed : SynchronousResponse or None
         The same at the speed of the machine.
     criticals : tuple of Critical
+    machine : FlexibleMachine or None
+        What follows is known of a flexible machine alone.
+    campbell : Campbell or None
     sensitivity : Sensitivity or None
         ``None`` without a magnetic bearing too.
     collocations : tuple of Collocation
@@ -90,11 +80,11 @@ class Levitating(Result):
     dimensionless: bool
     whirls: tuple[Whirl, ...]
     loops: tuple[LoopPeak, ...]
-    machine: FlexibleMachine | None = None
-    campbell: Campbell | None = None
     response: SynchronousResponse | None = None
     at_speed: SynchronousResponse | None = None
     criticals: tuple[Critical, ...] = ()
+    machine: FlexibleMachine | None = None
+    campbell: Campbell | None = None
     sensitivity: Sensitivity | None = None
     collocations: tuple[Collocation, ...] = ()
 
@@ -123,7 +113,7 @@ class Levitating(Result):
                 {"speed_rpm": speed / RPM, "levitates": bool(holds)}
                 for speed, holds in (zip(known.speeds.tolist(), known.levitates, strict=True) if known else ())
             ],
-            "critical_speeds": [record(each, CRITICAL) | {"speed_rpm": each.speed / RPM} for each in self.criticals],
+            "critical_speeds": [each.document() for each in self.criticals],
             "collocation": [
                 record(each, COLLOCATION) | {"sensor": abs(each.sensor), "magnet": abs(each.magnet)}
                 for each in self.collocations
@@ -142,16 +132,26 @@ class Levitating(Result):
 
 
 def levitating(case: Case, rotor: Rotor) -> Levitating:
-    """Compute how a machine levitates."""
-    reduced = rotor.finite_elements
-    if reduced is not None:
-        return levitating_of_machine(reduced.machine)
-    loop = None if case.machine is None else _loop_of_mass(case.machine)
-    speed = rotor.scales.speed if rotor.scales else 1.0
-    criticals: tuple[Critical, ...] = ()
-    if rotor.planar and rotor.scales:
-        criticals = exact_criticals(speed_response(case), rotor.scales.clearance, (speed, speed))
-    return Levitating(speed, rotor.scales is None, whirls_of(rotor), (loop,) if loop else (), criticals=criticals)
+    """Compute how a machine levitates; of a flexible one from all its modes."""
+    machine = rotor.finite_elements.machine if rotor.finite_elements else None
+    speed, whirls = rotor.scales.speed if rotor.scales else 1.0, whirls_of(rotor, 4 * WHIRLS)
+    found = Levitating(speed, rotor.scales is None, whirls[:WHIRLS], ())
+    if rotor.scales and (rotor.value("rho") if machine is None else machine.unbalances):
+        run = speed, speed
+        response, criticals = response_curve(case, whirls, usual_range(whirls, run), run)
+        found = replace(found, response=response, at_speed=synchronous_response(case, [speed]), criticals=criticals)
+    if machine is None:
+        loop = None if case.machine is None else _loop_of_mass(case.machine)
+        return replace(found, loops=(loop,) if loop else ())
+    seen, speeds = sensitivity(machine) if machine.bearings else None, np.linspace(SLOWEST, FASTEST, FOLLOWED) * speed
+    return replace(
+        found,
+        loops=() if seen is None else _loops(seen),
+        machine=machine,
+        campbell=campbell(machine, speeds.tolist(), WHIRLS),
+        sensitivity=seen,
+        collocations=collocations(machine, found.whirls),
+    )
 
 
 def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[Whirl, ...]:
@@ -184,48 +184,7 @@ def _loop_of_mass(machine: Machine) -> LoopPeak | None:
     return LoopPeak(1, peak, math.sqrt(square), zone_of(peak))
 
 
-def levitating_of_machine(machine: FlexibleMachine) -> Levitating:
-    """Compute how a flexible machine levitates, from all its modes."""
-    speed, whirls = machine.speed, find_whirls(machine, count=WHIRLS)
-    response = at_speed = None
-    if machine.unbalances:
-        narrow = find_whirls(machine, count=4 * WHIRLS)
-        speeds = speeds_of_response(machine, narrow, (SLOWEST * speed, FASTEST * speed))
-        response = synchronous_response(machine, speeds.tolist())
-        at_speed = synchronous_response(machine, [speed])
-    seen = sensitivity(machine) if machine.bearings else None
-    return Levitating(
-        speed,
-        False,
-        whirls,
-        () if seen is None else _loops(seen),
-        machine=machine,
-        campbell=campbell(machine, np.linspace(SLOWEST * speed, FASTEST * speed, FOLLOWED).tolist(), WHIRLS),
-        response=response,
-        at_speed=at_speed,
-        criticals=() if response is None else criticals_of(response, (speed, speed)),
-        sensitivity=seen,
-        collocations=collocations(machine, whirls),
-    )
-
-
 def _loops(found: Sensitivity) -> tuple[LoopPeak, ...]:
     zones = found.zones or [None] * len(found.peaks)
     rows = zip(found.peaks.tolist(), found.peak_frequencies.tolist(), zones, strict=True)
     return tuple(LoopPeak(place, *row) for place, row in enumerate(rows, start=1))
-
-
-def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], interval: tuple[float, float]) -> np.ndarray:
-    """Speeds of the response, rad/s: evenly over the range, and densely about the frequencies of forward whirls, whose peaks may be narrow.
-
-    Anisotropic supports let unbalance excite backward whirls too.
-    """
-    low, high = interval
-    narrow = []
-    for whirl in whirls:
-        excited = whirl.sense == "forward" or machine.whole.equations.is_anisotropic
-        if excited and whirl.damping_ratio < NARROW:
-            width = abs(whirl.exponent.real)
-            narrow.append(abs(whirl.exponent.imag) + width * np.linspace(-4.0, 4.0, 41))
-    speeds = np.concatenate([np.linspace(low, high, SPEEDS), *narrow])
-    return np.unique(speeds[(speeds >= low) & (speeds <= high)])

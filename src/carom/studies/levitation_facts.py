@@ -31,7 +31,7 @@ def levitation_facts(found: Levitating) -> Iterator[Fact]:
         yield Fact("Levitation", text, "Whirls", "closed form", {"damping_ratio": worst.damping_ratio})
     if found.campbell is not None:
         yield Fact("Levitation", other_speeds_words(found.campbell), "Other speeds")
-    if found.at_speed is not None:
+    if found.at_speed is not None and found.machine is not None:
         yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
 
 

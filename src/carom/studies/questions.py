@@ -22,15 +22,15 @@ FULL_SIZE, DROP = "what must be survived, at its full size all around", "the dro
 EVENTS = {
     DESCRIBED: 100_000,
     PRESENT: 300_000,
-    SMALLEST.format("kick"): 350_000,
-    SMALLEST.format("shock"): 300_000,
-    SMALLEST.format("loss of a blade"): 200_000,
-    ALONG: 200_000,
+    SMALLEST.format("kick"): 200_000,
+    SMALLEST.format("shock"): 150_000,
+    SMALLEST.format("loss of a blade"): 100_000,
+    ALONG: 120_000,
     CHANGE: 100_000,
     FULL_SIZE: 100_000,
     DROP: 20_000,
 }
-"""Events of each question, some two million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
+"""Events of each question, some 1.3 million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
 UNFINISHED = "question=words followed asked"
 FEW_MODES, MANY_MODES = 4, 16
 """Modes up to which an event costs about the same, of more it costs in proportion, and so many fewer are followed; and modes above which searches are coarser."""

@@ -30,8 +30,9 @@ from carom.parameters.scaling import CONVERSIONS
 from carom.studies.ranges import Motion, MotionRange, motion_ranges
 from carom.studies.trials import Check, Trial
 
-FEWEST, MOST, STEP = 5, 16, 0.12
-"""Values at which an interval is sampled: least and greatest number, and the relative step wanted."""
+FEWEST, MOST, STEP, STEP_SINGLY = 5, 16, 0.12, 0.25
+"""Values at which an interval is sampled: least and greatest number, and the relative step wanted, a longer one of rotors whose motions are followed
+one after another."""
 INSET = 1e-3
 """Distance of the outermost values from the ends of an interval, as a share of its logarithm."""
 WIDTH = 2e-3
@@ -214,7 +215,8 @@ def _recovering(trial: Trial, span: Span, known: Sequence[Edge]) -> tuple[Span, 
     """The parts of an interval in which every disturbance comes back; a known edge where they begin to is their end."""
     low, high = span.low.value, span.high.value
     inset = (high / low) ** INSET
-    count = int(np.clip(math.ceil(math.log(high / low) / math.log1p(STEP)), FEWEST, MOST))
+    step = STEP if trial.rotor.system.is_planar else STEP_SINGLY
+    count = int(np.clip(math.ceil(math.log(high / low) / math.log1p(step)), FEWEST, MOST))
     # Downward: what is lost at one value is likely to be lost at the next.
     values = np.geomspace(high / inset, low * inset, count).tolist()
     marks = [(value, trial.recovers(value)) for value in values]

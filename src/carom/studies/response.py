@@ -13,31 +13,21 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.base.results import in_a_line, record
-from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response
+from carom.base.results import in_a_line
+from carom.closed_forms import find_equilibria, rolling, speed_response
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.parameters import read_quantity
 from carom.parameters.fields import RPM
-from carom.rotors import find_whirls
-from carom.rotors.synchronous import SynchronousResponse, synchronous_response
-from carom.studies.critical_speeds import criticals_of, exact_criticals
-from carom.studies.levitating import WHIRLS, speeds_of_response
+from carom.rotors.synchronous import SynchronousResponse
+from carom.studies.critical_speeds import response_curve, usual_range
+from carom.studies.levitating import WHIRLS, whirls_of
 from carom.studies.response_data import ResponseData, Rubs, Steady, Stretch, stretches_between
 from carom.studies.standards import ASSUMPTIONS, FULL_SPEED, vibration_limit
 
-SPEEDS = 801
-"""Number of speeds of the curves."""
 RUB_SPEEDS = 121
-"""About as many speeds of the curve at which rubs without a closed form over the speed are looked for."""
-AROUND = (0.25, 1.5)
-"""Default range: these multiples of the smaller and of the larger one of critical and operating speed."""
-ALL_AROUND = (0.05, 1.5)
-"""The same where no critical speed is known before, in multiples of the operating speeds."""
-ONE_MASS = "half_power_si=half_power damping_ratio natural_frequency_si=natural_frequency"
-CRITICAL = "bearing amplification_factor=factor speed_si=speed amplitude_si=amplitude"
-SEPARATION = "side actual required met"
+"""About as many speeds of the curve at which rubs are looked for."""
 NARROWED = 1e-6
 """Relative width to which ends of stretches without a closed form are bisected."""
 
@@ -74,8 +64,7 @@ def unbalance_response(
 ) -> UnbalanceResponse:
     """Response to the unbalance over the speed of the shaft, with contact where the rotor touches.
 
-    The contact-free response is linear (:func:`~carom.rotors.synchronous_response`), and of a rotor with one mass known in closed form
-    (:func:`~carom.closed_forms.speed_response`).  Where it would leave the clearance it is virtual, and the rotor runs in contact.  The synchronous rubs in one
+    The contact-free response is linear (:func:`~carom.rotors.synchronous_response`).  Where it would leave the clearance it is virtual, and the rotor runs in contact.  The synchronous rubs in one
     touchdown bearing are given with their stability; bouncing is not, see :func:`~carom.find_bifurcations` along ``"speed"``.
 
     Parameters
@@ -97,7 +86,7 @@ def unbalance_response(
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
     >>> response = cm.studies.unbalance_response(machine, ("500 rpm", "4000 rpm"))
-    >>> round(response.contact_free.amplification_factor, 3)
+    >>> round(response.criticals[0].factor, 3)
     4.797
     """
     case = case_of(machine)
@@ -105,46 +94,19 @@ def unbalance_response(
     if model.scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)
-    along, present = axis(case, "speed"), model.scales.speed
-    free = speed_response(case) if model.planar else None
+    along, present, whirls = axis(case, "speed"), model.scales.speed, whirls_of(model, 4 * WHIRLS)
     run = (present, present) if operating is None else _read_operating(along, operating)
-    low, high = read_interval(along, interval or _usual_range(free, run))
-    whirl = synchronous_response(case, _speeds(model, free, (low, high)))
-    criticals = criticals_of(whirl, run) if free is None else exact_criticals(free, float(whirl.clearances[0]), run)
-    exact = free is not None and exact_results(model).rubs
-    found = UnbalanceResponse(case, whirl, free, (low, high), run, criticals, None, (), exact)
+    low, high = read_interval(along, interval or usual_range(whirls, run))
+    whirl, criticals = response_curve(case, whirls, (low, high), run, (low, high, present, FULL_SPEED))
+    exact = exact_results(model).rubs
+    found = UnbalanceResponse(case, whirl, (low, high), run, criticals, None, (), exact)
     rubs = _rubs(found, model, along)
     return replace(found, rubs=rubs, stretches=_stretches(replace(found, rubs=rubs), model, along))
 
 
-def _usual_range(free: SpeedResponse | None, run: tuple[float, float]) -> tuple[float, float]:
-    """Range of the curves that is not stated."""
-    if free is None:
-        return ALL_AROUND[0] * run[0], ALL_AROUND[1] * run[1]
-    known = [free.critical_speed or free.natural_frequency, *run]
-    return AROUND[0] * min(known), AROUND[1] * max(known)
-
-
-def _speeds(model: Rotor, free: SpeedResponse | None, interval: tuple[float, float]) -> list[float]:
-    """Speeds of the curves: evenly, densely about narrow peaks, and those that are named."""
-    reduced, scales = model.finite_elements, model.scales
-    marks = [FULL_SPEED] if scales is None else [FULL_SPEED, scales.speed]
-    if free is not None:
-        marks += [speed for speed in (free.critical_speed, *free.contact_changes()) if speed is not None]
-    if reduced is None:
-        even = np.linspace(*interval, SPEEDS)
-    else:
-        even = speeds_of_response(reduced.machine, find_whirls(reduced.machine, count=4 * WHIRLS), interval)
-    inside = [speed for speed in marks if interval[0] <= speed <= interval[1]]
-    return [float(each) for each in np.unique([*interval, *even, *inside])]
-
-
 def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     """Synchronous rubs over the speed in one touchdown bearing, where nothing stands in the fixed frame."""
-    system, free = model.system, found.contact_free
-    if found.exact and free is not None:
-        angles = free.rub_angles(found.speeds)
-        return Rubs(found.speeds, -angles % math.tau, np.where(np.isnan(angles), np.nan, 1.0))
+    system = model.system
     if len(system.contacts) > 1 or system.outer.any() or system.is_anisotropic or system.shaft is not None:
         return None
     speeds = found.speeds[:: max(1, len(found.speeds) // RUB_SPEEDS)]
@@ -161,7 +123,6 @@ def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
 
 def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[Stretch, ...]:
     """Ranges of speeds with the same steady motions; their ends are exact, or bisected between the speeds at which rubs were looked for."""
-    free = found.contact_free
 
     def steady(speed: float) -> Steady:
         clear = bool(found.at(speed).reach.max() < 1.0)
@@ -172,8 +133,8 @@ def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[Stretch,
         rolls = rolling(moved).holds if found.exact and moved.has_closed_forms else None
         return Steady(clear, sum(pushed), len(pushed) - sum(pushed), rolls)
 
-    if found.exact and free is not None:
-        return stretches_between(found.interval, free.contact_changes(), steady)
+    if found.exact:
+        return stretches_between(found.interval, speed_response(found.case).contact_changes(), steady)
     edges = found.reaching(1.0)
     if found.rubs is not None:
         edges += _bisected(found.rubs.speeds.tolist(), lambda speed: steady(speed)[1:])
@@ -205,7 +166,7 @@ def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:
 
 def _document(response: UnbalanceResponse) -> dict[str, Any]:
     """Return the document of a response over speed: speeds in rad/s and rpm, amplitudes in clearances and in m."""
-    free, rubs = response.contact_free, response.rubs
+    rubs = response.rubs
     highest = max(response.criticals, key=lambda each: each.amplitude, default=None)
     return {
         "name": response.case.name,
@@ -215,11 +176,7 @@ def _document(response: UnbalanceResponse) -> dict[str, Any]:
         "present": _at(response, response.present) | {"steady": response.steady_at_present._asdict()},
         "critical": None if highest is None else _at(response, highest.speed),
         "amplification_factor": highest.factor if highest else None,
-        **(record(free, ONE_MASS) if free else {}),
-        "criticals": [
-            record(each, CRITICAL) | {"rpm": each.speed / RPM, "separation": record(each.separation, SEPARATION)}
-            for each in response.criticals
-        ],
+        "criticals": [each.document() for each in response.criticals],
         "operating_si": list(response.operating),
         "zone_limits": list(response.case.zones.limits),
         "exceeds_api_617": [_stretch(entry) for entry in response.exceeds_api_617 if entry.what],

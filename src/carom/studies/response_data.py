@@ -14,7 +14,6 @@ from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from carom.base.arguments import checked
 from carom.base.results import Result
-from carom.closed_forms import SpeedResponse
 from carom.parameters import Case, Scales
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.critical_speeds import Critical
@@ -85,8 +84,6 @@ class ResponseData(Result):
     case : Case
     whirl : SynchronousResponse
         The contact-free whirl at the speeds of the curves; the critical and the present speed are among them, where they lie in the range.
-    contact_free : SpeedResponse or None
-        The same in closed form, of a rotor with one mass; ``None`` of others.
     interval : tuple of float
         Range of the curves.
     operating : tuple of float
@@ -105,7 +102,6 @@ class ResponseData(Result):
 
     case: Case
     whirl: SynchronousResponse
-    contact_free: SpeedResponse | None
     interval: tuple[float, float]
     operating: tuple[float, float]
     criticals: tuple[Critical, ...]
@@ -180,11 +176,8 @@ class ResponseData(Result):
         return self.case.zones.zone(reach) if reach <= 1.0 else ""
 
     def reaching(self, share: float) -> list[float]:
-        """Speeds at which sag and whirl reach a share of the clearance: in closed form of a rotor with one mass, else between speeds of the curve."""
-        if self.contact_free is None:
-            return crossings(self.speeds, self.reach - share, lambda speed: float(self.at(speed).reach.max()) - share)
-        above = share - float((self.whirl.sags / self.whirl.clearances).max())
-        return list(self.contact_free.beyond(above) or ()) if above > 0.0 else []
+        """Speeds at which sag and whirl reach a share of the clearance, refined between speeds of the curve."""
+        return crossings(self.speeds, self.reach - share, lambda speed: float(self.at(speed).reach.max()) - share)
 
     @cached_property
     def saturating(self) -> tuple[Stretch, ...]:

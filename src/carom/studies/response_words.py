@@ -66,7 +66,7 @@ def _present(response: ResponseData) -> str:
 def critical_words(critical: Critical, operating: tuple[float, float], place: str) -> str:
     """A peak of a response with its separation (API 617); ``place`` is what its number counts."""
     margin, factor = critical.separation, critical.factor
-    if not math.isfinite(critical.amplitude):
+    if factor == math.inf:
         return f"{rpm(critical.speed)}; without damping the amplification factor is infinite."
     at = f"{rpm(critical.speed)}, {micrometres(critical.amplitude)} 0-to-peak at {place} {critical.bearing}"
     if factor is None:

@@ -27,8 +27,8 @@ from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 
 FIRST_LOOK = 200
 """Number of disturbances of a kind that are followed first; the others follow only if none of these is lost."""
-AT_LARGEST = 96
-"""Number of disturbances of a kind whose sizes are all at their largest."""
+AT_LARGEST, AT_LARGEST_SINGLY = 96, 48
+"""Number of disturbances of a kind whose sizes are all at their largest, and that of rotors whose motions are followed one after another."""
 KEPT, VARIANTS = 24, 96
 """Lost disturbances of a kind that are tried again at the next value, and the number of variants of them."""
 FINEST = 1e-5
@@ -201,9 +201,10 @@ class Trial:
                 yield place, np.hstack([lost, self._variants(place, lost)]), None
         random = np.random.default_rng([self.seed, 0, np.float64(value).view(np.uint64).item()])
         drawn, largest = [], []
+        at_largest = AT_LARGEST if self.rotor.system.is_planar else AT_LARGEST_SINGLY
         for place, sample in enumerate(self.disturbances):
             along = sample.model.coordinates_on(self.rotor)
-            largest.append((place, _coordinates(along, random, AT_LARGEST, largest=True), 1))
+            largest.append((place, _coordinates(along, random, at_largest, largest=True), 1))
             drawn.append(_coordinates(along, random, sample.count))
         first = [(place, values[:, :FIRST_LOOK], 0) for place, values in enumerate(drawn)]
         # What is largest is lost first; but a share takes some that are drawn, however many events those at the largest size would spend.
