@@ -55,7 +55,7 @@ def finding(result, topic):
 
 def everything(result):
     """The headline and all facts."""
-    return "\n".join([result.verdict.headline, *(fact.told for fact in result.facts)])
+    return "\n".join([result.verdict.headline, *(fact.sentence for fact in result.facts)])
 
 
 # ------------------------------------------------------------------------------------------------ what is found

@@ -39,7 +39,7 @@ def studied():
 
 def test_the_verdict_promises_no_more_than_was_tried(studied):
     (share,) = studied.present.returned
-    assert (studied.verdict.level == "may-not-come-back") == bool(studied.lost_kinds)
+    assert (studied.verdict.level == "may-not-come-back") == bool(studied.unrecovered_kinds)
     assert "no guarantee" in studied.verdict.reason or studied.verdict.level != "all-tried-came-back"
     assert share.words in studied.verdict.headline
 

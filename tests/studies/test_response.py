@@ -129,7 +129,9 @@ def test_motions_do_what_is_said_of_each_speed():
                 assert Outcome.LEVITATED not in ends
                 seen["virtual"] += 1
             if stretch.what.stable_rubs:
-                angle = cm.closed_forms.speed_response(machine).rub_angles(np.array([speed]))[0, 0] + rotor.unbalance_phase
+                angle = (
+                    cm.closed_forms.speed_response(machine).rub_angles(np.array([speed]))[0, 0] + rotor.unbalance_phase
+                )
                 (end,) = _ends(rotor, [cmath.rect(1.0, angle + 1e-3)], [0j])
                 assert end == Outcome.FORWARD_RUB
                 seen["rub"] += 1

@@ -92,7 +92,7 @@ def _print_topics(console: Console, study: Study) -> None:
 def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:
     """Print the facts of a topic with their labels, details indented."""
     facts = about(study.facts, topic)
-    rows = [(f"  {fact.label}" if fact.detail else fact.label, fact.told) for fact in facts]
+    rows = [(f"  {fact.label}" if fact.detail else fact.label, fact.sentence) for fact in facts]
     print_rows(console, heading, rows, bold=CHANGES)
 
 

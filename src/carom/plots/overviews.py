@@ -94,7 +94,7 @@ def overview(study: Any, title: str | None = None, *, virtual: bool = False) -> 
     InputError
         The rotor weighs something: in the frame that turns with the shaft its levitation is no point.
     """
-    if study.heavy:
+    if study.under_gravity:
         allowed = "a rotor without weight; carom.plots.motion and carom.plots.basin draw what one with weight does"
         raise InputError("study", "of a rotor under gravity", allowed)
     points = cast("tuple[Equilibrium, ...]", study.equilibria)

@@ -38,7 +38,7 @@ _SEEN: dict[Kind, str] = {
 
 def decisive(study: Study) -> Kind:
     """The kind of disturbance that is shown: of those that must be survived the one most often lost, otherwise kicks."""
-    lost = study.lost_kinds
+    lost = study.unrecovered_kinds
     return min(lost, key=lambda entry: entry[1].fraction if entry[1] else 1.0)[0] if lost else "kick"
 
 

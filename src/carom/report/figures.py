@@ -41,7 +41,7 @@ def pictures(study: Study) -> list[Picture]:
     figures, kicks = list[Picture](), study.kicks
     if basins.drawable(study):
         figures.append(Picture("basins", "basins", basins.caption(study), lambda: basins.draw(study)))
-    if not study.heavy:  # under weight levitation is no point there
+    if not study.under_gravity:  # under weight levitation is no point there
         words = (
             "All steady motions and single-impact orbits, seen turning with the shaft: a steady whirl is a point, a bounce a "
             "loop, and what lies on the circle touches the bearing."

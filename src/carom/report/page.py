@@ -73,7 +73,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         verdict=study.verdict,
         mark=_mark(study),
         drawable=drawable(study),
-        facts={fact.label: fact.told for fact in about(study.facts, "Verdict")},
+        facts={fact.label: fact.sentence for fact in about(study.facts, "Verdict")},
         shares=share_rows(study),
         survived=survived_rows(study),
         can_change=CHANGES,
@@ -137,4 +137,4 @@ def _advice(study: Study) -> tuple[list[Advice], dict[str, str]]:
         else:
             lines.append(Advice(fact, ()))
     changes = [line for line in lines if line.fact.label in (*CHANGES, BEYOND)]
-    return changes, {line.fact.label: line.fact.told for line in lines if line not in changes}
+    return changes, {line.fact.label: line.fact.sentence for line in lines if line not in changes}

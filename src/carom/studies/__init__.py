@@ -50,7 +50,7 @@ from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
 from carom.studies.response_data import Rubs, Steady, Stretch
-from carom.studies.trials import Check, Lost, check_recovery
+from carom.studies.trials import Check, Unrecovered, check_recovery
 from carom.studies.wording import Wording
 
 __all__ = [
@@ -58,7 +58,6 @@ __all__ = [
     "Critical",
     "DropStudy",
     "LoadCheck",
-    "Lost",
     "MotionRange",
     "Recovery",
     "Rubs",
@@ -68,6 +67,7 @@ __all__ = [
     "Study",
     "Threshold",
     "UnbalanceResponse",
+    "Unrecovered",
     "Wording",
     "check_loads",
     "check_recovery",

@@ -48,7 +48,7 @@ from carom.studies.questions import (
 )
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.study_data import StudyData
-from carom.studies.survives import Survives, comes_to_rest, decides, lost_kinds, survives
+from carom.studies.survives import Survives, comes_to_rest, decides, survives, unrecovered_kinds
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
@@ -202,7 +202,9 @@ class Asked:
         """Whether a change is needed; ``None`` where too few disturbances could be followed."""
         endured, present = self.found.get("survives"), self.found.get("present")
         lost = endured is None or bool(
-            lost_kinds(self.required, endured, present, self.found["attractors"], self.found.get("full_size", ()))
+            unrecovered_kinds(
+                self.required, endured, present, self.found["attractors"], self.found.get("full_size", ())
+            )
         )
         return lost if lost or decides(present) else None
 

@@ -43,7 +43,7 @@ def not_covered(study: StudyData) -> tuple[str, ...]:
         LONGER_MOTIONS: True,
         COMPLIANT_WALL if (rotor.system.arrays["stiffness"] > 0.0).any() else RIGID_WALL: True,
         PLANAR if exact else LINEAR: True,
-        SYMMETRY: study.heavy,
+        SYMMETRY: study.under_gravity,
         CLOSED_FORMS: not exact,
         AT_LIMITS: bool(rotor.system.limits),
     }

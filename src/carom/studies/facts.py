@@ -59,7 +59,7 @@ class Fact:
     detail: bool = False
 
     @property
-    def told(self) -> str:
+    def sentence(self) -> str:
         """The text with the evidence behind it."""
         return f"{self.text} ({self.evidence})" if self.evidence else self.text
 

@@ -60,7 +60,7 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
 def _levitation(study: StudyData) -> str:
     say, levitation, machine = study.wording, study.equilibria[0], study.case.machine
     if levitation.status == "virtual":
-        whirl = "Sag and whirl" if study.heavy else "Its whirl from unbalance"
+        whirl = "Sag and whirl" if study.under_gravity else "Its whirl from unbalance"
         return f"The rotor cannot run without contact. {whirl} would need a radius of {say.radius(levitation.radius)}, more than the clearance."
     if levitation.status == "boundary":
         return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
@@ -85,7 +85,7 @@ def _levitation(study: StudyData) -> str:
 
 def _rub(study: StudyData) -> str:
     rubs, stable = [rub for rub in study.rubs if rub.status != "virtual"], study.stable_rub
-    if study.heavy:
+    if study.under_gravity:
         return "Under weight no rub is at rest in the frame that turns with the shaft: where the disturbances below end says whether the rotor stays on the bearing."
     if not rubs:
         return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."

@@ -9,13 +9,37 @@ from carom.base.outcome import Outcome
 from carom.base.results import record
 from carom.motions import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.loads import MEASURED
-from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
+from carom.parameters import LoadLimits
 from carom.parameters.formats import number
 from carom.studies.load_checks import check_loads
-from carom.studies.wording import Wording, counted
+from carom.studies.wording import Wording
 
 PLANE = "gives_way contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
 LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
+_IN_BOTH = (
+    ("restitution seen", "{restitution} in the fastest impact"),
+    ("slip energy (heat)", "{heat}"),
+    ("heating goes on", "with {lasting_power}"),
+    ("friction power", "up to {power}"),
+    ("race", "{race_at_end:speed} at the end, at most {fastest_race:speed}"),
+    ("in contact to the end", "since {in_contact_since:time} after {since}"),
+)
+COMPLIANT = (
+    ("peak force", "{force}, {force_at:time} after {since}"),
+    ("depth", "{depth}"),
+    ("pressure of balls", "{pressure:pressure} on the most loaded one"),
+    ("largest impulse", "{impulse}, {impulse_at:time} after {since} (that of one contact)"),
+    ("contacts", "{contacts:contact}, {contact_time} in contact"),
+    ("of which it left", "{bounces:bounce}"),
+    *_IN_BOTH,
+)
+RIGID = (
+    ("hardest impact", "impulse {impulse}, {impulse_at:time} after {since}; a rigid wall has no peak force"),
+    ("contacts", "{contacts:impact}"),
+    ("lasting contact", "force up to {force}, {contact_time} together"),
+    *_IN_BOTH,
+)
+"""What people are told of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 
 
@@ -33,11 +57,11 @@ def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str,
 
 def _shaft_words(shaft: Braking) -> str:
     """Its speed at the end, and what the drive would do where its torque is left out."""
-    before, end = (_speed(each, shaft.scales) for each in (1.0, shaft.speed_at_end))
+    before, end = (Wording(shaft.scales).write(each, "speed") for each in (1.0, shaft.speed_at_end))
     text = f"{end} at the end, {before} before"
     if shaft.left_out == 0.0:
         return text
-    change = f"{'add' if shaft.left_out > 0.0 else 'take'} {_speed(abs(shaft.left_out), shaft.scales)}"
+    change = f"{'add' if shaft.left_out > 0.0 else 'take'} {Wording(shaft.scales).write(abs(shaft.left_out), 'speed')}"
     return f"{text}; the torque of the drive is left out in flight, where it would {change}"
 
 
@@ -47,22 +71,11 @@ def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
 
 
 def _rows(plane: TouchdownLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
-    say = Wording(plane.scales)
-    rows = [*_hits(plane, say, since), ("contacts", _contacts(plane, say))]
-    if plane.restitution is not None:
-        rows.append(("restitution seen", f"{number(plane.restitution, 4)} in the fastest hit"))
-    goes_on = f"; it goes on with {say.power(plane.lasting_power)}" if plane.lasting_power * _unit(say) > 0.1 else ""
-    rows.append(("slip energy (heat)", f"{say.energy(plane.heat)}{goes_on}"))
-    if plane.power > 0.0:
-        rows.append(("friction power", f"up to {say.power(plane.power)}"))
-    if plane.race_at_end is not None and plane.fastest_race is not None:
-        end, fastest = (_speed(each, plane.scales) for each in (plane.race_at_end, plane.fastest_race))
-        rows.append(("race", f"{end} at the end, at most {fastest} (shaft {_speed(1.0, plane.scales)})"))
-    if plane.whirl is not None:
-        rows.append(("whirl at the end", _whirl_words(plane.whirl, outcome)))
-    if plane.in_contact_since is not None:
-        rows.append(("in contact to the end", f"since {say.time(plane.in_contact_since)} after {since}"))
-    return rows
+    if plane.gives_way and plane.force_at is None:
+        rows = [("peak force", "none: it did not touch")]
+    else:
+        rows = Wording(plane.scales).rows(COMPLIANT if plane.gives_way else RIGID, plane, since=since)
+    return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, outcome))]
 
 
 def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
@@ -79,46 +92,6 @@ def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
         entry["whirl"]["frequency_si"] = whirl.frequency_si
     entry["limits"] = [check.document() for check in check_loads(plane, limits)]
     return entry
-
-
-def _unit(say: Wording) -> float:
-    """Power in W, or in units of the equations."""
-    return 1.0 if say.scales is None else say.scales.power
-
-
-def _hits(plane: TouchdownLoads, say: Wording, since: str) -> list[tuple[str, str]]:
-    """The largest force with its depth and pressure, and the largest impulse; on a rigid wall the impulse stands for the force."""
-    when = f"after {since}"
-    impulse = f"{say.impulse(plane.impulse)}"
-    if plane.impulse_at is not None:
-        impulse = f"{impulse}, {say.time(plane.impulse_at)} {when}"
-    if not plane.gives_way:
-        rows = [("hardest impact", f"impulse {impulse}; a rigid wall has no peak force")]
-        return [*rows, ("lasting contact", f"force up to {say.force(plane.force)}")] if plane.force > 0.0 else rows
-    if plane.force_at is None:
-        return [("peak force", "none: it did not touch")]
-    rows = [
-        ("peak force", f"{say.force(plane.force)}, {say.time(plane.force_at)} {when}"),
-        ("depth", say.length(plane.depth)),
-    ]
-    if plane.pressure is not None:
-        rows.append(("pressure of balls", f"{number(1e-9 * plane.pressure, 3)} GPa on the most loaded one"))
-    return [*rows, ("largest impulse", f"{impulse} (that of one contact)")] if plane.impulse > 0.0 else rows
-
-
-def _contacts(plane: TouchdownLoads, say: Wording) -> str:
-    kind = "contact" if plane.gives_way else "impact"
-    text = f"{counted(plane.contacts, kind)}, {counted(plane.bounces, 'bounce')}"
-    lasting = "" if plane.gives_way else "lasting "
-    return f"{text}; {say.time(plane.contact_time)} in {lasting}contact"
-
-
-def _speed(own: float, scales: Scales | None) -> str:
-    """An angular speed in rpm, or in that of the shaft."""
-    shown = MACHINE_FIELDS["speed"]
-    if scales is None:
-        return f"{number(own)} Ω"
-    return f"{number(shown.in_usual_unit(own * scales.speed), 4)} {shown.usual_unit}"
 
 
 def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:

@@ -25,7 +25,7 @@ from carom.studies.kinds import Kind, required_disturbances
 from carom.studies.levitating import Levitating
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.survives import Survives, lost_kinds
+from carom.studies.survives import Survives, unrecovered_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
@@ -104,7 +104,7 @@ class StudyData(Result):
         return next((rub for rub in self.rubs if rub.stable and rub.status == "admissible"), None)
 
     @property
-    def heavy(self) -> bool:
+    def under_gravity(self) -> bool:
         """Whether the rotor weighs something, or is pulled off the centre of its bearing: then nothing has the symmetry of a turn."""
         return self.rotor.system.forced is not None
 
@@ -152,9 +152,9 @@ class StudyData(Result):
         return self.present.returned[0] if self.present else None
 
     @property
-    def lost_kinds(self) -> list[tuple[Kind, Share | None]]:
+    def unrecovered_kinds(self) -> list[tuple[Kind, Share | None]]:
         """The kinds that must be survived and of which some were lost, with the share of them that came back."""
-        return lost_kinds(self.required, self.survives, self.present, self.attractors, self.full_size)
+        return unrecovered_kinds(self.required, self.survives, self.present, self.attractors, self.full_size)
 
     @property
     def thresholds(self) -> tuple[Threshold, ...]:

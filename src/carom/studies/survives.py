@@ -153,7 +153,7 @@ def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | Bas
     return replace(model, peak=factor * model.peak)
 
 
-def loses(found: SmallestUnrecovered, size: float) -> bool:
+def has_unrecovered(found: SmallestUnrecovered, size: float) -> bool:
     """Whether some disturbances up to a size are lost, or it is larger than all that are possible."""
     return (found.size is not None and found.size <= size) or (found.complete and size > found.largest)
 
@@ -163,7 +163,7 @@ def decides(present: Check | None) -> bool:
     return present is not None and min(each.total for each in present.returned) >= FEWEST
 
 
-def lost_kinds(
+def unrecovered_kinds(
     required: Required,
     survives: Survives | None,
     present: Check | None,
@@ -184,6 +184,6 @@ def lost_kinds(
         seen = drawn.count < drawn.total or largest.count < largest.total
         seen |= kind == "kick" and described is not None and described <= size
         seen |= any(each.lost for each in full_size if each.kind == kind)
-        if seen or (entry is not None and loses(entry, size)):
+        if seen or (entry is not None and has_unrecovered(entry, size)):
             lost.append((kind, drawn if drawn.total else None))
     return lost

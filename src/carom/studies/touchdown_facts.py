@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from carom.parameters.formats import number
 from carom.rotors import ReducedMachine
 from carom.studies.facts import Fact
-from carom.studies.full_size import AtBearing
 from carom.studies.kinds import LABELS
 from carom.studies.study_data import StudyData
-from carom.studies.wording import Wording, counted, listed
+from carom.studies.wording import Wording, listed
 
 REDUCTION = (
     "Whether it levitates and all linear results are of all modes. Motions with contact are of {vectors} vectors, {modes} of them modes of the free rotor: "
@@ -18,6 +17,18 @@ REDUCTION = (
 )
 DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
 ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
+BORNE = {
+    True: (
+        ("orbit", "orbit up to {radius} from the centre"),
+        ("contacts", "{contacts:contact}, {force}, {contact_time} in contact"),
+    ),
+    False: (
+        ("orbit", "orbit up to {radius} from the centre"),
+        ("impacts", "{contacts:impact}, impulse {impulse}"),
+        ("lasting", "{force} in {contact_time} of lasting contact"),
+    ),
+}
+"""What is told of a compliant touchdown bearing, and of a rigid one."""
 HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
 NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
 
@@ -29,7 +40,10 @@ def load_facts(study: StudyData) -> Iterator[Fact]:
         size = study.wording.size_of(each.kind)(each.size)
         lines = [f"{label} of {size}, the worst of {each.back.total} all around, of which {each.back.count} came back:"]
         several = len(each.bearings) > 1
-        lines += [f"{_name(bearing) if several else ''}{_borne(bearing)}" for bearing in each.bearings]
+        for bearing in each.bearings:
+            borne = Wording(bearing.scales).rows(BORNE[bearing.is_compliant], bearing)
+            at = f"touchdown bearing {bearing.touchdown_bearing}: " if several else ""
+            lines.append(f"{at}{', '.join(text for _, text in borne)}{'' if bearing.contacts else ', no contact'}")
         if each.whirls:
             lines.append(f"those that do not come back go round {listed(list(each.whirls))}")
         yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", label, values=each.document())
@@ -84,23 +98,4 @@ def reduction_words(reduced: ReducedMachine) -> str:
         modes=reduced.modes,
         error=number(100.0 * reduced.error, 2),
         damped=DAMPED.format(ratio=number(ratio)) if ratio else "",
-    )
-
-
-def _name(each: AtBearing) -> str:
-    return f"touchdown bearing {each.touchdown_bearing}: "
-
-
-def _borne(each: AtBearing) -> str:
-    say = Wording(each.scales)
-    reach = f"orbit up to {say.length(each.radius)} from the centre"
-    if not each.contacts:
-        return f"{reach}, no contact"
-    if each.is_compliant:
-        return f"{reach}, {counted(each.contacts, 'contact')}, {say.force(each.force)}, {say.time(each.contact_time)} in contact"
-    text = f"{counted(each.contacts, 'impact')}, impulse {say.impulse(each.impulse)}"
-    return (
-        f"{text}, {say.force(each.force)} in {say.time(each.contact_time)} of lasting contact"
-        if each.contact_time
-        else text
     )

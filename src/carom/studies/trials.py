@@ -30,13 +30,13 @@ FIRST_LOOK = 200
 AT_LARGEST, AT_LARGEST_SINGLY = 96, 48
 """Number of disturbances of a kind whose sizes are all at their largest, and that of rotors whose motions are followed one after another."""
 KEPT, VARIANTS = 24, 96
-"""Lost disturbances of a kind that are tried again at the next value, and the number of variants of them."""
+"""Unrecovered disturbances of a kind that are tried again at the next value, and the number of variants of them."""
 FINEST = 1e-5
 """Least change of a variant, as a share of the range of each coordinate; the greatest is one."""
 
 
 @dataclass(frozen=True)
-class Lost:
+class Unrecovered:
     """A disturbance that did not come back.
 
     Attributes
@@ -64,7 +64,7 @@ class Check(Result):
         For each kind of disturbance, how many of those drawn came back.
     largest : tuple of Share
         The same for those at their largest size.
-    example : Lost or None
+    example : Unrecovered or None
         One that did not come back; ``None`` if all did.
     asked : int
         Number of disturbances that were to be followed; shares are of those that the budget of a study sufficed for.
@@ -75,7 +75,7 @@ class Check(Result):
     value: float
     returned: tuple[Share, ...]
     largest: tuple[Share, ...]
-    example: Lost | None
+    example: Unrecovered | None
     asked: int
 
     @classmethod
@@ -167,7 +167,7 @@ class Trial:
         rotor = self.varied.move(self.rotor, value)
         models = [sample.model.rescaled(self.rotor.scales, rotor.scales) for sample in self.disturbances]
         counts = np.zeros((2, len(models), 2), int)  # drawn or at the largest size, kind, came back and tried
-        example: Lost | None = None
+        example: Unrecovered | None = None
         asked = 0
         for place, values, row in self._portions(value, again=stop):
             starts: Starts = models[place].starts_on(rotor, *values)
@@ -181,7 +181,9 @@ class Trial:
                 self.last[place] = values[:, gone[:KEPT]]
                 if example is None:
                     _, names = name_endings(rotor, models[place], ends[gone[:1]])
-                    example = Lost(models[place], tuple(values[:, gone[0]].tolist()), names[0] if names else None)
+                    example = Unrecovered(
+                        models[place], tuple(values[:, gone[0]].tolist()), names[0] if names else None
+                    )
                 if stop:
                     break
         of = [Population.of_model(model, rotor.scales, instants_words(rotor)) for model in models]

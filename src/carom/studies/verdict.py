@@ -185,7 +185,7 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
     levitation, zone = study.equilibria[0], f"vibration in zone {study.zone}"
     if levitation.status != "admissible":
         what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
-        whirl = "sag and whirl" if study.heavy else "whirl from unbalance"
+        whirl = "sag and whirl" if study.under_gravity else "whirl from unbalance"
         why = f"its {whirl} {what} the wall of the touchdown bearing"
         return "no-contact-free-motion", "Cannot run without contact", why
     if not levitation.stable:
@@ -193,7 +193,7 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
         if study.rotor.system.limits:
             why = "its levitation asks for more than its magnetic bearings can give, or is not damped"
         return "no-contact-free-motion", f"Does not stay in levitation, {zone}", why
-    lost = [_lost_words(study, *found) for found in study.lost_kinds]
+    lost = [_lost_words(study, *found) for found in study.unrecovered_kinds]
     if lost:
         return "may-not-come-back", f"Does not come back from all that it must survive, {zone}", listed(lost)
     if not decides(study.present):

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial, partialmethod
+from operator import attrgetter
+from string import Formatter
 from typing import Any
 
 from carom.base.arguments import checked
+from carom.base.results import KINDS
 from carom.models import Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.formats import format_entry, format_quantity, number, own_entry
@@ -18,6 +22,11 @@ SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
 """What the size of a kick, a shock or a loss of a blade is."""
 _UNTOLD = ("phi", "radius_ratio")
 """Numbers that a line of present values leaves out."""
+_NOUNS = ("contact", "impact", "bounce")
+_LEAST = {"length": 0.1, "time": 0.1, "energy": 1.0, "power": 1.0}
+"""Kinds with a prefix, and the least number that stands before it."""
+_MANY_NEWTONS = 1e5
+"""Bearing loads are usually given in N; from here on they have a prefix."""
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -48,6 +57,37 @@ def steel_words(indentation: float) -> str:
     return f"even solid steel is indented by at least {share} {what}"
 
 
+def _radius(scales: Scales | None, value: float) -> str:
+    share = f"{number(value, 3)} c_r"
+    return share if scales is None else f"{share} ({Wording(scales).length(value)})"
+
+
+def _rate(scales: Scales | None, period: float) -> str:
+    if scales is None:
+        return f"{number(2.0 * math.pi / period, 3)} times a turn"
+    return f"{number(1.0 / (period * scales.time), 3)} times a second"
+
+
+def _slip(scales: Scales | None, value: float) -> str:
+    return f"{number(value * scales.velocity, 3)} m/s" if scales else format_quantity(value, "velocity", None)
+
+
+def _speed(scales: Scales | None, value: float) -> str:
+    return f"{number(value)} Ω" if scales is None else format_entry("speed", value * scales.speed)
+
+
+OTHER_KINDS: dict[str, Callable[[Scales | None, float], str]] = {
+    "radius": _radius,
+    "rate": _rate,
+    "slip": _slip,
+    "speed": _speed,
+    "pressure": lambda _, value: f"{number(1e-9 * value, 3)} GPa",
+    "percent": lambda _, value: f"{number(100.0 * value, 2)} %",
+}
+"""A radius in clearances and in mm, how often an event with a period comes, the speed of the surface of the rotor on the wall in m/s, angular speed in rpm, a pressure
+in Pa, and a share."""
+
+
 @checked
 @dataclass(frozen=True)
 class Wording:
@@ -72,67 +112,60 @@ class Wording:
         """Scales by which parameters are told in the terms of the machine; ``None`` where dimensionless numbers are."""
         return self.scales if self.in_terms else None
 
-    def length(self, value: float) -> str:
-        """A length given in ``c_r``."""
-        return self._quantity(value, "length")
+    def write(self, value: Any, kind: str = "") -> str:
+        """A value in units of the equations: of a kind of :class:`~carom.parameters.Scales`, one of :data:`OTHER_KINDS`, or as a plain number of four digits.
 
-    def radius(self, value: float) -> str:
-        """A radius in both units, for example ``0.955 c_r (0.668 mm)``."""
-        share = f"{number(value, 3)} c_r"
-        return share if self.scales is None else f"{share} ({self.length(value)})"
+        Kinds that people read in their own unit are in it (mm/s, g, ms, mm); others have the prefix that leaves three digits.
+        """
+        if kind in _NOUNS:
+            return counted(value, kind)
+        if kind in OTHER_KINDS:
+            return OTHER_KINDS[kind](self.scales, value)
+        if not kind or (self.scales is not None and kind in _LEAST):
+            size = value if not kind else value * getattr(self.scales, kind)
+            return number(value) if not kind else _with_prefix(size, UNITS[kind][1], _LEAST[kind])
+        if kind == "force" and self.scales is not None and abs(value) * self.scales.force >= _MANY_NEWTONS:
+            return _with_prefix(value * self.scales.force, "N", least=1.0)
+        return format_quantity(value, "length" if kind == "unbalance" and self.scales is None else kind, self.scales)
 
-    def time(self, value: float) -> str:
-        """A time given in ``1/Ω``."""
-        return self._quantity(value, "time")
+    length = partialmethod(write, kind="length")
+    time = partialmethod(write, kind="time")
+    velocity = partialmethod(write, kind="velocity")
+    acceleration = partialmethod(write, kind="acceleration")
+    unbalance = partialmethod(write, kind="unbalance")
+    force = partialmethod(write, kind="force")
+    impulse = partialmethod(write, kind="impulse")
+    energy = partialmethod(write, kind="energy")
+    power = partialmethod(write, kind="power")
+    slip = partialmethod(write, kind="slip")
+    per_second = partialmethod(write, kind="rate")
+    radius = partialmethod(write, kind="radius")
 
-    def velocity(self, value: float) -> str:
-        """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
-        return format_quantity(value, "velocity", self.scales)
+    def fill(self, template: str, entry: object, **also: object) -> str | None:
+        """A text with attributes of an entry as ``{name}`` or ``{name:kind}``; ``None`` where one of them is not known, or is zero.
 
-    def acceleration(self, value: float) -> str:
-        """An acceleration of the housing given in ``c_r Ω²``, in multiples of that of free fall."""
-        return format_quantity(value, "acceleration", self.scales)
+        Without a kind it is that of :data:`~carom.base.results.KINDS`.  What is given ``also`` is text.
+        """
+        parts = []
+        for before, name, kind, _ in Formatter().parse(template):
+            parts.append(before)
+            if name in also:
+                parts.append(str(also[name]))
+            elif name is not None:
+                value = attrgetter(name)(entry)
+                if not value:
+                    return None
+                parts.append(value if isinstance(value, str) else self.write(value, kind or KINDS.get(name, "")))
+        return "".join(parts)
 
-    def unbalance(self, value: float) -> str:
-        """An unbalance given as an eccentricity in ``c_r``, in g mm; without scales as it is."""
-        return format_quantity(value, "unbalance" if self.scales else "length", self.scales)
+    def rows(self, rows: Iterable[tuple[str, str]], entry: object, **also: object) -> list[tuple[str, str]]:
+        """Labels with what they say of an entry, from templates of :meth:`fill`; what is not known is left out."""
+        filled = ((label, self.fill(template, entry, **also)) for label, template in rows)
+        return [(label, text) for label, text in filled if text is not None]
 
     def size_of(self, kind: str) -> Callable[[float], str]:
         """How the size of a kick, a shock or a loss of a blade is written."""
-        write: Callable[[float], str] = getattr(self, SIZES[kind])
-        return write
-
-    def slip(self, value: float) -> str:
-        """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
-        return (
-            f"{number(value * self.scales.velocity, 3)} m/s"
-            if self.scales
-            else format_quantity(value, "velocity", None)
-        )
-
-    def force(self, value: float) -> str:
-        """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as bearing loads are usually given in N."""
-        if self.scales is not None and abs(value) * self.scales.force >= 1e5:
-            return _with_prefix(value * self.scales.force, "N", least=1.0)
-        return format_quantity(value, "force", self.scales)
-
-    def impulse(self, value: float) -> str:
-        """An impulse given in ``m c_r Ω``."""
-        return format_quantity(value, "impulse", self.scales)
-
-    def energy(self, value: float) -> str:
-        """An energy given in ``m c_r² Ω²``."""
-        return self._quantity(value, "energy", least=1.0)
-
-    def power(self, value: float) -> str:
-        """A power given in ``m c_r² Ω³``."""
-        return self._quantity(value, "power", least=1.0)
-
-    def per_second(self, period: float) -> str:
-        """Write the frequency of an event with this period, in ``1/Ω``."""
-        if self.scales is None:
-            return f"{number(2.0 * math.pi / period, 3)} times a turn"
-        return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
+        return partial(self.write, kind=SIZES[kind])
 
     def value(self, name: str, value: float) -> str:
         """A value of a parameter; of a dimensionless one that of the entry of the machine, with its unit, if it is known."""
@@ -179,11 +212,6 @@ class Wording:
                 return f"for every value{whole}"
             parts.append(f"below {last}" if from_start else f"above {first}" if to_end else f"from {first} to {last}")
         return " and ".join(parts)
-
-    def _quantity(self, value: float, kind: str, least: float = 0.1) -> str:
-        if self.scales is None:
-            return format_quantity(value, kind, None)
-        return _with_prefix(value * getattr(self.scales, kind), UNITS[kind][1], least)
 
 
 def present_values(case: Case) -> str:
