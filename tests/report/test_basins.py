@@ -3,7 +3,6 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from studies import study_once
 
@@ -15,7 +14,6 @@ from carom.report import basins, report_page
 from carom.report.figures import pictures
 from carom.studies import study
 from carom.studies.advice import Recommendation
-from carom.studies.summaries import share_rows
 
 KEOGH_COLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -64,7 +62,6 @@ def test_more_than_must_be_survived_is_shown_where_that_is_survived(monkeypatch)
     assert required == pytest.approx(result.required.kick)
     assert title == "after a change"
     assert words.startswith("No change is needed")
-    assert {len(row) for row in share_rows(result)} == {2}
 
 
 def test_the_kind_most_often_lost_is_shown(monkeypatch):
@@ -98,7 +95,6 @@ def test_without_levitation_only_the_changed_machine_has_a_basin(monkeypatch):
     ((_, words), (_, there)), _ = drawn(monkeypatch, result)
     assert words == "There is no stable levitation to come back to."
     assert there.recovered[there.exists].all()
-    assert {row[1] for row in share_rows(result)[1:]} == {"none"}
     told = {fact.label: fact for fact in result.facts if fact.topic == "Recommendation"}
     assert "worse" not in told["Then"].text
     assert next(fact.text for fact in result.facts if fact.label == "Coexisting").startswith("there ")
@@ -117,11 +113,3 @@ def test_what_is_lost_is_said_by_its_share(real):
         back = replace(share, fraction=fraction)
         changed = replace(real, present=replace(real.present, returned=(back, *real.present.returned[1:])))
         assert changed.verdict.reason.startswith(said)
-
-
-def test_shares_are_those_of_the_study(real):
-    rows = share_rows(real)[1:]
-    for row, now, after in zip(rows, real.present.returned, real.recommendation.changes[0].check.returned, strict=True):
-        assert f"({now.count:,} of {now.total:,};" in row[1]
-        assert f"({after.count:,} of {after.total:,};" in row[2]
-    assert np.isclose(float(rows[0][1].split(" %")[0]), 100.0 * real.share.fraction, rtol=1e-2)

@@ -15,7 +15,7 @@ from carom.report import report_page, write_report
 from carom.report.figures import pictures
 from carom.report.html import with_subscripts
 from carom.studies.facts import about
-from carom.studies.summaries import share_rows, survived_rows
+from carom.studies.summaries import survived_rows
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -118,7 +118,7 @@ def test_page_shows_the_study(written):
         assert told[label][1:] in words
     for fact in about(result.facts, "Recommendation"):
         assert fact.text[1:] in words
-    for row in (*survived_rows(result), *share_rows(result)):
+    for row in survived_rows(result):
         assert all(cell in words for cell in row)
     assert text.count("<svg") == len(pictures(result))
     assert "`" not in words

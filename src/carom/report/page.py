@@ -26,8 +26,6 @@ from carom.studies.part_rows import part_rows
 from carom.studies.summaries import (
     MotionRow,
     motion_rows,
-    range_rows,
-    share_rows,
     survived_rows,
 )
 from carom.studies.wording import machine_heading
@@ -74,21 +72,17 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         mark=_mark(study),
         drawable=drawable(study),
         facts={fact.label: fact.sentence for fact in about(study.facts, "Verdict")},
-        shares=share_rows(study),
         survived=survived_rows(study),
         can_change=CHANGES,
         changes=changes,
         advice=about_all,
         at_once=AT_ONCE,
-        findings=[
-            entry for entry in paragraphs(study.facts) if entry[0] not in ("What would change it", "Not covered")
-        ],
+        findings=[entry for entry in paragraphs(study.facts) if entry[0] != "Not covered"],
         machine=part_rows(study.case, study.reduced.machine) if study.reduced else study.case.rows(),
         whirls=_whirls(study.levitating),
         motions=motion_rows(study),
         holding=_holding(study),
         left_out=sum(not orbit.admissible for orbit in study.orbits),
-        ranges=range_rows(study),
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
         figures=figures,
         not_covered=not_covered(study),

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import zip_longest
 from typing import Literal
 
 from carom.attractors import Attractor, AttractorSet
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.base.outcome import STEADY_WORDS
-from carom.basins import Share
-from carom.basins.shares import percent
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
@@ -86,27 +83,6 @@ def survived_rows(study: StudyData) -> list[tuple[str, ...]]:
         for name, cells in found
     ]
     return [("disturbance", *(SURVIVED[column] for column in used)), *rows]
-
-
-def share_rows(study: StudyData) -> list[tuple[str, ...]]:
-    """Return the headings, and a row for each kind of disturbance that must be survived: what, and how many come back now and after the advised change."""
-    change = study.recommendation.advised
-    now = study.present.returned if study.present else ()
-    after = change.check.returned if change else ()
-    rows = [
-        (share.population.words, *(_share_back(each) if each else "none" for each in pair))
-        for share, pair in zip(now or after, zip_longest(now, after) if change else zip(now), strict=False)
-    ]
-    head = ("how many come back (of those drawn; 95 % confidence)", "now", "after the change")
-    return [head[: 3 if change else 2], *rows] if rows else []
-
-
-def _share_back(share: Share) -> str:
-    """A share with what it rests on."""
-    if not share.total:
-        return "none followed"
-    interval = f"{percent(share.low).removesuffix(' %')} to {percent(share.high)}"
-    return f"{percent(share.fraction)} ({share.count:,} of {share.total:,}; {interval})"
 
 
 def dimensionless_rows(case: Case) -> list[tuple[str, str]]:
@@ -239,14 +215,3 @@ def _back_words(say: Wording, found: Recovery) -> str:
     met = [f"; beyond {say.value(along, value)} some end in {motion_words(motion)}" for motion, value in sorted(ends)]
     tried = f"all of {each:,} disturbances at each of {counted(len(found.clear), 'value')}"
     return f"{say.where(along, found.spans)} ({tried}, searched from {low} to {high}{''.join(met)})"
-
-
-def range_rows(study: StudyData) -> list[tuple[str, ...]]:
-    """Return the headings, then rows that say where each motion exists along each parameter of ``study.recoveries``, and where all that must be survived came back."""
-    tables = [ranges_along(study.wording, found) for found in study.recoveries]
-    if not tables:
-        return []
-    told = [dict(rows) for rows in tables]
-    rows = [(name, *(each.get(name, "not searched") for each in told)) for name in (*MOTIONS.values(), BACK)]
-    known = [row for row in rows if set(row[1:]) != {"not searched"}]
-    return [("motion", *(f"{name} (this machine: {value})" for (name, value), *_ in tables)), *known]
