@@ -7,7 +7,7 @@ from typing import Any
 
 from carom.attractors import MotionName
 from carom.base.outcome import InputError, Outcome
-from carom.base.results import Result, fields_of, in_si
+from carom.base.results import Result, record
 from carom.disturbances import Drop, drop
 from carom.disturbances.drops import ASSUMED
 from carom.disturbances.echo import Echo
@@ -23,6 +23,7 @@ from carom.studies.wording import Wording
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
 MOST_EVENTS = 20_000
+DROP, SHAFT = "time: settled_at:time outcome=outcome.label meaning=outcome.meaning", "speed_at_end:speed left_out:speed"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -88,16 +89,12 @@ class DropStudy(Result):
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
             "gravity_assumed": self.assumed,
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
-            **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
+            **record(loads, DROP, scales),
         }
-        document |= in_si(document, scales, "time", settled_at="time")
         if loads.shaft is not None:
-            shaft = fields_of(loads.shaft, "speed_at_end", "left_out")
-            document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
-        if self.reduction is not None:
-            document["reduction"] = self.reduction.document()
-        if loads.magnets is not None:
-            document["magnets"] = loads.magnets.document()
+            document["shaft"] = record(loads.shaft, SHAFT, scales)
+        told = {"reduction": self.reduction, "magnets": loads.magnets}
+        document |= {name: part.document() for name, part in told.items() if part is not None}
         return document | {"touchdown_bearings": load_entries(loads, case.limits)}
 
 
