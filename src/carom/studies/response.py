@@ -107,6 +107,9 @@ def unbalance_response(
 def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     """Synchronous rubs over the speed in one touchdown bearing, where nothing stands in the fixed frame."""
     system = model.system
+    if found.exact:
+        angles = speed_response(found.case).rub_angles(found.speeds)
+        return Rubs(found.speeds, -angles % math.tau, np.where(np.isnan(angles), np.nan, 1.0))
     if len(system.contacts) > 1 or system.outer.any() or system.is_anisotropic or system.shaft is not None:
         return None
     speeds = found.speeds[:: max(1, len(found.speeds) // RUB_SPEEDS)]
