@@ -57,17 +57,9 @@ class Drop(Disturbance):
         return ()
 
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
-        """The state at the release, with the rotor that falls after it."""
-        falling, state = self.stages(rotor)
-        after = np.empty((), object)
-        after[()] = falling
-        found = Starts.of(np.zeros(()), 0j, True)
-        return found._replace(
-            positions=np.asarray(state.position),
-            velocities=np.asarray(state.velocity),
-            begins=np.array(state.time),
-            after=after,
-        )
+        """A drop is no start of a levitating rotor."""
+        allowed = "followed by carom.simulate, and mapped by carom.basins.map_drops"
+        raise InputError("disturbance", self.kind, allowed)
 
     def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """See :meth:`apply`."""
