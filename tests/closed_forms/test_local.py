@@ -127,7 +127,7 @@ def four_modes() -> SimpleNamespace:
         restitution=np.array([0.8]),
         surface_speed=np.array([50.0]),
     )
-    return System(arrays, arrays.offsets, arrays.rows)
+    return System(arrays, arrays.offsets, arrays.rows, np.zeros((4, 2)))
 
 
 def test_determinant_of_a_rotor_with_four_modes():

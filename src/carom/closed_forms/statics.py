@@ -99,8 +99,7 @@ def _slips(system: System, planes: tuple[int, ...], forces: np.ndarray) -> bool:
     if system.races is None:
         return True
     arrays, chosen = system.arrays, list(planes)
-    decays = np.zeros(len(arrays["race"]))
-    decays[system.races.planes] = -system.races.exponents
+    decays = np.array([0.0 if race is None else -race.exponent for race in system.races])
     driven = arrays["race_gain"][chosen] * arrays["friction"][chosen] * np.abs(forces)
     surface = arrays["surface_speed"][chosen] + depths(system, planes, forces)
     slips = (arrays["race"][chosen] < 0) | (driven < surface * decays[chosen])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
@@ -59,7 +58,6 @@ def rotor_record(
     surface_speed: np.ndarray,
     free: np.ndarray | None = None,
     unbalance: np.ndarray | None = None,
-    limits: Mapping[str, np.ndarray] | None = None,
     **others: np.ndarray,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
@@ -109,11 +107,11 @@ def rotor_record(
         Change of its speed by a friction impulse along growing angle that changes the velocity of the plane by one.
     drive : ndarray, shape (1,), optional
         Rate of its speed by the torque of its drive, which acts in contact.
-    limits : mapping, optional
-        Of ``L`` quantities with a limit along each of two axes of the fixed frame (:mod:`carom.core.limits`): ``limit_rows`` (L, N) and
-        ``limit_offsets`` (L,), complex, by which they follow from the amplitudes; ``limit_bounds`` (L,); ``limit_columns`` (N, L), rates of
-        the amplitudes by what lies beyond; ``limit_couplings`` (L, L), by which what lies beyond one adds to those after it; where there is
-        a ``mirror``, also ``limit_mirrors`` (N, L), as ``mirror_columns``.
+    limit_rows, limit_offsets, limit_bounds, limit_columns, limit_couplings, limit_mirrors : ndarray, optional
+        Of ``L`` quantities with a limit along each of two axes of the fixed frame (:mod:`carom.core.limits`): rows (L, N) and offsets
+        (L,), complex, by which they follow from the amplitudes; bounds (L,); columns (N, L), rates of the amplitudes by what lies beyond;
+        couplings (L, L), by which what lies beyond one adds to those after it; where there is a ``mirror``, also mirrors (N, L), as
+        ``mirror_columns``.
     mirror : ndarray of int, shape (1,), optional
         Mode of the turn of bearings that act differently in two directions (:mod:`carom.core.mirror`).
     mirror_columns : ndarray of complex, shape (N, P), optional
@@ -151,10 +149,11 @@ def rotor_record(
         "largest_response": _largest_response(values, gaps),
     }
     seen = _seen(generator, rows, offsets)
-    given, number = (_no_limits(modes), 0) if limits is None else (limits, len(limits["limit_bounds"]))
-    scale = 1.0 / given["limit_bounds"]
-    reach = own | _seen(generator, given["limit_rows"] * scale[:, None], given["limit_offsets"] * scale) | {"shaft": []}
-    fields = _nothing_more(modes, planes) | own | seen | others | dict(given)
+    fields = _nothing_more(modes, planes) | own | seen | others
+    number, scale = len(fields["limit_bounds"]), 1.0 / fields["limit_bounds"]
+    reach = (
+        own | _seen(generator, fields["limit_rows"] * scale[:, None], fields["limit_offsets"] * scale) | {"shaft": []}
+    )
     fields |= {
         "columns": columns,
         "mobility": seen["rate_rows"].dot(columns),
@@ -162,7 +161,7 @@ def rotor_record(
         "friction": friction,
         "restitution": restitution,
         "surface_speed": surface_speed,
-        "limit_pulls": seen["rate_rows"].dot(given["limit_columns"]),
+        "limit_pulls": seen["rate_rows"].dot(fields["limit_columns"]),
         "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
     if free is not None:
@@ -188,8 +187,10 @@ def _nothing_more(modes: int, planes: int) -> dict[str, Any]:
         "masses": np.ones(planes),
         "free": np.ones(modes),
         **dict.fromkeys((*of_shaft, "mirror", "gap_offsets"), np.zeros(0)),
-        **dict.fromkeys(("mirror_columns", "limit_mirrors"), np.zeros((modes, 0))),
-        "gap_rows": np.zeros((0, modes)),
+        **dict.fromkeys(("mirror_columns", "limit_mirrors", "limit_columns"), np.zeros((modes, 0), COMPLEX)),
+        **dict.fromkeys(("gap_rows", "limit_rows"), np.zeros((0, modes), COMPLEX)),
+        **dict.fromkeys(("limit_bounds", "limit_offsets"), np.zeros(0)),
+        "limit_couplings": np.zeros((0, 0), COMPLEX),
     }
 
 
@@ -204,17 +205,6 @@ def _seen(generator: np.ndarray, rows: np.ndarray, offsets: np.ndarray) -> dict[
         "rate_rows": rate_rows,
         "acceleration_rows": acceleration_rows,
         "jerk_rows": acceleration_rows.dot(generator),
-    }
-
-
-@cache
-def _no_limits(modes: int) -> Mapping[str, np.ndarray]:
-    return {
-        "limit_rows": np.zeros((0, modes), COMPLEX),
-        "limit_offsets": np.zeros(0, COMPLEX),
-        "limit_bounds": np.zeros(0),
-        "limit_columns": np.zeros((modes, 0), COMPLEX),
-        "limit_couplings": np.zeros((0, 0), COMPLEX),
     }
 
 

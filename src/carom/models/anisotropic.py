@@ -15,55 +15,35 @@ turn ``τ`` is a forcing mode, which moves the coordinates by ``q``.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Self
+import dataclasses
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.core.wall import Wall
 from carom.models.from_modes import modal_system
+from carom.models.matrices import is_singular
 from carom.models.system import System
+
+if TYPE_CHECKING:
+    from carom.models.linear import LinearEquations
 
 TURN = -2j
 """Exponent of ``τ``."""
 
 
-class Doubled(NamedTuple):
-    """Matrices of the coordinates ``(U, V)`` in the frame that turns with the shaft, as those of a rotor of ``2n`` coordinates."""
-
-    mass: np.ndarray
-    damping: np.ndarray
-    stiffness: np.ndarray
-
-    @classmethod
-    def of(cls, mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, conjugate: np.ndarray) -> Self:
-        """Double the matrices of that frame; what acts on conjugates, damping and stiffness, is that of the fixed frame."""
-        spin = damping - 2j * mass
-        fixed, (across, stiffer) = stiffness + mass - 1j * spin, conjugate
-        both = np.block([[mass, np.zeros_like(mass)], [np.zeros_like(mass), mass.conj()]])
-        spins = np.block([[spin, across], [across.conj(), spin.conj()]])
-        springs = np.block([[fixed, stiffer], [stiffer.conj(), fixed.conj()]])
-        return cls(both, spins + 2j * both, springs - both + 1j * spins)
-
-
-def anisotropic_system(doubled: System, pushes: np.ndarray, **others: Any) -> System:
-    """System of the coordinates ``U`` from that of both.
-
-    Parameters
-    ----------
-    doubled : System
-        Of the coordinates ``(U, V)``; its planes see ``U`` alone.
-    pushes : ndarray of complex, shape (n, P)
-        Change of the rates of the coordinates by an impulse at a plane that changes its velocity by one.
-    **others
-        See :func:`~carom.models.from_modes.modal_system`: what both do not say.
-    """
-    n, free, arrays = len(doubled.rest) // 2, doubled.free, doubled.arrays
+def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
+    """System of the coordinates ``U`` from that of both; what acts on conjugates, damping and stiffness, is that of the fixed frame."""
+    doubled = _doubled(given, conjugate)
+    n, free, arrays = len(given.mass), doubled.free, doubled.arrays
     modes = int(free.sum())
     forward, backward = np.split(doubled.rest, 2)
     ellipse = backward.conj()
     inverse = np.append(doubled.to_modes[free], np.zeros((1, 4 * n)), axis=0)
     by_position, by_conjugate, by_rate, by_conjugate_rate = np.split(inverse, 4, axis=1)
     planes = doubled.planes[:, :n]
+    pushes = given.accelerations(given.planes.conj().T) * arrays["masses"]
 
     def turned(values: np.ndarray, by_turn: np.ndarray) -> np.ndarray:
         return np.append(values[:, free], by_turn[:, None], axis=1)
@@ -81,7 +61,26 @@ def anisotropic_system(doubled: System, pushes: np.ndarray, **others: Any) -> Sy
         mirror=np.array([modes]),
         mirror_columns=by_conjugate_rate @ pushes.conj(),
         conjugate_modes=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
-        limits=None,
+        races=[each.race for each in given.touchdowns],
+        translation=given.translation,
+        clearances=tuple(each.clearance for each in given.touchdowns),
+        magnets=given.magnets,
         **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
-        **others,
     )
+
+
+def _doubled(given: LinearEquations, conjugate: np.ndarray) -> System:
+    """System of the coordinates ``(U, V)``, as that of a rotor of ``2n``; its planes see ``U`` alone."""
+    from carom.models.linear import LinearEquations  # which are defined with their system
+
+    mass, (across, stiffer) = given.mass, conjugate
+    spin = given.damping - 2j * mass
+    fixed, none = given.stiffness + mass - 1j * spin, np.zeros(len(mass))
+    both = np.block([[mass, np.zeros_like(mass)], [np.zeros_like(mass), mass.conj()]])
+    spins = np.block([[spin, across], [across.conj(), spin.conj()]])
+    springs = np.block([[fixed, stiffer], [stiffer.conj(), fixed.conj()]])
+    damping, stiffness = spins + 2j * both, springs - both + 1j * spins
+    if is_singular(stiffness, both, damping, stiffness) and given.forcing.any():
+        raise InputError("forcing", given.forcing.tolist(), "none in undamped resonance with it")
+    planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in given.touchdowns]
+    return LinearEquations(both, damping, stiffness, np.append(given.forcing, none), planes).system

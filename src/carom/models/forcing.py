@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,6 +37,9 @@ ALIKE = -1
 """Instead of the mode of a turn."""
 ONE = 1e-7
 """Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
+
+
+_OF_LIMITS = ("limit_offsets", "limit_bounds", "limit_couplings")
 
 
 class Force(NamedTuple):
@@ -75,6 +78,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     for exponent, together in _merged(pushes):
         push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
+    turns = modes.mirror > ALIKE
     made = modal_system(
         exponents=modes.exponents,
         driven=modes.driven,
@@ -84,33 +88,21 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         shapes=modes.right[first:],
         inverse=modes.left[:, first:last],
         translation=system.translation,
-        races=system.races,
+        races=system.races or (),
         shaft=system.shaft,
         clearances=system.clearances,
         magnets=system.magnets,
         rows=modes.right[:planes],
         columns=modes.left[:, :planes],
-        limits={
-            "limit_rows": modes.right[planes:first],
-            "limit_columns": modes.left[:, planes:first],
-            "limit_mirrors": modes.left[:, last + planes : last + first],
-            **{name: arrays[name] for name in ("limit_offsets", "limit_bounds", "limit_couplings")},
-        },
-        **_mirrored(modes, slice(last, last + planes), slice(last + first, None)),
-        **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
+        limit_rows=modes.right[planes:first],
+        limit_columns=modes.left[:, planes:first],
+        limit_mirrors=modes.left[:, last + planes : last + first],
+        mirror=np.array([modes.mirror] if turns else [], int),
+        mirror_columns=modes.left[:, last : last + planes],
+        conjugate_modes=modes.left[:, last + first :] if turns else None,
+        **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields, *_OF_LIMITS)},
     )
     return replace(made, growth=system.growth) if system.growth else made
-
-
-def _mirrored(modes: _Modes, columns: slice, states: slice) -> dict[str, Any]:
-    """What of a system acts on conjugates; nothing where bearings are isotropic."""
-    if modes.mirror == ALIKE:
-        return {}
-    return {
-        "mirror": np.array([modes.mirror]),
-        "mirror_columns": modes.left[:, columns],
-        "conjugate_modes": modes.left[:, states],
-    }
 
 
 def _merged(
@@ -146,8 +138,7 @@ class _Modes:
         """Modes of a system without those that only fill its arrays."""
         arrays, forced = system.arrays, system.forced_at(0.0)
         kept = system.free | (forced != 0.0)
-        if system.races is not None:
-            kept[arrays["race"][system.races.planes]] = False
+        kept[system.race_modes] = False
         for place in arrays["shaft"].tolist():
             kept[place : place + 2] = False
         right = np.concatenate([arrays["rows"], arrays["limit_rows"], system.shapes])

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from carom.base.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
-from carom.models.race import RaceModes
+from carom.models.race import Race
 from carom.models.shaft import ShaftModes
 from carom.models.system import System
 
 SMALLEST = 2
 """Least number of modes in the arrays; larger numbers are powers of two."""
+
+
+_ALONG_MODES = {
+    **dict.fromkeys(("driven", "free", "columns", "mirror_columns", "limit_columns", "limit_mirrors", "unbalance"), 0),
+    **dict.fromkeys(("rows", "limit_rows", "gap_rows"), 1),
+}
+"""Fields with a number for each mode, and along which axis."""
+
+
+def size_of(modes: int) -> int:
+    """Number of modes in the arrays of a system with so many."""
+    return max(SMALLEST, 1 << (modes - 1).bit_length())
 
 
 def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
@@ -25,88 +37,76 @@ def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
 def modal_system(
     *,
     exponents: np.ndarray,
-    driven: np.ndarray,
     rest: np.ndarray,
     shapes: np.ndarray,
     inverse: np.ndarray,
-    rows: np.ndarray,
-    columns: np.ndarray,
-    free: np.ndarray | None = None,
     forced: np.ndarray | None = None,
     translation: np.ndarray | None = None,
-    races: RaceModes | None = None,
+    races: Sequence[Race | None] = (),
     shaft: ShaftModes | None = None,
     clearances: tuple[float, ...] | None = None,
-    limits: Mapping[str, np.ndarray] | None = None,
     conjugate_modes: np.ndarray | None = None,
-    mirror_columns: np.ndarray | None = None,
-    mirror: np.ndarray | None = None,
     magnets: np.ndarray | None = None,
-    **planes: np.ndarray,
+    **arrays: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
 
     Parameters
     ----------
-    exponents, driven, free, rows, columns, limits, mirror, mirror_columns, **planes
-        See :func:`~carom.core.layout.rotor_record`.
+    exponents, **arrays
+        See :func:`~carom.core.layout.rotor_record`; all modes are free by default.
     rest, shapes, inverse, forced, translation, clearances, conjugate_modes, magnets
         See :class:`System`.
-    races : RaceModes, optional
-        Further modes, of races that turn.
+    races : sequence of Race or None
+        At the planes; each that turns is one more mode.
     shaft : ShaftModes, optional
         Two more, of a shaft whose speed changes, at the nominal speed at first.
     """
-    modes, number = len(exponents), 0 if races is None else len(races.planes)
-    more = number if shaft is None else number + 2
-    size = max(SMALLEST, 1 << (modes + more - 1).bit_length())
+    modes, turning = len(exponents), [(plane, race) for plane, race in enumerate(races) if race is not None]
+    number = len(turning)
+    size = size_of(modes + number + (0 if shaft is None else 2))
 
     def filled(values: np.ndarray, axis: int = 0, filler: complex = 0.0) -> np.ndarray:
         room = [(0, 0)] * values.ndim
         room[axis] = (0, size - values.shape[axis])
         return np.pad(values, room, constant_values=filler)
 
-    if races is not None:
-        exponents = np.append(exponents, races.exponents)
-        speeds = np.append(np.zeros(modes) if forced is None else forced, races.speeds)
+    arrays.setdefault("free", np.ones(modes, bool))
+    if turning:
+        exponents = np.append(exponents, [race.exponent for _, race in turning])
+        speeds = np.append(np.zeros(modes) if forced is None else forced, [race.surface_speed for _, race in turning])
         forced = speeds if speeds.any() else None
-        place, gain = np.full(len(rows), -1), np.zeros(len(rows))
-        place[races.planes], gain[races.planes] = modes + np.arange(number), races.gains
-        planes |= {"race": place, "race_gain": gain}
+        place, gain = np.full(len(races), -1), np.zeros(len(races))
+        for mode, (plane, race) in enumerate(turning, modes):
+            place[plane], gain[plane] = mode, race.gain(float(arrays["masses"][plane]))
+        arrays |= {"race": place, "race_gain": gain}
     if shaft is not None:
         exponents = np.append(exponents, np.zeros(2))
         forced = np.append(np.zeros(modes + number) if forced is None else forced, np.ones(2))
-        planes |= {
+        arrays |= {
             "shaft": np.array([modes + number]),
-            "unbalance": filled(inverse[:, len(rest) :] @ shaft.accelerations),
-            "shaft_gain": shaft.gains(planes["masses"], planes["surface_speed"] - 1.0),
+            "unbalance": inverse[:, len(rest) :] @ shaft.accelerations,
+            "shaft_gain": shaft.gains(arrays["masses"], arrays["surface_speed"] - 1.0),
             "drive": np.array([shaft.drive]),
         }
-    if limits is not None:
-        limits = {
-            **limits,
-            "limit_rows": filled(limits["limit_rows"], 1),
-            "limit_columns": filled(limits["limit_columns"]),
-            "limit_mirrors": filled(limits["limit_mirrors"]),
-        }
-    if mirror is not None and mirror_columns is not None:
-        planes |= {"mirror": mirror, "mirror_columns": filled(mirror_columns)}
     if magnets is not None:
-        planes |= {"gap_rows": filled(magnets @ shapes, 1), "gap_offsets": magnets @ rest}
-    arrays = rotor_record(
-        limits=limits,
+        arrays |= {"gap_rows": magnets @ shapes, "gap_offsets": magnets @ rest}
+    record = rotor_record(
         exponents=filled(exponents, filler=exponents[-1]),
-        driven=filled(driven),
-        free=filled(np.ones(modes, bool) if free is None else free),
-        rows=filled(rows, 1),
-        columns=filled(columns),
-        **planes,
+        **{name: filled(each, _ALONG_MODES[name]) if name in _ALONG_MODES else each for name, each in arrays.items()},
     )
-    moved = None if forced is None else filled(forced)
-    conjugates = None if conjugate_modes is None else filled(conjugate_modes)
-    shown = filled(shapes, 1)
     return System(
-        arrays, rest, shown, filled(inverse), translation, moved, races, shaft, clearances, conjugates, magnets=magnets
+        record,
+        rest,
+        filled(shapes, 1),
+        filled(inverse),
+        translation,
+        None if forced is None else filled(forced),
+        tuple(races) if turning else None,
+        shaft,
+        clearances,
+        None if conjugate_modes is None else filled(conjugate_modes),
+        magnets=magnets,
     )
 
 
@@ -140,7 +140,6 @@ def second_order_system(
         offsets=offsets,
         rows=rows,
         columns=np.array([[1.0], [0.0]], np.complex128),
-        limits=None,
         **walls_as_arrays([wall]),
         masses=np.array([mass]),
     )

@@ -32,6 +32,8 @@ _KEPT = (
     "free",
     "gap_rows",
     "gap_offsets",
+    "mirror",
+    "mirror_columns",
 )
 _VECTORS = ("displacement", "velocity", "accelerations", "rates")
 
@@ -133,11 +135,9 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
         "limit_columns": system.to_modes @ pushes,
         "limit_couplings": couplings * turns[:, None] / turns,
     }
-    kept = {name: arrays[name] for name in _KEPT}
     if system.is_anisotropic:
         own["limit_mirrors"] = system.conjugate_modes @ pushes.conj()
-        kept |= {name: arrays[name] for name in ("mirror", "mirror_columns")}
-    return replace(system, arrays=rotor_record(**kept, limits=own))
+    return replace(system, arrays=rotor_record(**{name: arrays[name] for name in _KEPT}, **own))
 
 
 def limits_by(control: ControlLimit, matrices: Matrices, scales: Scales) -> tuple[Limit, ...]:

@@ -14,8 +14,8 @@ from carom.base.outcome import InputError, shown
 from carom.base.results import Result
 from carom.models import linear_parameters
 from carom.models.definition import Definition
-from carom.models.linear_system import is_singular, system_of
-from carom.models.matrices import Matrices
+from carom.models.linear_system import system_of
+from carom.models.matrices import Matrices, is_singular
 from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
@@ -207,21 +207,10 @@ class LinearEquations(Definition, Result):
         if len(self.mass) > 1 and self.unlevitated is None:
             allowed = "a rotor of one coordinate, or one that says by its unlevitated matrices what is left without its levitation"
             raise InputError("machine", shown(self), allowed)
-        mass, _, gyroscopic, _, forcing = self.matrices
-        damping, stiffness = np.zeros((2, *mass.shape)) if self.unlevitated is None else self.unlevitated
-        return LinearEquations.in_fixed_frame(
-            mass=mass,
-            damping=damping,
-            stiffness=stiffness,
-            gyroscopic=gyroscopic,
-            forcing=forcing,
-            touchdowns=self.touchdowns,
-            translation=self.translation,
-            scales=self.scales,
-            shaft=self.shaft,
-            conjugate=self.conjugate,
-            magnets=self.magnets,
-        )
+        damping, stiffness = np.zeros((2, *self.mass.shape)) if self.unlevitated is None else self.unlevitated
+        left = self.matrices._replace(damping=damping, stiffness=stiffness)
+        kept = ("touchdowns", "translation", "scales", "shaft", "conjugate", "magnets")
+        return LinearEquations.in_fixed_frame(**left._asdict(), **{name: getattr(self, name) for name in kept})
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
         """See :meth:`carom.models.Definition.unbalance_push`: all masses are off centre by the same, along the translation."""

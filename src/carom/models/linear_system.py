@@ -8,26 +8,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.base.outcome import InputError
-from carom.models.anisotropic import Doubled, anisotropic_system
+from carom.models.anisotropic import anisotropic_system
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.matrices import is_singular
 from carom.models.modes import modes_of
-from carom.models.race import RaceModes
 from carom.models.shaft import ShaftModes
 from carom.models.system import System
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
 
-SINGULAR = 1e-14
-"""Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
-
 
 def system_of(given: LinearEquations) -> System:
     """Modes, contact planes and contact law of a rotor with these equations of motion."""
     n = len(given.mass)
     if given.conjugate is not None:
-        return _anisotropic(given, given.conjugate)
+        return anisotropic_system(given, given.conjugate)
     _check_inverses(given)
     if is_singular(given.stiffness, given.mass, given.damping, given.stiffness) and given.forcing.any():
         # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
@@ -57,31 +54,10 @@ def system_of(given: LinearEquations) -> System:
         offsets=given.planes @ rest,
         rows=given.planes @ found.basis[:n],
         columns=inverse[:, n:] @ (moved / mobilities),
-        races=RaceModes.of(races, masses),
+        races=races,
         shaft=turning,
-        limits=None,
         **walls_as_arrays([each.wall(mass) for each, mass in zip(given.touchdowns, masses, strict=True)]),
         masses=masses,
-        translation=given.translation,
-        clearances=tuple(each.clearance for each in given.touchdowns),
-        magnets=given.magnets,
-    )
-
-
-def _anisotropic(given: LinearEquations, conjugate: np.ndarray) -> System:
-    """System where bearings are anisotropic."""
-    from carom.models.linear import LinearEquations  # which are defined with their system
-
-    doubled = Doubled.of(given.mass, given.damping, given.stiffness, conjugate)
-    none = np.zeros(len(given.mass))
-    if is_singular(doubled.stiffness, doubled.mass, doubled.damping, doubled.stiffness) and given.forcing.any():
-        raise InputError("forcing", given.forcing.tolist(), "none in undamped resonance with it")
-    planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in given.touchdowns]
-    system = LinearEquations(*doubled, np.append(given.forcing, none), planes).system
-    return anisotropic_system(
-        system,
-        given.accelerations(given.planes.conj().T) * system.arrays["masses"],
-        races=RaceModes.of([each.race for each in given.touchdowns], system.arrays["masses"]),
         translation=given.translation,
         clearances=tuple(each.clearance for each in given.touchdowns),
         magnets=given.magnets,
@@ -117,8 +93,3 @@ def _one_coordinate(given: LinearEquations, exponents: np.ndarray, equilibrium: 
         exponents=(fast, slow), equilibrium=equilibrium, wall=given.touchdowns[0].wall(mass), mass=mass
     )
     return dataclasses.replace(system, translation=given.translation)
-
-
-def is_singular(matrix: np.ndarray, *terms: np.ndarray) -> bool:
-    """Whether a matrix is singular to the rounding of these."""
-    return bool(np.linalg.svd(matrix, compute_uv=False)[-1] <= SINGULAR * max(map(np.linalg.norm, terms)))

@@ -153,11 +153,12 @@ class Planar(Definition):
             damping, stiffness = np.zeros_like(damping), np.zeros_like(stiffness)
         plane, matrices = [1.0], {"mass": mass, "damping": damping, "stiffness": stiffness}
         given = self.bearing or RIGID
-        if given.mount_mass is not None and given.mount_stiffness is not None:
-            mount = given.mount_mass / scales.mass, (given.mount_damping or 0.0) / scales.damping
+        if mount := given.mount:
             plane = [1.0, -1.0]
-            held = zip(matrices.items(), (*mount, given.mount_stiffness / scales.stiffness), strict=True)
-            matrices = {name: np.diag([matrix[0, 0], value]) for (name, matrix), value in held}
+            matrices = {
+                name: np.diag([matrix[0, 0], getattr(mount, name) / getattr(scales, name)])
+                for name, matrix in matrices.items()
+            }
             forcing = np.append(forcing, 0.0)
         at = self.parameters
         touchdown = Touchdown(
@@ -312,8 +313,8 @@ def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) 
 
 def race_of(bearing: TouchdownBearing, radius_ratio: float, scales: Scales) -> Race | None:
     """Race of a bearing in the units of a rotor's equations; ``None`` if it stands still."""
-    if bearing.race_inertia is None:
+    race = bearing.race
+    if race is None:
         return None
     unit = scales.mass * scales.length**2
-    drag = (bearing.race_drag or 0.0) / (unit * scales.speed)
-    return Race(bearing.race_inertia / unit, radius_ratio + 1.0, drag)
+    return Race(race.inertia / unit, radius_ratio + 1.0, race.drag / (unit * scales.speed))

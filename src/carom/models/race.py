@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from carom.base.arguments import NotNegative, Positive, checked
 
@@ -49,34 +46,3 @@ class Race:
     def at_speed(self, factor: float) -> Race:
         """Return the same at a speed of the shaft that is larger by a factor."""
         return Race(self.inertia, self.radius, self.drag / factor, self.speed / factor)
-
-
-@dataclass(frozen=True, eq=False)
-class RaceModes:
-    """The modes of the races that turn; each has the speed of its surface as real amplitude, and moves no plane.
-
-    Attributes
-    ----------
-    planes : ndarray of int, shape (R,)
-        Plane of each.
-    exponents, speeds, gains : ndarray, shape (R,)
-        Exponents of their decay, speeds at the beginning of a motion, and changes by a friction impulse that changes the velocity
-        of the plane by one.
-    """
-
-    planes: np.ndarray
-    exponents: np.ndarray
-    speeds: np.ndarray
-    gains: np.ndarray
-
-    @classmethod
-    def of(cls, races: Sequence[Race | None], masses: np.ndarray) -> RaceModes | None:
-        """Modes of the races at planes that feel masses (P,); ``None`` if none turns."""
-        turning = [(plane, race) for plane, race in enumerate(races) if race is not None]
-        if not turning:
-            return None
-        numbers = [
-            (plane, race.exponent, race.surface_speed, race.gain(float(masses[plane]))) for plane, race in turning
-        ]
-        planes, *others = map(np.array, zip(*numbers, strict=True))
-        return cls(planes, *others)

@@ -12,7 +12,7 @@ from carom.base.outcome import InputError
 from carom.core.records import copy_of
 from carom.models.mode_arrays import EQUAL, ModeArrays
 from carom.models.nodes import Nodes
-from carom.models.race import RaceModes
+from carom.models.race import Race
 from carom.models.shaft import ShaftModes
 from carom.parameters import Scales
 
@@ -45,14 +45,14 @@ class System(ModeArrays):
         Coordinates at rest without forcing modes: the contact-free equilibrium.
     shapes : ndarray of complex, shape (n, N)
         Coordinates per amplitude.
-    inverse : ndarray of complex, shape (N, 2n), optional
-        Amplitudes per coordinate, then per rate of a coordinate; computed from ``shapes`` by default.
+    to_modes : ndarray of complex, shape (N, 2n)
+        Amplitudes per coordinate, then per rate of a coordinate; zeros for modes that are not free.
     translation : ndarray of complex, shape (n,), optional
         Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
     forced : ndarray of complex, shape (N,), optional
         Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
-    races : RaceModes, optional
-        The modes of races that turn: they are not free, but friction changes them.
+    races : tuple of Race or None, optional
+        The race at each plane, where one turns.  Their modes are not free, but friction changes them.
     shaft : ShaftModes, optional
         Those of a shaft whose speed changes.  The frame turns at its nominal speed.
     clearances : tuple of float, optional
@@ -68,10 +68,10 @@ class System(ModeArrays):
 
     rest: np.ndarray
     shapes: np.ndarray
-    inverse: np.ndarray | None = None
+    to_modes: np.ndarray
     translation: np.ndarray | None = None
     forced: np.ndarray | None = None
-    races: RaceModes | None = None
+    races: tuple[Race | None, ...] | None = None
     shaft: ShaftModes | None = None
     clearances: tuple[float, ...] | None = None
     conjugate_modes: np.ndarray | None = None
@@ -158,27 +158,23 @@ class System(ModeArrays):
         return basis
 
     @cached_property
-    def to_modes(self) -> np.ndarray:
-        """Amplitudes per coordinate, then per rate of a coordinate, shape (N, 2n); zeros for modes that are not free."""
-        if self.inverse is not None:
-            return self.inverse
-        inverse = np.zeros(self.basis.shape[::-1], complex)
-        inverse[self.free] = np.linalg.inv(self.basis[:, self.free])
-        return inverse
-
-    @cached_property
     def _whole_rest(self) -> np.ndarray:
         """Coordinates and rates at rest without forcing modes, shape (2n,)."""
         whole = np.zeros(2 * len(self.rest), complex)
         whole[: len(self.rest)] = self.rest
         return whole
 
+    @property
+    def race_modes(self) -> np.ndarray:
+        """The modes of the races that turn, in the order of their planes; each has the speed of its surface as real amplitude."""
+        modes: np.ndarray = self.arrays["race"]
+        return modes[modes >= 0]
+
     @cached_property
     def outer(self) -> np.ndarray:
         """Amplitudes at time zero of the modes of outer forces, such as weight, zeros elsewhere; shape (N,)."""
         outer = np.zeros(self.modes, complex) if self.forced is None else self.forced.copy()
-        if self.races is not None:
-            outer[self.arrays["race"][self.races.planes]] = 0.0
+        outer[self.race_modes] = 0.0
         for place in self.arrays["shaft"].tolist():
             outer[place : place + 2] = 0.0
         outer[self.arrays["mirror"]] = 0.0
@@ -284,9 +280,7 @@ class System(ModeArrays):
 
     def race_speeds(self, amplitudes: np.ndarray) -> tuple[float, ...]:
         """Speeds of the surfaces of the races that turn, in the order of their planes, in ``c_r Ω`` in the fixed frame."""
-        if self.races is None:
-            return ()
-        return tuple(amplitudes[self.arrays["race"][self.races.planes]].real.tolist())
+        return tuple(amplitudes[self.race_modes].real.tolist())
 
     def shaft_turn(self, amplitudes: np.ndarray) -> tuple[float, ...]:
         """Speed of a shaft whose speed changes, in ``Ω``, and the angle by which it is ahead of the frame; empty without one."""

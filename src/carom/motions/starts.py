@@ -126,7 +126,7 @@ def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:
         raise InputError("start time", state.time, f"a real number, up to {FARTHEST:g} in 1/Omega")
     amplitudes = system.amplitudes(state.position, state.velocity, state.time)
     if state.races:
-        places = np.zeros(0, int) if system.races is None else system.arrays["race"][system.races.planes]
+        places = system.race_modes
         _check_speeds("races", state.races, len(places), "one for each race that turns")
         amplitudes[places] = state.races
     if state.shaft:

@@ -6,7 +6,7 @@ import cmath
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from carom.base.outcome import InputError, shown, together
 from carom.parameters.formats import number
@@ -33,6 +33,21 @@ _POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
 """A stiffness of another exponent than 1: its unit is a newton by that power of a metre."""
 
 _FRACTION = re.compile(r"([0-9]{1,3})\s*/\s*([1-9][0-9]{0,2})")
+
+
+class TurningRace(NamedTuple):
+    """Inner race of a touchdown bearing: moment of inertia, kg m², and drag torque per speed, N m s."""
+
+    inertia: float
+    drag: float
+
+
+class Mount(NamedTuple):
+    """What a touchdown bearing sits on: mass, kg, damping, N s/m, and stiffness, N/m."""
+
+    mass: float
+    damping: float
+    stiffness: float
 
 
 @dataclass(frozen=True)
@@ -182,6 +197,18 @@ class TouchdownBearing(Table):
     def is_plain(self) -> bool:
         """Whether it is a rigid wall that stands still around the place of levitation, as a machine without this table has."""
         return not self.is_compliant and not self.given
+
+    @property
+    def race(self) -> TurningRace | None:
+        """Its race; ``None`` if that stands still."""
+        return None if self.race_inertia is None else TurningRace(self.race_inertia, self.race_drag or 0.0)
+
+    @property
+    def mount(self) -> Mount | None:
+        """Its mount; ``None`` if it is fixed."""
+        if self.mount_mass is None or self.mount_stiffness is None:
+            return None
+        return Mount(self.mount_mass, self.mount_damping or 0.0, self.mount_stiffness)
 
     @property
     def centre(self) -> complex:

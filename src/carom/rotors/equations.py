@@ -136,7 +136,7 @@ def equations_of(
         Rate, 1/s, with which states of controllers that will be reset fade while levitation is lost.
     """
     loops = loops_of(rotor, bearings, touchdowns)
-    mounts = [(plane, each.bearing) for plane, each in enumerate(touchdowns) if each.bearing.mount_mass is not None]
+    mounts = [(plane, mount) for plane, each in enumerate(touchdowns) if (mount := each.bearing.mount)]
     vectors, first = len(basis.frequencies), len(basis.frequencies) + len(mounts)
     size = first + sum(each.loop.states for each in bearings)
     mass, damping, gyroscopic, stiffness = np.zeros((4, size, size))
@@ -148,8 +148,7 @@ def equations_of(
     carried[free], carried[vectors:first] = rotor.carried(basis.shapes), 1.0
     planes = np.concatenate([loops.touchdowns @ basis.shapes, np.zeros((len(touchdowns), size - vectors))], axis=1)
     for place, (plane, mount) in enumerate(mounts, vectors):
-        mass[place, place], stiffness[place, place] = mount.mount_mass or 0.0, mount.mount_stiffness or 0.0
-        damping[place, place] = mount.mount_damping or 0.0
+        mass[place, place], damping[place, place], stiffness[place, place] = mount
         planes[plane, place] = -1.0
     held = _supported(rotor, basis, supports, size)
     damping, stiffness = damping + held.alike[0], stiffness + held.alike[1]
