@@ -125,9 +125,9 @@ def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:
         single = read_all_around(name, text, scales)
         if name != "--kick":
             return single.model
-        if not single.values[0] > 0.0:
+        if not (speed := float(single.values[0])) > 0.0:
             raise InputError(name, text, "must be a velocity above 0")
-        return VelocityKick(single.values[0])
+        return VelocityKick(speed)
     kind, _, size = (part.strip() for part in text.partition(","))
     if kind not in _OTHERS or (size and not _OTHERS[kind]):
         forms = (f"{each}[,{more}]" if more else each for each, more in _OTHERS.items())
