@@ -29,8 +29,8 @@ from carom.orbits.names import OrbitName, combined
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
 """Distance in widths of the plane, and relative difference of periods, below which codimension-2 points are the same."""
 
-EVENTS, CURVE_SHARE = 6e6, 0.05
-"""Simulated events after which no further point of the grid is examined; and share of these after which a diagram or a curve goes no further."""
+EVENTS, DIAGRAM_EVENTS, CURVE_EVENTS = 6e6, 6e5, 1.8e6
+"""Simulated events after which no further point of the grid is examined; those of each of both diagrams, and of all curves together."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -191,25 +191,28 @@ def map_regions(
     """
     model, budget = rotor_of(machine), Budget(EVENTS)
     model.system.refuse_non_stationary()
-    exact, axes = model.has_closed_forms, plane.axes(model)
+    exact = model.has_closed_forms
+    given = model.parameters if exact else model
+    axes = plane.axes(given)
     tell = Reporter.of(progress, "counting motions, following curves" if exact else "following disturbances")
-    place = plane.place_of(model)
+    place = plane.place_of(given)
     inside = plane.holds(*place)
-    base = model if inside else plane.at(model, *np.mean([plane.first_range, plane.second_range], axis=1).tolist())
+    base = given if inside else plane.at(given, *np.mean([plane.first_range, plane.second_range], axis=1).tolist())
     curves: list[Curve] = []
     lost: list[str] = []
+    following = Budget(CURVE_EVENTS, binding=True)
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        points = special_points(base, name, interval, Budget(CURVE_SHARE * EVENTS), virtual=virtual)
-        curves = _through_points(plane, points, virtual, curves, lost)
+        points = special_points(rotor_of(base), name, interval, Budget(DIAGRAM_EVENTS, binding=True), virtual=virtual)
+        curves = _through_points(plane, points, virtual, curves, lost, following)
         tell(share)
-    present, later = motions_at(model), tell.part(0.3, 1.0)
+    present, later = motions_at(given), tell.part(0.3, 1.0)
     if exact:
-        survey = Survey(base.parameters, plane, curves)
+        survey = Survey(base, plane, curves)
         columns = survey.run(grid, later)
         curves, unexplained = survey.curves, tuple(survey.unexplained)
         if inside:
             survey.seen.setdefault(present, place)
-        regions = regions_between(base.parameters, plane, columns, survey.seen)
+        regions = regions_between(base, plane, columns, survey.seen)
     else:
         columns, examined = settled_cells(model, plane, grid, budget, later)
         regions, unexplained = regions_between(base, plane, columns, {}), ()
@@ -239,14 +242,14 @@ def _remarks(grid: int, examined: int) -> list[str]:
 
 
 def _through_points(
-    plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str]
+    plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str], budget: Budget
 ) -> list[Curve]:
-    """Add to the known curves those through special points, simulated ones within a budget each; failures are appended to ``lost``."""
+    """Add to the known curves those through special points, simulated ones within a budget; failures are appended to ``lost``."""
     for point in points:
         wanted = can_be_followed(point) and (virtual or point.admissible)
         if wanted and not any(passes(curve, point) for curve in curves):
             try:
-                curves = with_curve(curves, continue_curve(point, plane, budget=Budget(CURVE_SHARE * EVENTS)))
+                curves = with_curve(curves, continue_curve(point, plane, budget=budget))
             except CaromError as problem:
                 lost.append(f"{point.kind} of {point.name} at {point.parameter} = {point.value:.6g}: {problem}")
     return curves

@@ -52,9 +52,7 @@ class SimulatedCurve:
         self.watches = [Watch(name, lambda u, p, test=tests[name]: test(u[:-1], (float(u[-1]), p))) for name in others]
 
     def residual(self, u: np.ndarray, p: float) -> np.ndarray:
-        """Left sides of the equations; ``nan`` where they are not defined, and everywhere as soon as the budget is spent."""
-        if self.family.budget.spent:
-            return np.full(len(u), np.nan)
+        """Left sides of the equations; ``nan`` where they are not defined."""
         unknowns, place = u[:-1], (float(u[-1]), p)
         closing = self.family.residual(unknowns, place)
         return np.append(closing, self.test(unknowns, place) if np.isfinite(closing).all() else np.nan)

@@ -43,9 +43,12 @@ class Budget:
     ----------
     left : float
         Events that are left; below zero they are spent.
+    binding : bool
+        Whether no motion of a flow is followed any more once they are spent.
     """
 
     left: float = math.inf
+    binding: bool = False
 
     @property
     def spent(self) -> bool:
@@ -113,6 +116,8 @@ class Flow:
 
     def follow(self, vector: np.ndarray, duration: float) -> Trajectory | None:
         """Motion from a state; ``None`` if it goes beyond the model, or has too many events."""
+        if self.budget.binding and self.budget.spent:
+            return None
         try:
             motion = simulate(self.rotor, self.state(vector), duration, settle=False, max_events=MOST_EVENTS)
         except CaromError:
