@@ -58,7 +58,7 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     """
     beside = read_beside(tables, problems)
     if beside.drive is not None:
-        allowed = "not possible beside [rotor]: gyroscopic moments change with the speed of the shaft, which is held constant there"
+        allowed = "not allowed beside [rotor]: gyroscopic moments change with the speed of the shaft, which is held constant there"
         problems.errors.append(InputError("drive", shown(dict(tables.drive or {})), allowed))
     accuracy, text = ROTOR_ENTRIES["accuracy"], settings.get("accuracy", tables.values.get("accuracy", ACCURACY))
     wanted = problems.attempt(read_quantity, accuracy, text)
