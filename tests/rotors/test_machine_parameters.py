@@ -53,7 +53,7 @@ def test_a_case_has_the_parameters_of_its_machine(case):
     assert changed.gravity.acceleration == 1.62
     same = cm.load(EXAMPLE, ["accuracy=0.5", "proportional=5.5e3 A/m", "touchdown_dissipation_2=2 s/m"]).parameters
     for name in ("mass", "damping", "stiffness", "unlevitated", "forcing", "planes"):
-        assert np.array_equal(getattr(changed.parameters, name), getattr(same, name))
+        assert np.array_equal(getattr(changed.parameters.equations, name), getattr(same.equations, name))
 
 
 @pytest.mark.parametrize(

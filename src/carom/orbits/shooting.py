@@ -116,7 +116,8 @@ def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarra
     gamma, omega, rho, phi, *of_wall = Numbers.of(present).rates(name)
     accelerations = np.array([[complex(-2.0 * present.omega * omega, -gamma), -gamma]])
     force = np.array([complex(rho, present.rho * phi) * cmath.exp(1j * present.phi)])
-    rates = accelerations, force, *np.array(of_wall)[:, None]
+    friction, restitution, surface_speed = np.array(of_wall)[:, None]
+    rates = accelerations, force, friction, restitution, surface_speed
     at = word.kinds, word.planes, word.planes, *start
     changes: np.ndarray = sensitivity_of_flights(system.arrays, *system.nodes, *rates, *at)
     return changes
