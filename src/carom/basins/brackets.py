@@ -86,22 +86,6 @@ class SmallestUnrecovered(Result):
     neighbours: int = 0
     complete: bool = True
 
-    shown: ClassVar[tuple[str, ...]] = (
-        "kind",
-        "size",
-        "angle",
-        "instant",
-        "outcome",
-        "recovered",
-        "all_back",
-        "neighbours_lost",
-        "neighbours",
-        "fresh",
-        "harmless",
-        "largest",
-        "tried",
-    )
-
     @property
     def words(self) -> str:
         """The bracket in a line."""
