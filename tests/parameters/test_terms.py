@@ -289,14 +289,6 @@ def test_entries_that_could_disagree_or_change_nothing_are_named(entries, start)
     assert str(error_of(lambda: machine((), **entries))).startswith(start)
 
 
-def test_two_terms_for_one_field_are_both_named():
-    error = error_of(lambda: machine("eccentricity", unbalance="3 g mm", balance_grade="G 1"))
-
-    assert (
-        str(error) == "balance_grade = G 1: sets eccentricity, which unbalance = 3 g mm sets too; give one of the two"
-    )
-
-
 @pytest.mark.parametrize(
     ("without", "entries", "start"),
     [
@@ -349,12 +341,6 @@ def test_a_gain_too_small_says_which_is_enough():
 
     assert error.allowed.endswith("the gain must be above negative_stiffness/force_current_factor = 3000 A/m")
     assert machine("stiffness", **BEARING, proportional_gain="3001 A/m").stiffness == 140.0
-
-
-def test_a_missing_field_names_its_terms():
-    error = error_of(lambda: machine("eccentricity"))
-
-    assert error.allowed.endswith("; or give unbalance; or give balance_grade")
 
 
 @pytest.mark.parametrize(
