@@ -41,7 +41,8 @@ def rotor(**changes) -> Rotor:
 def assert_alike(got: Rotor, expected: Rotor) -> None:
     assert got.equations.touchdowns == expected.equations.touchdowns
     for name in ("mass", "damping", "stiffness", "forcing"):
-        np.testing.assert_allclose(getattr(got, name), getattr(expected, name), rtol=1e-14, atol=1e-15, err_msg=name)
+        found, own = getattr(got.equations, name), getattr(expected.equations, name)
+        np.testing.assert_allclose(found, own, rtol=1e-14, atol=1e-15, err_msg=name)
     assert got.scales == expected.scales
 
 

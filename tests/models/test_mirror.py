@@ -238,7 +238,7 @@ def test_a_model_comes_back_from_its_attributes():
 def test_such_bearings_stay_when_levitation_is_lost():
     rotor = rotor_of(conjugate=ACROSS)
     rotor = from_corotating_matrices(
-        **{name: getattr(rotor, name) for name in ("mass", "damping", "stiffness", "forcing", "touchdowns")},
+        **{name: getattr(rotor.equations, name) for name in ("mass", "damping", "stiffness", "forcing", "touchdowns")},
         translation=rotor.equations.translation,
         unlevitated=np.stack([DAMPING, 0.5 * STIFFNESS]),
         conjugate=ACROSS,

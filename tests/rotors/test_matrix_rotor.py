@@ -67,7 +67,7 @@ def test_a_matrix_of_damping_is_that_of_its_modes():
     matrix = MatrixRotor(M, K, G, NODES, 10.0 * M + 1e-5 * K)
     machines = [munich(rotor=rotor) for rotor in (matrix, MatrixRotor(M, K, G, NODES, given))]
     assert matrix.damping_rates is None
-    one, other = (machine.reduce(0.05).linear for machine in machines)
+    one, other = (machine.reduce(0.05).linear.equations for machine in machines)
     for name in ("mass", "damping", "stiffness"):
         own = getattr(other, name)
         assert np.allclose(getattr(one, name), own, rtol=0, atol=1e-9 * np.abs(own).max())

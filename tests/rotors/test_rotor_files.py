@@ -77,7 +77,7 @@ def test_a_machine_file_takes_a_rotor_from_a_file(folder):
     """The example by its sections, and by the matrices of these."""
     (folder / "machine.toml").write_text(text_with("rotor.npz"), encoding="utf-8")
     (folder / "sections.toml").write_text(EXAMPLE.replace("[rotor]", "[rotor]\nlongest_element = 1"), encoding="utf-8")
-    found, expected = (cm.load(folder / name).parameters for name in ("machine.toml", "sections.toml"))
+    found, expected = (cm.load(folder / name).parameters.equations for name in ("machine.toml", "sections.toml"))
     for name in ("mass", "damping", "stiffness", "unlevitated", "forcing", "planes"):
         own = getattr(expected, name)
         assert np.allclose(getattr(found, name), own, rtol=0, atol=1e-8 * np.abs(own).max())
