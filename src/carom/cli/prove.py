@@ -229,9 +229,9 @@ def _print_proof(proof: Proof, checked: bool) -> None:
 
 
 def _chief(proof: Proof) -> Claim | None:
-    """The claim that the others lead to; proven if one of its kind is."""
-    ranked = sorted(proof, key=lambda claim: claim.status != "proven")
-    return next((claim for kind in _CHIEF for claim in ranked if claim.kind == kind), None)
+    """The claim that the others lead to; the first of these that is proven, if any is."""
+    chiefs = [claim for kind in _CHIEF for claim in proof if claim.kind == kind]
+    return next((claim for claim in chiefs if claim.status == "proven"), chiefs[0] if chiefs else None)
 
 
 def _theorem(proof: Proof, chief: Claim | None) -> str:
