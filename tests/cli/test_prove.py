@@ -55,7 +55,7 @@ def test_json_is_the_certificate(capsys, tmp_path):
         (["absent.toml"], "there is no such file"),
         ([PAPER, "--set", "stiffness=1"], "unknown name in the settings; did you mean omega?"),
         ([PAPER, "--set", "gamma"], "must be name=value"),
-        ([PAPER, "--set", "gamma=1", "--set", "gamma=2"], "each name once"),
+        ([PAPER, "--set", "gamma=1", "--set", "gamma=2"], "give it once"),
         (["examples/keogh-cole.toml", "--set", "gamma=1", "--set", "damping=2 N s/m"], "sets damping"),
     ],
 )
