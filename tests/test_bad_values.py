@@ -139,7 +139,6 @@ AT_USE = {
     "place": ("position", lambda motion: cm.orbits.Section.from_state(0.0, 1.0)),
     "figure": ("path_stem", lambda motion: cm.plots.save(cm.plots.radius(motion), "")),
     "dataset": ("times", lambda motion: motion.to_dataset(np.zeros((2, 2)))),
-    "lengths": ("values", lambda motion: cm.plots.period_condition(cm.find_orbits(PAPER, 10.0), [1.0], [1.0, 2.0])),
 }
 """What is read later than at the door, or was read wrongly: the field named, and a call."""
 LINEAR = (np.eye(1), 0.4 * np.eye(1), np.eye(1), [0.1], [Touchdown([1.0], Rigid(0.9), 0.1, 50.0)])

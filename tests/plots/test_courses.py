@@ -122,8 +122,8 @@ def _words(figure) -> str:
 
 
 def test_forces_are_drawn_in_contact_only_and_in_newtons(rub, damped):
-    figure = plots.forces(rub)
-    line = next(line for line in figure.axes[0].lines if "normal force" in line.get_label())
+    drawn = [line for axes in plots.touchdown(rub).axes for line in axes.lines]
+    line = [line for line in drawn if "normal force" in line.get_label()][-1]
     times, values = line.get_data()
     shown = np.isfinite(values)
     assert times[shown].min() >= damped.ms * rub.lasting_contacts[0].start
@@ -154,9 +154,15 @@ def test_touchdown_tells_forces_speeds_and_energies_in_words_and_units(rub, ledg
         assert unit in labels
 
 
-def test_forces_of_a_motion_without_lasting_contact_show_impulses_alone(bouncing, damped):
-    left, right = plots.forces(bouncing).axes
-    assert len(right.collections[0].get_segments()) == len(bouncing.contacts)
-    assert (list(left.get_yticks()), left.get_ylabel()) == ([], "no lasting contact")
-    (axes,) = plots.forces(carom.simulate(damped.rotor, carom.kick(0.01), until=5.0)).axes
-    assert axes.get_ylabel() == "no lasting contact"
+def test_a_motion_without_lasting_contact_has_impulses_and_one_of_a_single_impact_no_empty_panel(
+    bouncing, damped, read
+):
+    panels = plots.touchdown(bouncing).axes
+    stems = [len(each.get_segments()) for axes in panels for each in axes.collections]
+    assert stems[-1] == len(bouncing.contacts)
+    struck = carom.simulate(damped.rotor, carom.kick(0.35, angle=0.2), until=2.0)
+    assert len(struck.contacts) == 1
+    figure = plots.touchdown(struck)
+    assert len(figure.axes) == 1
+    assert figure.axes[0].get_xlim()[0] < 0.0
+    assert any(words.startswith("impulse at most") for words in read.legend(figure))

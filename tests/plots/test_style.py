@@ -16,7 +16,6 @@ def _draw_everything(damped, bouncing) -> None:
     plots.radius(bouncing)
     plots.multipliers(damped.orbits)
     plots.equilibria_and_orbits(damped.orbits, damped.equilibria)
-    plots.period_condition(damped.orbits, [0.5, 1.0, 2.0], [0.1, -0.1, 0.3])
 
 
 @pytest.mark.parametrize("settings", [{}, {"font.size": 23.0, "lines.linewidth": 9.0, "axes.grid": True}])

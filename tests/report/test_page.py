@@ -130,7 +130,7 @@ def test_figures_are_files_too(written):
     result, path, _ = written
     names = {picture.name for picture in pictures(result)}
 
-    assert names >= {"basins", "overview", "period-condition", "multipliers", "disturbance-synchronous-rub"}
+    assert names >= {"basins", "overview", "multipliers", "disturbance-synchronous-rub"}
     assert names >= {f"orbit-{orbit.name.replace(',', '')}" for orbit in result.stable_orbits}
     for picture in pictures(result):
         assert re.fullmatch(r"[A-Z](?!.*\. )[^\n]*\.", picture.caption)  # one sentence

@@ -72,4 +72,3 @@ def test_its_document_and_figures(found):
     assert complex(*held["sag"]) == pytest.approx(found.equilibria[0].sag)
     names = [picture.name for picture in pictures(found)]
     assert "overview" not in names
-    assert "period-condition" not in names

@@ -9,7 +9,7 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``shapes`` and ``conditions``; along
+Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``shapes``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
 ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells`` (the looks of motions), ``maps`` (a number over two
@@ -20,8 +20,7 @@ from __future__ import annotations
 
 from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin, basin_pair
-from carom.plots.conditions import period_condition
-from carom.plots.courses import energies, forces, radius, touchdown
+from carom.plots.courses import energies, radius, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.drop_maps import drop_map
 from carom.plots.drops import drop_orbit
@@ -57,7 +56,6 @@ __all__ = [
     "energies",
     "equilibria",
     "equilibria_and_orbits",
-    "forces",
     "gain_map",
     "heading",
     "mode_shapes",
@@ -66,7 +64,6 @@ __all__ = [
     "one_column",
     "orbit",
     "overview",
-    "period_condition",
     "proven_kicks",
     "radius",
     "region_map",

@@ -42,8 +42,11 @@ def rows_of(diagram: Diagram) -> list[str]:
 
 
 def row_of_point(point: Bifurcation) -> str | None:
-    """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
-    return {"rubbing": WITH_RUB, "rolling": ROLLING}.get(point.motion)
+    """Return the row in which a special point is marked; ``None`` if it belongs to an orbit."""
+    row = {"rubbing": WITH_RUB, "rolling": ROLLING}.get(point.motion)
+    if row is None and np.isnan(point.radial_speed):
+        row = LEVITATION if point.motion == "contact-free" else RUB
+    return row
 
 
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:

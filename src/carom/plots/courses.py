@@ -15,7 +15,7 @@ from carom.base.outcome import Outcome
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
-from carom.plots.words import axis_label, axis_time, clearance, orbit_look, orbit_title, told_in
+from carom.plots.words import axis_label, axis_time, clearance, number, orbit_look, orbit_title, told_in
 
 if TYPE_CHECKING:
     from carom.motions.courses import Blows, Course
@@ -29,6 +29,10 @@ _FIRST = 12
 """Contacts shown in the left column, before the whole motion."""
 _SHORT = 0.25
 """Length of the first contacts, over that of the motion, above which they need no column of their own."""
+_SEVERAL = 3
+"""Number of impacts on a rigid wall from which their impulses and slips have panels."""
+_MARGIN = 0.02
+"""What is shown before the beginning, over the length of the motion, so that an impact there does not lie on the frame."""
 _LARGE = 1e5
 """Size in N and J from which kN and kJ are written."""
 _STICKS = 1e-6
@@ -37,6 +41,8 @@ _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
 _MOST_MARKED = 300
 """Number of impacts above which they are not marked."""
+NORMAL = Look("#0072b2", "normal force", line="-", width=0.9)
+FRICTION = Look("#cc79a7", "friction, size", line="--", width=1.1)
 RACE = Look("#009e73", "surface of the race", line="--", width=1.1)
 SLIP = Look("#d55e00", "slip of the contact", line="-", width=0.9)
 
@@ -117,23 +123,32 @@ def touchdown(
     end = whole if until is None else min(until, whole)
     first = first_contacts(motion, _FIRST)
     spans = [end] if first > _SHORT * end or narrow() else [first, end]
-    rows = 3 if ledger is None else 4
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * rows * TWO_COLUMNS))
-    grid = figure.subplots(rows, len(spans), sharex="col", sharey="row", squeeze=False)
     courses = [sampled(motion, span) for span in spans]
+    blows, lasts = courses[-1].blows, bool(courses[-1].held.any())
+    several = lasts or (blows is not None and len(blows.times) >= _SEVERAL)
+    # An impact or two on a rigid wall would be dots in panels of their own: the legend says how hard they are.
+    rows = 3 if several or courses[-1].race is not None else 1
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * max(2, rows + (ledger is not None)) * TWO_COLUMNS))
+    grid = figure.subplots(rows + (ledger is not None), len(spans), sharex="col", sharey="row", squeeze=False)
     for place, course in enumerate(courses):
-        panels = grid[:, place]
+        panels = list(grid[:, place])
         _distance(panels[0], motion, course)
-        _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
-        _speeds(panels[2], course)
+        if rows > 1:
+            _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
+            _speeds(panels[2], course)
+        elif blows is not None and len(blows.times):
+            unit = told_in("impulse", course.scales)[1]
+            words = f"impulse at most {number(float(blows.impulses.max()), 3)} {unit}"
+            panels[0].plot([], [], ls="none", label=words, gid="hardest")
         if ledger is not None:
-            energies(ledger, axes=panels[3])
-        panels[-1].set(xlim=(0.0, float(course.times[-1])), xlabel=axis_time(course.scales))
+            energies(ledger, axes=panels[-1])
+        margin = _MARGIN * float(course.times[-1])
+        panels[-1].set(xlim=(-margin, float(course.times[-1])), xlabel=axis_time(course.scales))
         for axes in panels:
             axes.label_outer()
             for begins in course.stages:
                 axes.axvline(begins, color="#7d6a4f", lw=0.8, ls=":", label="next stage", gid="stage")
-    for axes, letter in zip(grid.T.ravel(), "abcdefgh", strict=False):
+    for axes, letter in zip(grid.T.ravel() if grid.size > 1 else (), "abcdefgh", strict=False):
         axes.set_title(f"({letter})", loc="left", y=1.0)
     if len(spans) > 1:
         grid[0, 0].set_title("the first contacts", y=1.0)
@@ -142,22 +157,6 @@ def touchdown(
     if title:
         figure.suptitle(title)
     key(figure, grid.ravel().tolist(), columns=4)
-    return figure
-
-
-@checked
-@styled
-def forces(motion: Trajectory, *, axes: Axes | None = None) -> Figure:
-    """Draw the normal and friction force of contact over time, and on a rigid wall the impulse of each impact.
-
-    Forces are in N and impulses in N s (right axis) if the machine is known, otherwise in units of the equations.
-    """
-    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
-    course = sampled(motion, motion.begins + motion.time)
-    _force(drawn, course, course, last=True)
-    drawn.set(xlim=(0.0, float(course.times[-1])), xlabel=axis_time(course.scales))
-    if axes is None:
-        key(figure, [drawn], columns=4)
     return figure
 
 
@@ -299,9 +298,9 @@ def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
     factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{told_in('force', course.scales)[1]}"
     normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
-    for values, look, words in ((normal, LOOKS["wall"], "normal force"), (friction, LOOKS["roll"], "friction, size")):
+    for values, look in ((normal, NORMAL), (friction, FRICTION)):
         if course.held.any():
-            axes.plot(course.times, values, **look.stroke | {"lw": 0.8}, label=words, gid=words.split(",")[0])
+            axes.plot(course.times, values, **look.stroke, label=look.words, gid=look.words.split(",")[0])
     held = normal[course.held & (course.force > 0.0)]
     if course.blows is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
         axes.set_yscale("log")

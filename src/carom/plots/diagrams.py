@@ -23,7 +23,7 @@ from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
 from carom.plots.words import axis_label, number, told_in
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
+    from carom.bifurcations import Curve, Diagram, OrbitBranch
 
 POINTS = MappingProxyType(
     {
@@ -67,7 +67,7 @@ BOUNDARIES = MappingProxyType(
         "non-smooth fold": Look("#009e73", f"{STEADY_WORDS['contact-free']} and saddle of rub vanish", marker="8"),
     }
 )
-"""Markers of boundary equilibria for which the fate of levitation is known (read-only)."""
+"""Markers of boundary equilibria with what becomes of levitation (read-only)."""
 
 FAINT = 0.3
 """Opacity of curves that only virtual orbits have."""
@@ -76,63 +76,55 @@ _UNMET: dict[str, Any] = {"marker": "o", "ms": 2.2, "mew": 0.4, "mfc": "none", "
 """Looks of impacts of motions that disturbances reached, and of motions that only a start next to them reached."""
 _PRESENT: dict[str, Any] = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), "zorder": 1.2}
 """Look of the value of the machine itself."""
-_EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
 
 @checked
 @styled
 def bifurcation_diagram(diagram: Diagram, virtual: bool = False) -> Figure:
-    """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
+    """Draw all motions along a parameter, with their special points, in two panels.
 
-    Upper: the radial speed of the orbits at the impact, in mm/s if the machine is known.  Middle: the gap of levitation and, on the right axis, the
-    normal force of the rubs; both must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
-    motions to which simulated disturbances settled.  The shaft speed is in rpm.
+    Upper, where there are orbits: their radial speed at the impact, in mm/s if the machine is known.  Lower: which motions exist, with broad bars
+    where they are stable, and the motions to which simulated disturbances settled.  The shaft speed is in rpm.
 
     Parameters
     ----------
     virtual : bool
-        Draw virtual orbits and equilibria and their special points too, faint.
+        Draw virtual orbits and their special points too, faint.
     """
     strip = 0.18 * len(rows_of(diagram))
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip))
-    upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
-    unit = diagram.axis.field.usual_size
+    unit, scales = diagram.axis.field.usual_size, diagram.model.scales
+    lowest, highest = _limits(diagram)
+    ratios = (2.4, strip) if highest else (strip,)
+    figure = StyledFigure(figsize=(TWO_COLUMNS, (0.14 + 0.18 * sum(ratios)) * TWO_COLUMNS))
+    *upper, below = figure.subplots(len(ratios), 1, sharex=True, height_ratios=ratios, squeeze=False)[:, 0]
+    coexistence(below, diagram, unit)
+    label_parameter(below, "x", diagram.axis.field, scales, own=[*upper, below][0])
+    below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
+    for panel in upper:
+        _speeds(panel, diagram, unit, virtual)
+        panel.axhline(0.0, color="#1a1a1a", lw=0.5)
+        panel.set(
+            ylim=(lowest, highest), ylabel=axis_label(r"radial speed at the impact, $\dot r$", "velocity", scales)
+        )
+    present = _mark_present(diagram, (*upper, below), unit)
+    marked = _mark_points(diagram, upper, below, unit, virtual)
+    figure.legend(handles=[*_diagram_key(diagram, marked, virtual), *present], loc="outside lower center", ncols=4)
+    return figure
+
+
+def _speeds(axes: Axes, diagram: Diagram, unit: float, virtual: bool) -> None:
+    """Draw the radial speeds of orbits, and of motions to which disturbances settled."""
     for branch in diagram.orbits:
         there = [point.radial_speed for point in branch.special]
-        _speed_line(upper, diagram, branch, branch.radial_speed, there, virtual)
+        _speed_line(axes, diagram, branch, branch.radial_speed, there, virtual)
     for several in diagram.several:
         for k, speeds in enumerate(several.radial_speeds.T):
             there = [float(point.orbit.impact_speeds[k]) for point in several.special]
-            _speed_line(upper, diagram, several, speeds, there, virtual)
+            _speed_line(axes, diagram, several, speeds, there, virtual)
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
         speeds = diagram.told_speeds(sample.value, sample.radial_speeds)
-        upper.plot(values, speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
-    upper.axhline(0.0, color="#1a1a1a", lw=0.5)
-    beside = lower.twinx()
-    for equilibrium in diagram.equilibria:
-        panel = lower if equilibrium.kind == "contact-free" else beside
-        _equilibrium_branch(panel, diagram, equilibrium, virtual)
-    lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
-    coexistence(below, diagram, unit)
-    upper.set_ylabel(axis_label(r"radial speed at the impact, $\dot r$", "velocity", diagram.model.scales))
-    lower.set_ylabel(axis_label("gap of\nlevitation", "length", diagram.model.scales))
-    beside.set_ylabel(axis_label("force of rub", "force", diagram.model.scales))
-    label_parameter(below, "x", diagram.axis.field, diagram.model.scales, own=upper)
-    present = _mark_present(diagram, (upper, lower, below), unit)
-    below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
-    for panel, kinds in ((lower, ("contact-free",)), (beside, ("stable rub", "saddle rub"))):
-        top = max(_top(diagram, branch) for branch in diagram.equilibria if branch.kind in kinds)
-        panel.set_ylim(-0.25 * (top or 1.0), top or 1.0)
-    lowest, highest = _limits(diagram)
-    upper.set_ylim(lowest, highest or 1.0)
-    if not highest:
-        words = "no possible orbit found along this range"
-        upper.text(0.5, 0.5, words, transform=upper.transAxes, ha="center", va="center", gid="no orbit")
-    marked = _mark_points(diagram, (upper, lower, below, beside), unit, virtual)
-    figure.align_ylabels([upper, lower])
-    figure.legend(handles=[*_diagram_key(diagram, marked, virtual), *present], loc="outside lower center", ncols=4)
-    return figure
+        axes.plot(values, speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
 
 
 def _speed_line(
@@ -160,26 +152,22 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
     return [panel.axvline(value / unit, gid="present", label=words, **_PRESENT) for panel in panels][:1]
 
 
-def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes, Axes], unit: float, virtual: bool) -> list[Look]:
-    """Mark the special points in the panels; return the looks of the visible ones, each once."""
-    upper, lower, below, beside = panels
+def _mark_points(diagram: Diagram, upper: list[Axes], below: Axes, unit: float, virtual: bool) -> list[Look]:
+    """Mark the special points of orbits at their speed and those of other motions on their bars; return the looks of the visible ones, each once."""
     rows = rows_of(diagram)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
     seen = set()
     for point in diagram.points:
-        if not (point.admissible or virtual):
-            continue
         row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
         speed = float(diagram.told_speeds(point.value, point.radial_speed))
-        axes, height = (upper, speed) if row is None else (below, heights.get(row))
-        if height is not None and np.isnan(height):
-            axes, height = lower if point.motion == "contact-free" else beside, _height(diagram, point)
-        if height is None:
+        panels, height = (upper, speed) if row is None else ([below], heights.get(row))
+        if height is None or not (point.admissible or virtual):
             continue
-        _mark(axes, look, point.value / unit, float(height), point.admissible)
-        low, high = axes.get_ylim()
-        if low <= height <= high:
-            seen.add(look.words)
+        for axes in panels:
+            _mark(axes, look, point.value / unit, float(height), point.admissible)
+            low, high = axes.get_ylim()
+            if low <= height <= high:
+                seen.add(look.words)
     return [look for look in (*POINTS.values(), *BOUNDARIES.values()) if look.words in seen]
 
 
@@ -223,43 +211,6 @@ def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
     return [(first, last, str(looks[first])) for first, last in zip(starts, ends, strict=True)]
 
 
-def _equilibrium_branch(axes: Axes, diagram: Diagram, branch: EquilibriumBranch, virtual: bool) -> None:
-    unit = diagram.axis.field.usual_size
-    look = LOOKS[_EQUILIBRIA[branch.kind]]
-    height = _heights(diagram, branch)
-    for allowed, alpha in ((branch.admissible, 1.0), (~branch.admissible, 0.35)):
-        if alpha < 1.0 and not virtual:
-            continue
-        shown = np.where(allowed, height, np.nan)
-        colour = look.colour if alpha == 1.0 else LOOKS["virtual"].colour
-        line = "--" if branch.kind == "saddle rub" else "-"
-        axes.plot(branch.values / unit, shown, color=colour, ls=line, lw=1.1, alpha=alpha)
-
-
-def _heights(diagram: Diagram, branch: EquilibriumBranch) -> np.ndarray:
-    """The gap of levitation or the normal force of a rub, in the units in which people are told them."""
-    if branch.kind == "contact-free":
-        return diagram.told("length", branch.values, 1.0 - branch.radius)
-    return diagram.told("force", branch.values, branch.normal_force)
-
-
-def _top(diagram: Diagram, branch: EquilibriumBranch) -> float:
-    heights = _heights(diagram, branch)[branch.admissible]
-    return 1.1 * float(heights.max()) if len(heights) else 0.0
-
-
-def _height(diagram: Diagram, point: Bifurcation) -> float:
-    """Return the height of an equilibrium's special point: zero for levitation, the common force where rubs meet."""
-    if point.motion == "contact-free":
-        return 0.0
-    rubs = [entry for entry in diagram.equilibria if entry.kind == "stable rub"]
-    known = np.isfinite(rubs[0].normal_force)
-    nearest = int(np.argmin(np.where(known, np.abs(rubs[0].values - point.value), np.inf)))
-    saddle = next(entry for entry in diagram.equilibria if entry.kind == "saddle rub")
-    force = float(np.nanmean([rubs[0].normal_force[nearest], saddle.normal_force[nearest]]))
-    return float(diagram.told("force", point.value, force))
-
-
 def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = True) -> None:
     """Mark a special point; hollow if only virtual motions have it."""
     _mark(axes, POINTS[kind], x, y, admissible)
@@ -273,7 +224,7 @@ def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
 
 
 def _limits(diagram: Diagram) -> tuple[float, float]:
-    """Return the range of all admissible values, with a margin for virtual ones; its end is 0 if there are none."""
+    """Return the range of all speeds of possible orbits, with a margin for virtual ones; its end is 0 if there are none."""
     speeds = [
         diagram.told_speeds(branch.values[branch.admissible, None], branch.radial_speeds[branch.admissible]).ravel()
         for branch in diagram.branches
@@ -289,14 +240,6 @@ def _diagram_key(diagram: Diagram, marked: list[Look], virtual: bool) -> list[Li
     if diagram.orbits or diagram.several:
         entries += [LOOKS["stable"].entry("stable orbit"), LOOKS["unstable"].entry("unstable orbit")]
         entries += [LOOKS["virtual"].entry("virtual")] if virtual else []
-    words = f"{STEADY_WORDS['contact-free']}: gap"
-    entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=words))
-    admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
-    for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
-        if kind not in admissible:
-            continue
-        words = f"{STEADY_WORDS['rub']}, {'stable' if kind == 'stable rub' else 'saddle'}: normal force"
-        entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
     return entries + _attractor_key(diagram) + [look.entry() for look in marked]
 
 

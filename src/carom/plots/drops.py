@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 from carom.base.arguments import Positive, checked
 from carom.plots.courses import sampled
-from carom.plots.figure import StyledFigure
+from carom.plots.figure import frames
 from carom.plots.plane import MANY_POINTS, Floats, clearance_circle, key, label_frame, point
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, styled
 from carom.plots.words import clearance, told_in
 
 if TYPE_CHECKING:
@@ -30,12 +30,12 @@ _REACHES = {15.0: 7, 30.0: 5, 60.0: 5, 90.0: 7, 180.0: 5}
 @checked
 @styled
 def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | None = None) -> Figure:
-    """Draw a drop at its plane in the fixed frame, and beside it close to the wall: the gap over the angle from the direction of the fall.
+    """Draw a drop in the fixed frame, and where it touches beside it close to the wall: the gap over the angle from the direction of the fall.
 
     Parameters
     ----------
     motion : Trajectory
-        With all its stages.
+        With all its stages, at its touchdown bearing.
     until : float, optional
         Draw it up to this time from the release, in ``1/Ω``; by default until shortly after it has come to rest or to whirl, but
         not beyond thirty contacts.
@@ -50,8 +50,8 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     end = shown_until(motion)
     within = min(end, first_contacts(motion, FOLLOWED)) if until is None else min(until, motion.begins + motion.time)
     course = sampled(motion, within)
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.5 * TWO_COLUMNS))
-    left, right = figure.subplots(1, 2)
+    touches = bool(course.held.any()) or (course.blows is not None and len(course.blows.times) > 0)
+    figure, (left, *close) = frames(1 + touches)
     wall = clearance(course.scales)
     clearance_circle(left, max(1.12, 1.06 * float(np.abs(course.place).max()) / wall), wall)
     _path(left, course, course.place.real, course.place.imag)
@@ -59,19 +59,20 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     label_frame(
         left, "fixed", course.scales, f"the first {FOLLOWED} contacts" if until is None and within < end else ""
     )
-    gap, angles = _gap_of(course), np.degrees(np.angle(course.place * cmath.exp(-1j * course.down)))
-    # Where it goes over the top the angle jumps.
-    jumps = np.append(np.abs(np.diff(angles)) > 180.0, False)
-    _path(right, course, np.where(jumps, np.nan, angles), gap)
-    _close_to_the_wall(right, course, angles, gap)
-    hardest = int(course.force.argmax())
-    if course.blows is None and course.force[hardest] > 0.0:
-        for axes, where in ((left, course.place), (right, angles + 1j * gap)):
-            point(axes, complex(where[hardest]), "end", label="largest force", colour=LOOKS["unstable"].colour)
+    for right in close:
+        gap, angles = _gap_of(course), np.degrees(np.angle(course.place * cmath.exp(-1j * course.down)))
+        # Where it goes over the top the angle jumps.
+        jumps = np.append(np.abs(np.diff(angles)) > 180.0, False)
+        _path(right, course, np.where(jumps, np.nan, angles), gap)
+        _close_to_the_wall(right, course, angles, gap)
+        hardest = int(course.force.argmax())
+        if course.blows is None:
+            for axes, where in ((left, course.place), (right, angles + 1j * gap)):
+                point(axes, complex(where[hardest]), "end", label="largest force", colour=LOOKS["unstable"].colour)
     point(left, complex(course.place[0]), "start", label="release", size=4.0)
     if title:
         figure.suptitle(title)
-    key(figure, (left, right), columns=5)
+    key(figure, (left, *close), columns=5)
     return figure
 
 

@@ -9,6 +9,7 @@ from io import BytesIO
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -123,6 +124,15 @@ class StyledFigure(Figure):
         buffer = BytesIO()
         self.savefig(buffer, format="png", dpi="figure")
         return buffer.getvalue()
+
+
+def frames(count: int) -> tuple[Figure, list[Axes]]:
+    """Make a figure of so many square panels beside each other, or below each other where figures are narrow."""
+    if _narrow.get() or count == 1:
+        figure = StyledFigure(figsize=(ONE_COLUMN, 1.18 * count * ONE_COLUMN))
+        return figure, list(figure.subplots(count, 1, squeeze=False)[:, 0])
+    figure = StyledFigure(figsize=(2.0 * ONE_COLUMN, 1.16 * ONE_COLUMN))
+    return figure, list(figure.subplots(1, count))
 
 
 def arrange(figure: Figure) -> None:

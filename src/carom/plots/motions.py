@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError
 from carom.plots.bands import bands_on_the_circle, drawing_times, flying
-from carom.plots.figure import StyledFigure, narrow
+from carom.plots.figure import frames
 from carom.plots.plane import (
     Frame,
     clearance_circle,
@@ -29,7 +29,7 @@ from carom.plots.plane import (
     plane_note,
     point,
 )
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, styled
+from carom.plots.style import LOOKS, Look, styled
 from carom.plots.words import (
     clearance,
     contacts_in_words,
@@ -201,12 +201,6 @@ def _levitation(axes: Axes, equilibrium: complex, wall: float) -> None:
 
 def _two_frames(axes: tuple[Axes, Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:
     if axes is None:
-        if narrow():
-            figure = StyledFigure(figsize=(ONE_COLUMN, 2.35 * ONE_COLUMN))
-            left, right = figure.subplots(2, 1)
-            return figure, (left, right)
-        figure = StyledFigure(figsize=(TWO_COLUMNS, 0.58 * TWO_COLUMNS))
-        left, right = figure.subplots(1, 2)
+        figure, (left, right) = frames(2)
         return figure, (left, right)
-    left, right = axes
-    return one_axes(left, (TWO_COLUMNS, TWO_COLUMNS))[0], (left, right)
+    return one_axes(axes[0], (0.0, 0.0))[0], axes

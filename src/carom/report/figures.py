@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.attractors import Ending
 from carom.models import Rotor
+from carom.motions.courses import shown_until
 from carom.motions.simulation import simulate
-from carom.orbits.single_impact import OrbitSet, period_condition
 from carom.parameters import Zones
 from carom.report import basins
 from carom.report.figure_files import Picture
@@ -23,6 +23,7 @@ from carom.studies.kinds import LABELS
 from carom.studies.response import unbalance_response
 
 if TYPE_CHECKING:
+    from carom.motions import Trajectory
     from carom.proofs import ProvenKicks
 
 MOST_ORBITS = 2
@@ -41,7 +42,8 @@ def pictures(study: Study) -> list[Picture]:
     figures, kicks = list[Picture](), study.kicks
     if basins.drawable(study):
         figures.append(Picture("basins", "basins", basins.caption(study), lambda: basins.draw(study)))
-    if not study.under_gravity:  # under weight levitation is no point there
+    # Under weight levitation is no point there, and one point alone is not worth a picture.
+    if not study.under_gravity and len(study.equilibria) + len(possible) > 1:
         words = (
             "All steady motions and single-impact orbits, seen turning with the shaft: a steady whirl is a point, a bounce a "
             "loop, and what lies on the circle touches the bearing."
@@ -61,9 +63,6 @@ def pictures(study: Study) -> list[Picture]:
             "turning with the shaft, where each bounce is the same loop, below as seen in the room."
         )
         figures.append(Picture(f"orbit-{_file_name(orbit.name)}", "method", words, partial(plots.orbit, orbit)))
-    if study.known.orbits:
-        words = "Each zero of this curve is a period of up to two single-impact orbits, so the zeros show that the list is complete."
-        figures.append(Picture("period-condition", "method", words, partial(_condition, study.orbits)))
     if possible:
         words = (
             "A small disturbance of an orbit is multiplied by these numbers from impact to impact: the orbit is stable if all lie "
@@ -130,10 +129,14 @@ def _of_loads(study: Study) -> Iterator[Picture]:
     for name, when, motion in motions:
         for plane in range(len(study.rotor.system.contacts)):
             at = f" at touchdown bearing {plane + 1}" if several else ""
-            title = f"{name.replace('_', ' ').capitalize()}{f', touchdown bearing {plane + 1}' if several else ''}"
-            words = f"Orbit of the shaft{at} {when}, in the fixed frame, and its gap to the bearing."
-            drawn = partial(plots.drop_orbit, motion.seen_at(plane), title=title)
-            yield Picture(f"{name}{f'-{plane + 1}' if several else ''}", "loads", words, drawn)
+            bearing, mark = (f", touchdown bearing {plane + 1}", f"-{plane + 1}") if several else ("", "")
+            title, seen = f"{name.replace('_', ' ').capitalize()}{bearing}", motion.seen_at(plane)
+            words = f"Orbit of the shaft{at} {when}, in the fixed frame{', and its gap to the bearing' if touched(seen) else ''}."
+            yield Picture(f"{name}{mark}", "loads", words, partial(plots.drop_orbit, seen, title=title))
+            if touched(seen):
+                words = f"Distance from the centre, force of contact and slip over time{at} {when}."
+                loads = partial(plots.touchdown, seen, title=title, until=shown_until(seen))
+                yield Picture(f"{name}-loads{mark}", "loads", words, loads)
 
 
 def _file_name(name: str) -> str:
@@ -146,9 +149,15 @@ def _history(study: Study, example: Ending) -> Figure:
         motion = simulate(study.rotor, example.start.state, until_decayed(study.rotor, example.time))
     else:
         motion = simulate(study.rotor, example.start.state, LONGEST_SHOWN, settle=True)
-    if len(motion.contacts) or motion.lasting_contacts:
+    if touched(motion):
         return plots.touchdown(motion)
     return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
+
+
+def touched(motion: Trajectory) -> bool:
+    """Whether a motion touches its touchdown bearing in any of its stages."""
+    parts = [part.seen_at(motion.plane) for part in motion.parts]
+    return any(len(part.contacts) or part.lasting_contacts for part in parts)
 
 
 def until_decayed(rotor: Rotor, time: float) -> float:
@@ -159,11 +168,3 @@ def until_decayed(rotor: Rotor, time: float) -> float:
 
 def _proven_kicks(study: Study, kicks: ProvenKicks) -> Figure:
     return plots.proven_kicks(kicks, basins.of_kicks(study, kicks.largest))
-
-
-def _condition(orbits: OrbitSet) -> Figure:
-    end = orbits.longest_period
-    if len(orbits.periods):
-        end = min(end, max(1.5 * float(orbits.periods[-1]), 10.0))
-    periods = np.linspace(end / 4000.0, end, 4000)
-    return plots.period_condition(orbits, periods, period_condition(orbits.rotor, periods))
