@@ -1,19 +1,15 @@
-"""What is proven of kicks, over the basin that simulation finds, and cell by cell."""
+"""What is proven of kicks, cell by cell."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from drawn_legends import fits, legend_words
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
 from carom import plots
-from carom.base.outcome import InputError
-from carom.basins import map_basins
-from carom.disturbances import Grid, KickPlane, VelocityKick
 from carom.proofs import ProvenKicks, hypotheses_of
 from carom.proofs.evidence import Evidence
 from carom.proofs.families import KICKS
@@ -28,25 +24,6 @@ def kicks():
     """The slower half is proven, and nothing of the others."""
     machine, options = hypotheses_of("examples/spindle.toml"), {"kicks_up_to": "150 mm/s", "most_impacts": 2}
     return ProvenKicks.of(proof_at(BITS, KICKS.about, machine, options, Evidence({"cells": "v0vagmx"})))
-
-
-@pytest.fixture(scope="module")
-def basin(kicks):
-    return map_basins(kicks.rotor, Grid(KickPlane(kicks.largest), (24, 24)))
-
-
-def test_what_is_not_proven_is_pale(kicks, basin):
-    figure = kicks.plot(basin)
-    (veil,) = [image for image in figure.axes[0].images if image.get_gid() == "veil"]
-    pale = veil.get_array()[..., 3] > 0
-    low, high = veil.get_extent()[:2]
-    assert [low, high] == pytest.approx([-150.0, 150.0], rel=1e-9)
-    line = np.linspace(low, high, len(pale))
-    speed = np.hypot(*np.meshgrid(line, line))
-    assert not pale[speed < 74.9].any()
-    assert pale[speed > 75.1].all()
-    assert "pale: not proven" in legend_words(figure)
-    assert fits(figure)
 
 
 def test_cells_have_the_colour_of_their_part(kicks):
@@ -74,18 +51,3 @@ def test_speed_up_to_which_all_come_back_is_marked_beyond_the_harmless_one(kicks
     more = replace(kicks, all_up_to=0.9 * kicks.largest)
     assert "all proven to come back below 135 mm/s" in legend_words(more.plot())
     assert not any("all proven" in words for words in legend_words(kicks.plot()))
-
-
-def test_panels_are_below_each_other_in_one_column(kicks, basin):
-    with plots.one_column():
-        figure = kicks.plot(basin.cells)
-    above, below = (axes.get_position() for axes in figure.axes)
-    assert above.y0 > below.y1
-    assert figure.get_figwidth() == pytest.approx(plots.ONE_COLUMN)
-    assert fits(figure)
-
-
-def test_other_basins_are_refused(kicks):
-    other = map_basins(kicks.rotor, Grid(VelocityKick(0.1), (2, 2)))
-    with pytest.raises(InputError, match="basin = a plan of kick: a grid of kicks by components"):
-        kicks.plot(other)

@@ -21,8 +21,7 @@ CERTIFICATE = "proof.json"
 """Name of the certificate in the directory given."""
 DRAWN = "kicks"
 """Theorem that has a figure."""
-PICTURE, SAMPLED = "figures/proven-kicks", (160, 160)
-"""The figure of kicks, and in how many of them the basin below it is sampled."""
+PICTURE = "figures/proven-kicks"
 _CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-single-impact-orbits", "orbits")
 """Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
 _DRAWING = 0.95
@@ -176,10 +175,8 @@ def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -
 
 
 def _draw(proof: Proof, name: str, directory: Path) -> None:
-    """Write the figure of a proof of kicks, over the basin that simulation finds."""
+    """Write the figure of a proof of kicks."""
     from carom import plots
-    from carom.basins import map_cells
-    from carom.disturbances import Grid, KickPlane
     from carom.parameters.formats import number
     from carom.proofs import ProvenKicks
 
@@ -188,9 +185,8 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
         told = [f"{key} {given[key].removeprefix('double ')}" for key in ("damping", "stiffness", "speed")]
     else:
         told = [f"{key} {number(value)}" for key, value in kicks.rotor.parameters.as_dict().items()]
-    basin = map_cells(kicks.rotor, Grid(KickPlane(kicks.largest), SAMPLED))
     with plots.heading(f"{name}: {', '.join(told)}"):
-        plots.save(kicks.plot(basin), directory / PICTURE)
+        plots.save(kicks.plot(), directory / PICTURE)
 
 
 def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str] | None) -> dict[str, tuple[str, str]]:

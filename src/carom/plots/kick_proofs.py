@@ -1,29 +1,22 @@
-"""Which kicks are proven to come back: the proven part over the sampled basin, and the cells by their impacts."""
+"""Which kicks are proven to come back: the cells of kicks by their impacts, and why others are open."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from carom.base.arguments import checked
-from carom.base.outcome import InputError
 from carom.parameters.formats import rounded_down, shown_in
-from carom.plots.basins import draw_cells
-from carom.plots.cells import MotionLook, around, finish, looks_of
-from carom.plots.figure import StyledFigure, narrow
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
+from carom.plots.cells import around
+from carom.plots.figure import StyledFigure
+from carom.plots.plane import key
+from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import counted, formula, number, told_in
 
-if TYPE_CHECKING:
-    from carom.basins import Basin, Cells
-
-PIXELS = 640
-"""Points along each side of the disc at which it is asked what is proven."""
 _REACH = 1.04
 """Half-width of the axes, relative to the largest kick."""
 _TEALS = ("#d3f0ea", "#8fd3c5", "#4fae9f", "#2b857a", "#175e58", "#0b3b3a")
@@ -34,58 +27,30 @@ _RUB = "#a52f74"
 """Of kicks that are proven to end in the rub."""
 _CHORD = 1.0 / 120.0
 """Largest angle of a straight edge, in turns."""
-_VEIL = 0.62
-"""How much white lies over what is not proven."""
 
 
 @checked
 @styled
-def proven_kicks(kicks: Any, basin: Basin | Cells | None = None, title: str | None = None) -> Figure:
+def proven_kicks(kicks: Any, title: str | None = None) -> Figure:
     """Draw what is proven of a disc of kicks.
 
-    With a basin, where kicks end is shown pale where it is simulated only, and in full colour where it is proven.  Beside it, the cells are shown by the number of impacts after which they return at most, and the open ones by the reason.  Circles mark the kicks that never
-    touch and the speed up to which all are proven to come back.  The figure is 180 mm wide, 88 mm without a basin.
+    Cells are shown by the number of impacts after which they return at most, and the open ones by the reason.  Circles mark the kicks that never
+    touch and the speed up to which all are proven to come back.  The figure is 88 mm wide.
 
     Parameters
     ----------
     kicks : ProvenKicks
-    basin : Basin or Cells, optional
-        Where kicks of the same machine end, by components: ``map_basins(machine, Grid(KickPlane(...), (120, 120)))``.
     title : str, optional
         By default what is proven.
-
-    Raises
-    ------
-    InputError
-        The basin is no grid of kicks by components.
     """
-    given: Any = basin  # a basin has cells, and cells are what they are
-    shown: Cells | None = getattr(given, "cells", given)
-    if shown is not None and (shown.plan.model.kind != "kick-plane" or shown.index.ndim != 2):
-        raise InputError("basin", f"a plan of {shown.plan.model.kind}", "a grid of kicks by components")
-    figure, drawn = _panels(kicks, shown)
-    motions: list[MotionLook] = []
-    if shown is not None:
-        names = shown.motions
-        motions = looks_of(names, [float((shown.index == place).mean()) for place in range(len(names))])
-        _sampled(drawn[0], kicks, shown, motions)
-        drawn[0].set_title("(a) simulated; in full colour where proven")
-        drawn[1].set_title("(b) proven, cell by cell")
-    _proven(drawn[-1], kicks)
-    for axes in drawn:
-        _frame(axes, kicks)
-    return finish(figure, motions, title or _title(kicks), columns=2, shares=False)
-
-
-def _panels(kicks: Any, basin: Cells | None) -> tuple[Figure, list[Axes]]:
-    """A new figure with axes beside each other; below each other where figures are one column wide."""
-    entries = len(kicks.parts) + 2 + (0 if basin is None else len(basin.motions) + 1)
-    if basin is None or narrow():
-        panels = 1 if basin is None else 2
-        figure = StyledFigure(figsize=(ONE_COLUMN, (1.06 * panels + 0.14 + 0.045 * entries) * ONE_COLUMN))
-        return figure, list(figure.subplots(panels, 1, squeeze=False)[:, 0])
-    figure = StyledFigure(figsize=(TWO_COLUMNS, (0.55 + 0.011 * entries) * TWO_COLUMNS))
-    return figure, list(figure.subplots(1, 2))
+    entries = len(kicks.parts) + 2
+    figure = StyledFigure(figsize=(ONE_COLUMN, (1.2 + 0.045 * entries) * ONE_COLUMN))
+    axes = figure.subplots()
+    _proven(axes, kicks)
+    _frame(axes, kicks)
+    figure.suptitle(title or _title(kicks))
+    key(figure, [axes], columns=1)
+    return figure
 
 
 def _title(kicks: Any) -> str:
@@ -93,44 +58,20 @@ def _title(kicks: Any) -> str:
     return f"Proven: {kicks.words.replace(unit, formula(unit))}"
 
 
-def _sampled(axes: Axes, kicks: Any, basin: Cells, motions: list[MotionLook]) -> None:
-    """Paint where kicks end, pale where nothing is proven."""
-    draw_cells(axes, basin, motions)
-    reach = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
-    for cells in (*axes.collections, *axes.patches):  # those on the rim
-        cells.set_clip_path(Circle((0.0, 0.0), reach, transform=axes.transData))
-    line = np.linspace(-kicks.largest, kicks.largest, PIXELS)
-    proven = np.array([*(not part.open for part in kicks.parts), False])[kicks.at(*np.meshgrid(line, line))]
-    veil = np.ones((PIXELS, PIXELS, 4))
-    veil[..., 3] = np.where(proven, 0.0, _VEIL)
-    place: dict[str, Any] = {"extent": (-reach, reach, -reach, reach), "origin": "lower", "zorder": 1.5}
-    axes.imshow(veil, **place, interpolation="nearest", gid="veil")
-    if not kicks.whole:
-        axes.fill_between([], [], fc="white", ec="#a6a6a6", lw=0.4, label="pale: not proven")
-
-
 def _proven(axes: Axes, kicks: Any) -> None:
-    """Fill the cells in the looks of their parts."""
-    looks = _looks(kicks)
+    """Fill the cells: green the darker the more impacts, in the colour of the rub, grey where nothing is proven."""
+    greys = iter(_GREYS)
     radius = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
     outlines = [radius * _outline(edges) for edges in kicks.edges]
-    for place, (look, part) in enumerate(zip(looks, kicks.parts, strict=True)):
+    for place, part in enumerate(kicks.parts):
+        if part.impacts is not None:
+            colour = _TEALS[min(part.impacts, len(_TEALS) - 1)]
+        else:
+            colour = _RUB if part.refuted else next(greys, _GREYS[-1])
         cells = [outlines[cell] for cell in np.flatnonzero(kicks.places == place)]
         # Edges of their own colour, for no gap shows between cells then.
-        edge = {"edgecolor": look["facecolor"], "lw": 0.2, "gid": "open" if part.open else "proven"}
-        axes.add_collection(PolyCollection(cells, **look, **edge, rasterized=True, label=_words(part)))
-
-
-def _looks(kicks: Any) -> list[dict[str, Any]]:
-    """Colours of the parts: green the darker the more impacts, that of the rub, grey where nothing is proven."""
-    left = iter(_GREYS)
-
-    def colour(part: Any) -> str:
-        if part.impacts is not None:
-            return _TEALS[min(part.impacts, len(_TEALS) - 1)]
-        return _RUB if part.refuted else next(left, _GREYS[-1])
-
-    return [{"facecolor": colour(part)} for part in kicks.parts]
+        look = {"facecolor": colour, "edgecolor": colour, "lw": 0.2, "gid": "open" if part.open else "proven"}
+        axes.add_collection(PolyCollection(cells, **look, rasterized=True, label=_words(part)))
 
 
 def _words(part: Any) -> str:

@@ -19,7 +19,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import number
 
 NO_LEVITATION = f"no {STEADY_WORDS['contact-free']}"
-_FREE = replace(LOOKS["contact-free"], line="-", width=1.5)
+_FREE = replace(LOOKS["contact-free"], line="-", width=1.7)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
 _RUB = replace(LOOKS["rub"], words=f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
 _SADDLE = Look("#5c1f47", f"{STEADY_WORDS['rub']}, unstable", line="--", width=1.1)
@@ -29,8 +29,13 @@ _CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
 _HALF = Look("#0072b2", "0.707 of the peak, for the amplification factor", line="-", width=1.0)
 _HIGHEST = 1.3
 """Largest amplitude shown, in clearances: what lies beyond is virtual."""
-_LINES = ("-", "--", "-.", (0.0, (1.0, 1.0)))
-"""Lines of the whirl at several touchdown bearings."""
+_BEARINGS = (
+    _FREE,
+    replace(_FREE, colour="#00392a", line="--", width=1.0),
+    replace(_FREE, colour="#7fd3b8", line="-.", width=2.2),
+    replace(_FREE, colour="#005f46", line=":", width=1.2),
+)
+"""Looks of the whirl at several touchdown bearings: of equal curves the later ones lie upon the earlier, which stay visible."""
 _LOWEST = 0.05
 """Least top of the panel, in clearances."""
 
@@ -80,20 +85,18 @@ def _amplitudes(axes: Axes, response: Any, speeds: Floats, width: float) -> None
         axes.axhspan(width * low, width * high, color=shade, lw=0.0, zorder=0)
         if low < 0.95 * top and high > low:
             place = width * min(high, top)
-            axes.annotate(
+            axes.annotate(  # at low speed, where the whirl is small
                 f"zone {letter}",
-                (0.992, place),
+                (0.008, place),
                 (0.0, -2.0),
                 axes.get_yaxis_transform(),
                 "offset points",
-                ha="right",
                 va="top",
                 zorder=4,
-                bbox={"boxstyle": "square,pad=0.1", "facecolor": shade, "edgecolor": "none"},  # hides a curve behind it
             )
             axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
     for place, sizes in enumerate(2e6 * response.whirl.touchdowns.major.T):
-        line = replace(_FREE, line=_LINES[place % len(_LINES)]).stroke
+        line = _BEARINGS[place % len(_BEARINGS)].stroke
         words = _FREE.words if response.whirl.clearances.size == 1 else f"{_FREE.words}, bearing {place + 1}"
         axes.plot(speeds, np.where(inside, sizes, np.nan), **line, label=words, zorder=3)
         if not inside.all():
@@ -151,7 +154,7 @@ def _phases(axes: Axes, response: Any, speeds: Floats) -> None:
         max(180.0, 90.0 * math.ceil(lags.max() / 90.0 - 0.01)),
     )
     for place, lag in enumerate(lags.T):
-        line = replace(_FREE, line=_LINES[place % len(_LINES)]).stroke
+        line = _BEARINGS[place % len(_BEARINGS)].stroke
         axes.plot(speeds, np.where(inside, lag, np.nan), **line, zorder=3)
         axes.plot(speeds, np.where(with_neighbours(~inside), lag, np.nan), **_VIRTUAL.stroke, zorder=2)
     for look, rub in zip((_RUB, _SADDLE), np.degrees(rubs.lags) if rubs else (), strict=False):

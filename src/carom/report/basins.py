@@ -75,11 +75,6 @@ def _basin(rotor: Rotor, model: Disturbance, kind: Kind) -> Cells:
     return map_cells(rotor, Grid(model, cells[kind]))
 
 
-def of_kicks(study: Study, largest: float) -> Cells:
-    """Where kicks up to a speed end."""
-    return _basin(study.rotor, KickPlane(largest), "kick")
-
-
 def _required(study: Study, kind: Kind) -> float:
     """Size of a kind that must be survived."""
     return dict(required_kinds(study.required))[kind]

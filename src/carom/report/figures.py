@@ -24,7 +24,6 @@ from carom.studies.response import unbalance_response
 
 if TYPE_CHECKING:
     from carom.motions import Trajectory
-    from carom.proofs import ProvenKicks
 
 MOST_ORBITS = 2
 """Largest number of stable orbits with figures of their own."""
@@ -51,12 +50,8 @@ def pictures(study: Study) -> list[Picture]:
         figures.append(Picture("overview", "motions", words, study.plot))
     figures += [*_of_disturbances(study), *_of_levitation(study), *_of_loads(study)]
     if kicks is not None:
-        words = (
-            "Each point is a kick of the levitating rotor. Above its colour says where simulation finds that it ends, full where this is proven "
-            "and pale where it is not; below what is proven of each cell of kicks, and why the others are open."
-        )
-        drawn = partial(_proven_kicks, study, kicks)
-        figures.append(Picture("proven-kicks", "proven", words, drawn))
+        words = "Each point is a kick of the levitating rotor: what is proven of each cell of kicks, and why the others are open."
+        figures.append(Picture("proven-kicks", "proven", words, kicks.plot))
     for orbit in study.stable_orbits[:MOST_ORBITS]:
         words = (
             f"How the rotor bounces for ever on {orbit.name}, with an impact every {study.wording.time(orbit.period)}: above as seen "
@@ -164,7 +159,3 @@ def until_decayed(rotor: Rotor, time: float) -> float:
     """Return the time until which a motion is shown that returns to levitation at a time, in ``1/Ω``."""
     decay = rotor.system.decay
     return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)
-
-
-def _proven_kicks(study: Study, kicks: ProvenKicks) -> Figure:
-    return plots.proven_kicks(kicks, basins.of_kicks(study, kicks.largest))
