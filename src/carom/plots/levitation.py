@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from carom.base.arguments import checked
 from carom.parameters.fields import RPM
+from carom.plots.figure import StyledFigure
 from carom.plots.plane import key, one_axes
+from carom.plots.responses import CRITICAL, PRESENT
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, styled
 from carom.plots.words import number
 
@@ -28,46 +30,57 @@ _ROOM = 1.15
 @checked
 @styled
 def campbell(found: Campbell) -> Figure:
-    """Draw the frequencies of free whirls over the speed of the shaft, with the line on which unbalance excites them.
+    """Draw the frequencies of free whirls over the speed of the shaft, and below them their damping ratios.
 
     Each whirl is a line: solid and with triangles that point up where it goes forward, broken and with triangles that point down where it
-    goes backward.  Where it grows the triangles are hollow.
+    goes backward.  Where it grows the triangles are hollow.  Critical speeds are where forward whirls meet the line on which unbalance excites them.
     """
-    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS))
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1.0))
     order = np.argsort(found.speeds)
-    speeds, exponents = found.speeds[order] / RPM, found.exponents[order]
-    every = max(1, len(speeds) // MARKS)
-    shown: set[str] = set()
-    for branch in exponents.T:
+    speeds, exponents, ratios = found.speeds[order] / RPM, found.exponents[order], found.damping_ratios[order]
+    ends = np.array([0.0, speeds[-1]])
+    upper.plot(ends, ends * RPM / _HERTZ, color="#1a1a1a", lw=0.9, label="speed of the shaft", gid="synchronous")
+    criticals = list[float]()
+    for branch, damping in zip(exponents.T, ratios.T, strict=True):
         for name, line, goes in (("forward", "-", branch.imag > 0.0), ("backward", "--", branch.imag <= 0.0)):
-            heights = np.where(goes, np.abs(branch.imag) / _HERTZ, np.nan)
             for grows in (False, True):
-                words = f"{name} whirl{' that grows' if grows else ''}"
-                those = np.where((branch.real >= 0.0) == grows, heights, np.nan)
-                if np.isnan(those).all():
+                those = goes & ((branch.real >= 0.0) == grows)
+                if not those.any():
                     continue
-                axes.plot(
-                    speeds,
-                    those,
-                    linestyle=line,
-                    lw=0.9,
-                    marker=LOOKS[name].marker,
-                    markersize=4.0,
-                    markevery=every,
-                    color=LOOKS[name].colour,
-                    markerfacecolor="none" if grows else LOOKS[name].colour,
-                    label=None if words in shown else words,
-                    gid=words,
-                )
-                shown.add(words)
-    ends = np.array([0.0, found.speeds.max()])
-    axes.plot(ends / RPM, ends / _HERTZ, color="#1a1a1a", lw=0.9, label="speed of the shaft", gid="synchronous")
-    axes.set_xlim(0.0, found.speeds.max() / RPM)
-    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies), initial=0.0)))
-    axes.set_xlabel("speed of the shaft (rpm)")
-    axes.set_ylabel("frequency of the free whirl (Hz)")
-    key(figure, [axes], columns=3)
+                words, colour = f"{name} whirl{' that grows' if grows else ''}", LOOKS[name].colour
+                look: dict[str, Any] = {
+                    "ls": line,
+                    "color": colour,
+                    "marker": LOOKS[name].marker,
+                    "mfc": "none" if grows else colour,
+                    "markevery": max(1, len(speeds) // MARKS),
+                    "label": words,
+                    "gid": words,
+                }
+                upper.plot(speeds, np.where(those, np.abs(branch.imag) / _HERTZ, np.nan), **look)
+                lower.plot(speeds, np.where(those, damping, np.nan), **look)
+        criticals += _crossings(speeds, branch.imag / RPM - speeds)
+    rates = ", ".join(f"{each:,.0f}" for each in sorted(criticals))
+    for axes in (upper, lower):
+        for each in criticals:
+            axes.axvline(each, **CRITICAL.stroke, label=f"critical speed{'s' * (len(criticals) > 1)}, {rates} rpm")
+        present = found.machine.speed / RPM
+        axes.axvline(present, **PRESENT.stroke, label=f"present speed, {present:,.0f} rpm", gid="present")
+    lower.axhline(0.0, color="#1a1a1a", lw=0.5)
+    upper.set(xlim=ends, ylim=(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies), initial=0.0))))
+    upper.set_ylabel("frequency of the free whirl (Hz)")
+    lower.set(xlabel="speed of the shaft (rpm)", ylabel="damping ratio")
+    figure.align_ylabels([upper, lower])
+    key(figure, [upper], columns=3)
     return figure
+
+
+def _crossings(along: np.ndarray, heights: np.ndarray) -> list[float]:
+    """Places at which a line through points changes its sign."""
+    at = np.flatnonzero(heights[:-1] * heights[1:] < 0.0)
+    steps = heights[at] / (heights[at] - heights[at + 1])
+    return [float(each) for each in along[at] + steps * (along[at + 1] - along[at])]
 
 
 @checked

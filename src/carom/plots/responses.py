@@ -24,8 +24,8 @@ _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
 _RUB = replace(LOOKS["rub"], words=f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
 _SADDLE = Look("#5c1f47", f"{STEADY_WORDS['rub']}, unstable", line="--", width=1.1)
 _LIMIT = Look("#d55e00", "limit of API 617", line="-.", width=1.1)
-_PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
-_CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
+PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
+CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
 _HALF = Look("#0072b2", "0.707 of the peak, for the amplification factor", line="-", width=1.0)
 _HIGHEST = 1.3
 """Largest amplitude shown, in clearances: what lies beyond is virtual."""
@@ -175,9 +175,9 @@ def _marks(axes: Axes, response: Any) -> None:
     rates = list(dict.fromkeys(f"{each.speed / RPM:,.0f}" for each in response.criticals))
     critical = f"critical speed{'s' if len(rates) > 1 else ''}, {', '.join(rates)} rpm"
     marked: list[tuple[Look, str | None, float]] = [
-        (_PRESENT, f"{_PRESENT.words}, {response.present / RPM:,.0f} rpm", response.present)
+        (PRESENT, f"{PRESENT.words}, {response.present / RPM:,.0f} rpm", response.present)
     ]
-    marked += [(_CRITICAL, None if place else critical, each.speed) for place, each in enumerate(response.criticals)]
+    marked += [(CRITICAL, None if place else critical, each.speed) for place, each in enumerate(response.criticals)]
     for look, label, speed in marked:
         if response.interval[0] <= speed <= response.interval[1]:
             axes.axvline(speed / RPM, **look.stroke, label=label, zorder=1)

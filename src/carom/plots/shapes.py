@@ -26,6 +26,8 @@ _REACH, _MARKED = 1.35, -1.12
 """Height of a panel over the largest displacement, and where bearings and sensors are marked in it."""
 _ROUND = 0.05
 """Share of the other direction in a shape from which on it does not lie in one plane."""
+_SHAFT, _DISC = 0.12, 0.6
+"""Half heights at which the widest section of the shaft and discs are drawn; their lengths are to scale."""
 _MILLIMETRES = 1e3
 _PARTS = (
     ("magnet", Look("#1a1a1a", "magnet", marker="s")),
@@ -37,7 +39,7 @@ _PARTS = (
 @checked
 @styled
 def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.Whirl]) -> Figure:
-    """Draw the shapes of free whirls along the shaft, one panel each, with magnets, sensors and touchdown bearings.
+    """Draw the shapes of free whirls along the shaft, one panel each, with the shaft, its discs, magnets, sensors and touchdown bearings.
 
     Lines are the displacement in the plane in which the whirl is widest, and, dotted, across it; the largest displacement is 1.  Whirls are
     from :func:`carom.rotors.find_whirls`.
@@ -49,6 +51,7 @@ def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.Whirl])
     for axes, whirl in zip(panels, whirls, strict=False):
         _shape(axes, places, whirl)
         _parts(axes, flexible)
+        _shaft(axes, flexible.rotor)
         axes.set(xlim=(places[0], places[-1]), ylim=(-_REACH, _REACH), yticks=[-1.0, 0.0, 1.0])
     for axes in panels[len(whirls) :]:
         axes.remove()
@@ -72,6 +75,29 @@ def _shape(axes: Axes, places: Floats, whirl: Whirl) -> None:
         axes.plot(places, turned.imag, color=look.colour, lw=1.0, ls=":", label=f"{whirl.sense}, across", gid="across")
     title = f"{number(whirl.frequency, 4)} Hz, {whirl.sense}, damping ratio {number(whirl.damping_ratio, 2)}"
     axes.set_title(title, fontsize="small")
+
+
+def _shaft(axes: Axes, rotor: Any) -> None:
+    """Draw the sections of the shaft and the places of its discs, of a rotor that is known by these."""
+    sections = getattr(rotor, "sections", ())
+    ends = _MILLIMETRES * np.cumsum([0.0, *(section.length for section in sections)])
+    widest = max((section.outer_diameter for section in sections), default=1.0)
+    for begin, end, section in zip(ends[:-1], ends[1:], sections, strict=True):
+        half = _SHAFT * section.outer_diameter / widest
+        axes.fill_between([begin, end], -half, half, fc="#e4e7ea", ec="#a6a6a6", lw=0.4, zorder=0, gid="shaft")
+    discs, along = getattr(rotor, "discs", ()), _MILLIMETRES * rotor.node_places
+    for disc in discs:
+        at = along[disc.node]
+        axes.plot(
+            [at, at],
+            [-_DISC, _DISC],
+            color="#8c959f",
+            lw=3.5,
+            solid_capstyle="butt",
+            zorder=0.5,
+            label="disc",
+            gid="disc",
+        )
 
 
 def _parts(axes: Axes, machine: FlexibleMachine) -> None:
