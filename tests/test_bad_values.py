@@ -130,7 +130,7 @@ AT_USE = {
     "complex kick": ("fastest", lambda motion: VelocityKick(1j)),
     "release": ("motion", lambda motion: ContactRelease(np.zeros(2))),
     "phase": ("phase", lambda motion: BladeLoss(0.5).apply(PAPER, "x")),
-    "direction": ("direction", lambda motion: cm.BaseShock(0.1, 1.0).release(PAPER, math.nan)),
+    "direction": ("shock direction", lambda motion: cm.BaseShock(0.1, 1.0).release(PAPER, math.nan)),
     "case": ("zones", lambda motion: Case("name", PAPER, None, "x")),
     "plan of nothing": ("machine", lambda motion: Sample(VelocityKick(0.5), 3).starts("x")),
     "period": ("longest_period", lambda motion: cm.find_orbits(PAPER, math.inf)),

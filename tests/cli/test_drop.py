@@ -88,7 +88,7 @@ def test_figures_and_a_page(carom, tmp_path):
     ("options", "words"),
     [
         (("--whirl", "0.1 mm"), "--whirl = 0.1 mm: must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as"),
-        (("--whirl", "0.3 mm,80 Hz"), "--whirl = 0.3 mm,80 Hz: must have a radius from 0 to the clearance"),
+        (("--whirl", "0.3 mm,80 Hz"), "--whirl = 0.3 mm,80 Hz: whirl radius: must be from 0 to the clearance"),
         (("--whirl", "0.1 mm,80"), "--whirl = 80: must be an angular speed in rad/s"),
         (("--phase", "90"), "--phase = 90: must be an angle in rad"),
         (("--race-speed", "5 m/s"), "--race-speed = 5 m/s: must be an angular speed"),

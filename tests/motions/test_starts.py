@@ -98,7 +98,7 @@ class TestUnits:
         ("start", "until", "words"),
         [
             (kick("50 kg"), 1.0, "kick speed = 50 kg: must be a velocity"),
-            (kick(0.4, "1 m"), 1.0, "kick angle = 1 m: must be an angle"),
+            (kick(0.4, "1 m"), 1.0, "kick direction = 1 m: must be an angle"),
             (kick(0.4), "2 m", "until = 2 m: must be a time"),
         ],
     )

@@ -235,6 +235,7 @@ class Whirl(Disturbance):
         return found._replace(positions=positions, velocities=velocities)
 
 
+@checked
 def whirl(radius: float | str, speed: float | str, angle: float | str = 0.0) -> Single:
     """Whirl about the centre of the bearing, as it is at one instant.
 
