@@ -8,7 +8,6 @@ from flexible_machines import munich
 
 import carom as cm
 from carom.base.outcome import InputError, Outcome
-from carom.models import rotor_of
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull
@@ -56,7 +55,7 @@ def test_a_motion_stops_where_it_is_beyond_the_model(tmp_path):
 def test_a_map_ends_a_start_as_one_motion_does(tmp_path):
     case, random = machine(tmp_path), np.random.default_rng(5)
     speeds = 3.0 * np.sqrt(random.random(12)) * np.exp(2j * np.pi * random.random(12))
-    starts = [cm.kick(abs(speed), float(np.angle(speed))).state(rotor_of(case)) for speed in speeds]
+    starts = [cm.kick(abs(speed), float(np.angle(speed))).stages(case)[1] for speed in speeds]
     ends = cm.settle(case, [start.position for start in starts], [start.velocity for start in starts], until=400.0)
     alone = [cm.simulate(case, start, 400.0, settle=True) for start in starts]
     assert ends.outcomes.tolist() == [motion.outcome for motion in alone]

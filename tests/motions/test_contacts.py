@@ -280,5 +280,5 @@ def test_history_in_a_wall_that_gives_way(law):
     assert np.allclose(history.drive_power, -20.0 * history.friction_force, rtol=1e-12, atol=0)
     for values in (history.normal_force, history.friction_force, history.slip, history.drive_power):
         assert not values[~held].any()
-    assert not motion.contacts.time.size
+    assert not motion.contacts.is_impact.any()
     assert all(contact.phase is not Phase.SEPARATED for contact in motion.lasting_contacts)

@@ -91,8 +91,8 @@ def test_forces_and_impulses_add_up_to_the_change_of_momentum():
         half = 0.5 * np.diff(edges)
         times = (edges[:-1] + half)[:, None] + half[:, None] * nodes
         position, _ = motion.at(times)
-        force = rotor.forcing - position @ rotor.stiffness.T
-        for plane, row in enumerate(rotor.planes):
+        force = rotor.equations.forcing - position @ rotor.equations.stiffness.T
+        for plane, row in enumerate(rotor.equations.planes):
             seen = motion.seen_at(plane)
             normal, friction = seen.forces(times)
             force += ((-normal + 1j * friction) * seen.at_plane(times)[0])[..., None] * row.conj()
@@ -100,9 +100,9 @@ def test_forces_and_impulses_add_up_to_the_change_of_momentum():
         for events in (motion.is_impact, motion.is_landing):
             log = motion.log_of(events)
             push = (-log.normal_impulse + 1j * log.friction_impulse) * np.exp(1j * log.angle)
-            supplied += push @ rotor.planes.conj()[log.touchdown_bearing - 1]
-        change = (motion.final.velocity - motion.start.velocity) @ rotor.mass.T
-        change += (motion.final.position - motion.start.position) @ rotor.damping.T
+            supplied += push @ rotor.equations.planes.conj()[log.touchdown_bearing - 1]
+        change = (motion.final.velocity - motion.start.velocity) @ rotor.equations.mass.T
+        change += (motion.final.position - motion.start.position) @ rotor.equations.damping.T
         # Every event is known to the rounding of its instant, in which the largest force may act or not.
         rounding = np.spacing(30.0) * np.abs(force).max() * len(motion.segment_starts)
         assert np.abs(change - supplied).max() < min(4.0 * rounding, 1e-11 * max(10.0, np.abs(change).max()))
