@@ -79,9 +79,10 @@ def _spread(grid: int) -> list[tuple[int, int]]:
     found: dict[tuple[int, int], None] = {}
     step = 1 << max(0, (grid - 1).bit_length() - 1)
     while step:
-        found.update(dict.fromkeys(product(range(step // 2, grid, step), repeat=2)))
+        places = range(step // 2, grid, step)
+        found.update(dict.fromkeys(product(places, places)))
         step //= 2
-    found.update(dict.fromkeys(product(range(grid), repeat=2)))
+    found.update(dict.fromkeys(product(range(grid), range(grid))))
     return list(found)
 
 

@@ -188,8 +188,10 @@ class ClosedFormCurve:
         return self.numbers_at(float(u[-1]), p)
 
     def _watch(self, name: str) -> Watch:
-        test, at_zero = TESTS[name], "end" if name in KINDS[self.kind].ends else "pass"
-        return Watch(name, lambda u, p: test(self._numbers(u, p), *_orbit(self.kind, u)), at_zero=at_zero)
+        test, ends = TESTS[name], name in KINDS[self.kind].ends
+        return Watch(
+            name, lambda u, p: test(self._numbers(u, p), *_orbit(self.kind, u)), at_zero="end" if ends else "pass"
+        )
 
     def curve(self, branch: Branch, rows: np.ndarray) -> Curve:
         """The curve with the names and speeds of its orbits."""

@@ -170,6 +170,7 @@ def followed_branches(
         # Branches of many numbers are not followed, and setting up their equations takes long.
         few = budget is not None or 4 * len(model.system.rest) > MOST_NUMBERS
         values = [limits[0] + share * (limits[1] - limits[0]) for share in (PLACES[:1] if few else PLACES)]
+    orbits: list[Orbit | SimulatedOrbit]
     for place, value in enumerate(values):
         rotor, part = along.move(model, value), tell.part(place / len(values), (place + 1) / len(values))
         if exact:

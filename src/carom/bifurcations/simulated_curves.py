@@ -5,6 +5,7 @@ The equations are those of the closed path and the function that vanishes at the
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,12 @@ from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.simulated import MOST_NUMBERS, begun_at_least_radius
-from carom.bifurcations.simulated_family import Family
+from carom.bifurcations.simulated_family import Family, Place
 from carom.continuation import Branch, Steps, Watch
 from carom.orbits.flow import Budget, Flow
 
 STEPS = Steps(
-    first=0.02, largest=0.2, smallest=1e-3, sharpest_turn=0.4, most_points=80, tolerance=1e-7, resolution=1e-4
+    first=0.02, largest=0.2, smallest=1e-3, sharpest_turn=0.4, most_points=80, tolerance=1e-7, resolution=1e-8
 )
 KINDS = ("fold", "period-doubling", "neimark-sacker")
 
@@ -49,7 +50,12 @@ class SimulatedCurve:
         tests = {"fold": self.family.fold, "period-doubling": self.family.doubling, "neimark-sacker": self.family.torus}
         self.test = tests.pop(self.kind)
         others = () if self.kind == "neimark-sacker" else tuple(name for name in tests if name != "neimark-sacker")
-        self.watches = [Watch(name, lambda u, p, test=tests[name]: test(u[:-1], (float(u[-1]), p))) for name in others]
+        self.watches = [Watch(name, self._over_plane(tests[name])) for name in others]
+
+    @staticmethod
+    def _over_plane(test: Callable[[np.ndarray, Place], float]) -> Callable[[np.ndarray, float], float]:
+        """A test of a family as a function of the unknowns of a curve and the second parameter."""
+        return lambda u, p: test(u[:-1], (float(u[-1]), p))
 
     def residual(self, u: np.ndarray, p: float) -> np.ndarray:
         """Left sides of the equations; ``nan`` where they are not defined."""
@@ -84,7 +90,7 @@ class SimulatedCurve:
     def _orbit(self, row: np.ndarray) -> Any:
         place = float(row[-2]), float(row[-1])
         vector, period = self.family.split(row[:-2])
-        flow = self.family.flow(place)
+        flow: Any = self.family.flow(place)
         return self.family.orbit.moved(flow, vector, period, np.empty(0), self.name)
 
     def _speeds(self, row: np.ndarray) -> tuple[float, float]:

@@ -12,9 +12,7 @@ from typing import Any
 import numpy as np
 
 from carom.base.outcome import InputError
-from carom.bifurcations.planes import Plane
 from carom.continuation import Watch
-from carom.models.axes import Axis
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import multipliers_from
 from carom.orbits.flow import Budget, Flow
@@ -31,9 +29,9 @@ Place = float | tuple[float, float]
 
 
 class Family:
-    """The equations of a periodic motion in the numbers of its state and, where it is free, its period."""
+    """The equations of a periodic motion in the numbers of its state and, where it is free, its period; ``along`` is an axis or a plane."""
 
-    def __init__(self, orbit: SimulatedOrbit, along: Axis | Plane, limits: tuple[float, float], budget: Budget) -> None:
+    def __init__(self, orbit: SimulatedOrbit, along: Any, limits: tuple[float, float], budget: Budget) -> None:
         self.budget = budget
         self.orbit, self.along, self.limits = orbit, along, limits
         self.free, self.plane = orbit.repeats is None, orbit.leading_plane
