@@ -135,6 +135,7 @@ GENERAL = {
     "bifurcations.find_bifurcations",
     "closed_forms.find_equilibria",
     "bifurcations.map_regions",
+    "bifurcations.motions_at",
     "closed_forms.levitation",
     "closed_forms.harmless_blade_loss",
     "closed_forms.harmless_kick",

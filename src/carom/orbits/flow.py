@@ -22,7 +22,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 
-STEPS = (3e-6, 1e-6, 1e-7, 1e-8)
+STEPS = (3e-6, 1e-6, 1e-7, 1e-8, 1e-9)
 """Steps of the central differences, relative to one plus the size of the state: the first that is short enough."""
 BEND = 3e-3
 """Largest difference of the derivatives to both sides, relative to the larger of the derivative and one; the error of their mean is some square of it."""
