@@ -12,7 +12,7 @@ from machines import PAPER
 import carom
 from carom.base.outcome import InputError, Outcome
 from carom.basins import smallest_unrecovered
-from carom.basins.brackets import Bracket, Found
+from carom.basins.unrecovered import FULL, Found, _Search
 from carom.disturbances import StateSlice, VelocityKick
 
 pytestmark = pytest.mark.jit_only
@@ -151,15 +151,16 @@ def test_levitation_that_grows_has_nothing_to_come_back_to():
             smallest_unrecovered(rotor, VelocityKick(1.0))
 
 
-class _Striped(Bracket):
-    """Lost in one direction of two beside the best, as next to a fractal boundary."""
+class _Striped(_Search):
+    """Disturbances are lost and come back in stripes so narrow that neighbours differ."""
 
-    def lost_at(self, sizes, angles):
-        return angles > self.best.angle
+    def _outcomes(self, sizes, angles):
+        stripes = np.floor(np.asarray(sizes) * 3e10).astype(int) % 2 == 0
+        return np.where(stripes, Outcome.FORWARD_RUB, Outcome.LEVITATED)
 
 
 def test_a_smallest_loss_whose_neighbours_come_back_is_said_to_be_sensitive():
-    search = _Striped(kind="kick", quantity="velocity", harmless=0.1, largest=1.0, tolerance=1e-3, scales=None)
+    search = _Striped(carom.models.jeffcott(MACHINE), VelocityKick(1.0), 1e-3, None, FULL)
     assert search.result(1.0).sensitivity == ""
     search.best = Found(0.4, 0.4004, 0.3, Outcome.FORWARD_RUB)
     found = search.result(0.4)

@@ -70,7 +70,7 @@ def test_own_disturbances_on_processes_and_in_memory(tmp_path, machine):
 
     xarray.testing.assert_identical(without_history(open_sweep(tmp_path / "store")), without_history(data))
     rotor = cm.models.jeffcott(plan.case_at((2,)).parameters)
-    (starts,) = plan.task._batches(rotor, plan.seed_of((2,)))
+    starts = plan.task.plan(rotor.scales, plan.seed_of((2,))).starts(rotor)
     back = cm.settle(rotor, starts.positions[starts.exists], starts.velocities[starts.exists]).recovered
     assert data["possible"].values[2] == starts.exists.sum() < 40
     assert data["recovered"].values[2] == back.mean()
@@ -86,7 +86,7 @@ def test_a_grid_is_the_same_at_each_point_and_a_sample_is_not(machine):
         assert data["recovered"].values[place] == share.fraction == data["recovered_low"].values[place]
     plan = plan_sweep(machine, AXES[1:], Sample(KickPlane(0.3), 30))
     rotors = [cm.models.jeffcott(plan.case_at((place,)).parameters) for place in (0, 1)]
-    (first,), (second,) = (plan.task._batches(rotor, plan.seed_of((n,))) for n, rotor in enumerate(rotors))
+    first, second = (plan.task.plan(rotor.scales, plan.seed_of((n,))).starts(rotor) for n, rotor in enumerate(rotors))
     assert (first.velocities != second.velocities).all()
 
 
