@@ -40,8 +40,8 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | N
         )
     if basin.unresolved:
         screen.print(f"Undecided at the limit of work: {basin.unresolved} starts, which count as not coming back.")
-    if rows := _losses(basin, smallest, harmless):
-        print_rows(screen, "What is survived", rows)
+    if survived := _losses(basin, smallest, harmless):
+        print_rows(screen, "What is survived", survived)
 
 
 def print_gains(screen: Console, found: GainMap, case: Case) -> None:
