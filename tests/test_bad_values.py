@@ -129,7 +129,7 @@ AT_USE = {
     "kick model": ("fastest", lambda motion: VelocityKick([])),
     "complex kick": ("fastest", lambda motion: VelocityKick(1j)),
     "release": ("motion", lambda motion: ContactRelease(np.zeros(2))),
-    "phase": ("phase", lambda motion: BladeLoss(0.5).apply(PAPER, "x")),
+    "phase": ("blade-loss phase", lambda motion: BladeLoss(0.5).apply(PAPER, "x")),
     "direction": ("shock direction", lambda motion: cm.BaseShock(0.1, 1.0).release(PAPER, math.nan)),
     "case": ("zones", lambda motion: Case("name", PAPER, None, "x")),
     "plan of nothing": ("machine", lambda motion: Sample(VelocityKick(0.5), 3).starts("x")),

@@ -95,8 +95,7 @@ def test_points_have_a_word_and_the_number_of_impacts():
         assert np.shape(branch["radial_speeds"]) == (len(branch["values"]), branch["impacts"])
     assert "P2,1" in repr(diagram())
     figure = diagram().plot()
-    speeds, gaps, forces = (axes for axes in figure.axes if axes.get_ylabel())
-    assert all(axes.lines for axes in (speeds, gaps, forces))
+    assert all(axes.lines for axes in figure.axes if axes.get_ylabel())
 
 
 def test_without_impacts_there_are_none():

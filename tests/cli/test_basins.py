@@ -343,4 +343,4 @@ def test_losses_of_a_blade_under_gravity(carom):
     words = " ".join(out.split())
     assert (code, err) == (0, "")
     assert "levitation 4 100 %" in words
-    assert "Only those up to 163.97 g mm" in words
+    assert "cannot touch up to 164 g mm (proven)" in words

@@ -329,7 +329,7 @@ def test_simulate_for_people(carom, machine):
         "more: --csv FILE has all",
     ):
         assert words in out
-    row = next(line for line in out.splitlines() if " impact " in line)
+    row = next(line for line in out.splitlines() if line.startswith("impact "))
     assert row.split() == ["37.00448", "impact", "-144.9°", "4.31", "forward", "0.421", "-0.0631", "7.49"]
 
 

@@ -57,7 +57,7 @@ def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
     assert rows == sorted(starts, key=lambda entry: entry[1])
     with xarray.open_dataset(log, engine="h5netcdf", decode_times=False) as read:
         assert list(zip(read["touchdown_bearing"].values, read["time"].values, strict=True)) == rows
-        assert sorted(read["contact_touchdown_bearing"].values) == sorted(number for number, _ in rows)
+        assert sorted(read["lasting_touchdown_bearing"].values) == sorted(number for number, _ in rows)
 
     found = json.loads(carom(*command, "--json")[1])
     assert [entry["touchdown_bearing"] for entry in found["contacts"]] == [number for number, _ in rows]

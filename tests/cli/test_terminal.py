@@ -20,19 +20,21 @@ from carom.cli.terminal import console, print_document
     [
         ("1,234,000 of 10,000,000 points, 1,230 points/s, 4.3 days left, 12 failed", 80),
         ("following starts (the kernels are compiled on first use)", 80),
-        ("loading", 30),
+        ("loading", 60),
     ],
 )
-def test_clock_and_words_stay_whole(words, width):
-    bar = _bar(None)
-    bar.update(bar.add_task(words, total=1.0), completed=0.4)
+def test_clocks_stay_whole_and_words_are_shortened_at_their_end(words, width):
     screen = Console(file=io.StringIO(), width=width)
+    bar = _bar(screen)
+    bar.update(bar.add_task(words, total=1.0), completed=0.4)
     screen.print(bar.make_tasks_table(bar.tasks))
     (line,) = screen.file.getvalue().splitlines()
 
     assert len(line.rstrip()) <= width
-    assert re.search(r"[0-9-]:[0-9-]{2}:[0-9-]{2} ", line)
-    assert line.rstrip().endswith(words)
+    assert re.search(r" 40% 0:00:00 -:--:-- ", line)
+    shown = line.rstrip().rpartition("-:--:-- ")[2].rstrip("…")
+    assert words.startswith(shown)
+    assert len(shown) >= min(len(words), 30)
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,8 @@ def lines(axes):
 def test_forward_and_backward_whirls_have_their_markers():
     found = campbell(MACHINE, [100.0, 500.0], count=6)
     figure = plots.campbell(found)
-    (axes,) = figure.axes
+    axes, below = figure.axes
+    assert below.get_ylabel() == "damping ratio"
     drawn = lines(axes)
     for name, goes in (("forward whirl", found.frequencies > 0.0), ("backward whirl", found.frequencies < 0.0)):
         heights = np.concatenate([line.get_ydata() for line in axes.lines if line.get_gid() == name])
@@ -38,7 +39,7 @@ def test_forward_and_backward_whirls_have_their_markers():
 
 def test_whirls_that_grow_are_hollow():
     late = [MagneticBearing(each.node, each.ki, each.ks, each.controller, delay="8 ms") for each in MACHINE.bearings]
-    (axes,) = plots.campbell(campbell(munich(0.06, bearings=late), [300.0])).axes
+    axes, _ = plots.campbell(campbell(munich(0.06, bearings=late), [300.0])).axes
     grows = [line for name, line in lines(axes).items() if name.endswith("that grows")]
     assert grows
     assert all(line.get_markerfacecolor() == "none" for line in grows)

@@ -33,7 +33,8 @@ def test_levitation_is_solid_only_where_it_is_possible(real):
         drawn = np.asarray(free.get_xdata())[np.isfinite(free.get_ydata())] * RPM
         np.testing.assert_allclose(drawn, real.speeds[real.amplitude <= 1.0], rtol=1e-15)
     (curve,) = [line for line in lines_in(upper, responses._FREE) if len(line.get_xdata()) > 100]
-    assert np.nanmax(curve.get_ydata()) == pytest.approx(1400.0, rel=1e-9)
+    # In the diameter of the clearance, 1,400 um, up to the last speed at which the rotor levitates.
+    assert 1390.0 < np.nanmax(curve.get_ydata()) <= 1400.0
     (rub,) = lines_in(lower, responses._RUB)
     np.testing.assert_allclose(rub.get_ydata(), np.degrees(real.rubs.lags[0]))
     words = legend_words(figure)

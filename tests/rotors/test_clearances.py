@@ -179,7 +179,7 @@ def test_balls_have_a_pressure_at_each_plane():
         assert si["pressure"] == pytest.approx(ball_pressure(wall, si["force"]), rel=1e-12)
         assert si["pressure"] > 1e8
     again = rotor_from(model.unforced.attributes())
-    assert [each.bearing.balls for each in again.touchdowns] == [12, 12]
+    assert [each.bearing.balls for each in again.equations.touchdowns] == [12, 12]
 
 
 def test_a_limit_of_the_pressure_needs_balls(tmp_path):

@@ -26,7 +26,9 @@ PATIENCE = 0.7
 """Seconds before a bar appears that was asked for."""
 LONG = 2.0
 """Seconds before one appears that was not."""
-_CLOCK = len("0:00:00")
+_CLOCK, _WIDTH = len("0:00:00"), 20
+_TAKEN = _WIDTH + len("100%") + 2 * _CLOCK + 4
+"""Columns of a terminal that bar, share and both clocks take."""
 
 
 @dataclass(frozen=True)
@@ -185,10 +187,18 @@ def _bar(console: Console | None) -> rich.progress.Progress:
     from rich.table import Column
 
     clock = Column(no_wrap=True, min_width=_CLOCK)
-    words = TextColumn("{task.description}", markup=False, table_column=Column(overflow="ellipsis", no_wrap=True))
+    screen = console or Console(stderr=True)
+    room = Column(overflow="ellipsis", no_wrap=True, max_width=max(screen.width - _TAKEN, 1))
+    words = TextColumn("{task.description}", markup=False, table_column=room)
     elapsed, remaining = TimeElapsedColumn(table_column=clock), TimeRemainingColumn(table_column=clock.copy())
-    columns = (BarColumn(bar_width=20), TaskProgressColumn(), elapsed, "elapsed,", remaining, "left:", words)
-    return Bar(*columns, console=console or Console(stderr=True), transient=True)
+    columns = (
+        BarColumn(bar_width=_WIDTH),
+        TaskProgressColumn(table_column=Column(no_wrap=True)),
+        elapsed,
+        remaining,
+        words,
+    )
+    return Bar(*columns, console=screen, transient=True)
 
 
 def duration_words(seconds: float) -> str:

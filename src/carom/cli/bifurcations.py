@@ -103,8 +103,8 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     )
     rows = [
         (
-            f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
             f"{diagram.axis.field.in_usual_unit(point.value):.10g}",
+            f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
             STEADY_WORDS.get(point.name, point.name),
             "" if point.period != point.period else f"{float(diagram.told('time', point.value, point.period)):.8g}",
             "" if point.radial_speed != point.radial_speed else _speed(diagram, point),

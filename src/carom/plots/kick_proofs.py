@@ -70,7 +70,12 @@ def _proven(axes: Axes, kicks: Any) -> None:
             colour = _RUB if part.refuted else next(greys, _GREYS[-1])
         cells = [outlines[cell] for cell in np.flatnonzero(kicks.places == place)]
         # Edges of their own colour, for no gap shows between cells then.
-        look: dict[str, Any] = {"facecolor": colour, "edgecolor": colour, "lw": 0.2, "gid": "open" if part.open else "proven"}
+        look: dict[str, Any] = {
+            "facecolor": colour,
+            "edgecolor": colour,
+            "lw": 0.2,
+            "gid": "open" if part.open else "proven",
+        }
         axes.add_collection(PolyCollection(cells, **look, rasterized=True, label=_words(part)))
 
 
