@@ -330,7 +330,7 @@ def test_simulate_for_people(carom, machine):
     ):
         assert words in out
     row = next(line for line in out.splitlines() if line.startswith("impact "))
-    assert row.split() == ["37.00448", "impact", "-144.9°", "4.31", "forward", "0.421", "-0.0631", "7.49"]
+    assert row.split() == ["impact", "37.00448", "-144.9", "4.31", "0.421", "-0.0631", "7,490", "forward"]
 
 
 def test_simulate_without_contact(carom, machine):

@@ -79,6 +79,17 @@ class ContactLog(Table):
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "contact"
+    shown: ClassVar[tuple[str, ...]] = (
+        "time",
+        "duration",
+        "touchdown_bearing",
+        "angle",
+        "radial_speed",
+        "normal_impulse",
+        "friction_impulse",
+        "slip_after",
+        "peak_force",
+    )
 
     @property
     def is_impact(self) -> np.ndarray:

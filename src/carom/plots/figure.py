@@ -20,7 +20,7 @@ from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import Bbox
 
 from carom.base.arguments import checked
-from carom.plots.sheet import ONE_COLUMN, applied, drawing
+from carom.plots.sheet import ONE_COLUMN, TWO_COLUMNS, applied, drawing
 
 _heading: ContextVar[str] = ContextVar("_heading", default="")
 
@@ -131,7 +131,7 @@ def frames(count: int) -> tuple[Figure, list[Axes]]:
     if _narrow.get() or count == 1:
         figure = StyledFigure(figsize=(ONE_COLUMN, 1.18 * count * ONE_COLUMN))
         return figure, list(figure.subplots(count, 1, squeeze=False)[:, 0])
-    figure = StyledFigure(figsize=(2.0 * ONE_COLUMN, 1.16 * ONE_COLUMN))
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 1.16 * ONE_COLUMN))
     return figure, list(figure.subplots(1, count))
 
 

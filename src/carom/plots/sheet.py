@@ -9,8 +9,8 @@ from contextvars import ContextVar
 
 import matplotlib.style
 
-ONE_COLUMN = 88 / 25.4
-"""Width of one column [inch]."""
+ONE_COLUMN, TWO_COLUMNS = 88 / 25.4, 180 / 25.4
+"""Widths of figures of one column and of two [inch]."""
 _SHEET = "carom.plots.carom"
 _in_use = ContextVar("_in_use", default=False)
 

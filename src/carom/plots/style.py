@@ -39,13 +39,11 @@ from matplotlib.lines import Line2D
 from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.plots.figure import arrange, write_plain_ticks
 from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
+from carom.plots.sheet import TWO_COLUMNS as TWO_COLUMNS
 from carom.plots.sheet import drawing
 
 Arguments = ParamSpec("Arguments")
 
-
-TWO_COLUMNS = 180 / 25.4
-"""Width of a two-column figure [inch]: 180 mm."""
 
 ZONE_SHADES = ("#ffffff", "#faf7ef", "#f5f0e1", "#efe7d0")
 """Background of the vibration zones A, B, C, D; darker is worse."""
