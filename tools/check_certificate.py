@@ -857,7 +857,7 @@ def rub_facts(m: Machine) -> dict:
             pressed, {"normal_force": force}, {"the wall would have to pull, or does not push"},
         )  # fmt: skip
         found[rub, "attracts sliding"] = Fact(
-            "It is a motion of the machine, and small disturbances along the wall die out.",
+            "It is a motion of the machine, and small vibrations along the wall decay.",
             every([pressed, damped, sign > 0]),
             {},
             reasons,
@@ -2902,7 +2902,7 @@ _NO_BASINS = (
 _DISC_LEAVES_OUT = (
     "that what is open does not return, or that it does; why it is open is told by the search",
     "that the impacts stated happen: they are bounds from above",
-    "anything beyond the largest size, of starts other than levitation, or of walls that give way",
+    "anything beyond the largest size, of starts other than levitation, or of compliant walls",
 )
 
 
@@ -2921,7 +2921,7 @@ FORMS = {
         (
             "that states faster than the speed that is shown do not return, but for those that are named",
             "how many impacts there are on the way, how hard they are, or how long it takes",
-            "anything of a rotor with weight, of walls that give way, or of a shaft whose speed changes",
+            "anything of a rotor with weight, of compliant walls, or of a shaft whose speed changes",
         ),
     ),
     "single-impact orbits": Form(

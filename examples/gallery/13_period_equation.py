@@ -16,7 +16,8 @@ periods = np.linspace(0.05, 30.0, 2000)
 
 # %%
 # What to see: the curve crosses zero at two periods only, the dots.  It oscillates on above zero; in the shaded range a bound excludes roots.
-figure, axes = plt.subplots()
+figure = plt.figure()
+axes = figure.subplots()
 axes.plot(periods, cm.orbits.period_condition(machine, periods))
 axes.plot(orbits.periods, np.zeros(len(orbits.periods)), "ko")
 axes.axhline(0.0, color="k", lw=0.5)

@@ -189,7 +189,7 @@ def test_figures_fit_a_telephone(written):
 def test_tables_are_stacked_on_narrow_screens(written):
     _, _, text = written
     tables = re.findall(r'<table class="stacked">(.*?)</table>', text, flags=re.DOTALL)
-    assert len(tables) == 5
+    assert len(tables) == 3
     for table in tables:
         for row in re.findall(r"<tr[^>]*>(.*?)</tr>", table, flags=re.DOTALL)[1:]:
             cells = re.findall(r"<td[^>]*>", row)
@@ -201,7 +201,7 @@ def test_recommendation_comes_first(written):
     words = re.sub(r"\s+", " ", "".join(Page(text).words))
     order = [
         "Does not come back",
-        "how many come back",
+        "come back",
         "What should change",
         "What it survives",
         "How it moves",
