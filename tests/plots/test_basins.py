@@ -132,7 +132,7 @@ def test_kicks_by_size_and_direction(rotor):
     assert "(mm/s)" in round_.get_xlabel()
     assert beside.get_xlabel() == "size of the kick (mm/s)"
     assert any(text.startswith("levitation, ") for text in words(figure))
-    assert "smallest kick found that is lost" in words(figure)
+    assert "smallest kick found that does not come back" in words(figure)
 
 
 def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):

@@ -18,7 +18,7 @@ from carom.plots.cells import MotionLook, around, finish, looks_of, motion_looks
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import clearance, formula, number, told_in
+from carom.plots.words import clearance, display_unit, formula, number
 
 if TYPE_CHECKING:
     from carom.attractors import MotionName
@@ -43,7 +43,7 @@ def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str 
 
     By size and direction: a disc, and beside it the shares at each size.  By two other coordinates, such as the
     components of a kick: a plane.  Releases from the wall and losses of a blade: a ring.  Samples: a bar for each motion with
-    its confidence interval.  The figure is 180 mm wide, 112 mm for a plane, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
+    its confidence interval.  The figure is 180 mm wide, 112 mm for a plane, 88 mm for a ring.  `smallest` is the smallest kick or shock found that does not come back;
     it is marked in a picture of kicks or shocks.
     """
     motions, along, kind = motion_looks(basin), basin.coordinates, basin.plan.model.kind
@@ -58,7 +58,7 @@ def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str 
     draw_cells(axes, basin.cells, motions)
     if kind == "slice":
         velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
-        factor, unit = told_in("velocity", basin.scales)
+        factor, unit = display_unit("velocity", basin.scales)
         said = "at rest" if velocity == 0 else f"at {factor * velocity:.3g} {unit}"
         axes.set_title(f"starts {said} in the fixed frame")
         levitation = complex(basin.rotor.system.arrays.offsets[0])
@@ -187,7 +187,7 @@ def _dial(axes: Axes, basin: Cells) -> None:
         motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
         words = f"released from the wall, {motion.get(str(model.describe()['motion']), 'rolling without slip')}"
     elif model.kind == "blade-loss":
-        factor, unit = told_in("unbalance" if basin.scales else "length", basin.scales)
+        factor, unit = display_unit("unbalance" if basin.scales else "length", basin.scales)
         words = f"phase of the change of unbalance, {number(factor * float(str(model.describe()['change'])), 5)} {unit}"
         axes.annotate("", (0.78, 0.0), (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "color": "#1a1a1a"})
         words += ", from the unbalance before (arrow)"
@@ -209,7 +209,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
 
 
 def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> None:
-    """Mark the smallest kick or shock found that is lost and the circle of those that cannot reach the wall."""
+    """Mark the smallest kick or shock found that does not come back and the circle of those that cannot reach the wall."""
     factor = basin.coordinates[0].shown_in(basin.scales)[0]
     _circle(axes, factor * smallest.harmless, "below: proven never to touch")
     if smallest.size is None:
@@ -218,7 +218,7 @@ def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> N
     if not basin.coordinates[1].periodic:
         place *= np.conj(outward_from(basin.rotor))
     look: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a", "ls": "none"}
-    words = f"smallest {smallest.kind} found that is lost"
+    words = f"smallest {smallest.kind} found that does not come back"
     axes.plot([factor * place.real], [factor * place.imag], **look, gid="smallest", label=words)
 
 

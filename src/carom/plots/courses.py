@@ -15,7 +15,7 @@ from carom.base.outcome import Outcome
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
-from carom.plots.words import axis_label, axis_time, clearance, number, orbit_look, orbit_title, told_in
+from carom.plots.words import axis_label, axis_time, clearance, display_unit, number, orbit_look, orbit_title
 
 if TYPE_CHECKING:
     from carom.motions.courses import Blows, Course
@@ -87,7 +87,7 @@ def radius(
             orbit_path(motion, periods),
             orbit_impacts(motion, periods),
         )
-        unit = told_in("time", motion.scales)[0]
+        unit = display_unit("time", motion.scales)[0]
         _curve(drawn, unit * times, np.abs(position), motion.scales, replace(look, words=f"radius ({look.words})"))
         _impacts(drawn, unit * struck, speeds > -1.0, clearance(motion.scales))
     if zones is not None:
@@ -137,7 +137,7 @@ def touchdown(
             _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
             _speeds(panels[2], course)
         elif blows is not None and len(blows.times):
-            unit = told_in("impulse", course.scales)[1]
+            unit = display_unit("impulse", course.scales)[1]
             words = f"impulse at most {number(float(blows.impulses.max()), 3)} {unit}"
             panels[0].plot([], [], ls="none", label=words, gid="hardest")
         if ledger is not None:
@@ -167,10 +167,10 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
-    unit, short = told_in("energy", scales)
+    unit, short = display_unit("energy", scales)
     if scales and unit * largest >= _LARGE:
         unit, short = 1e-3 * unit, f"k{short}"
-    times = told_in("time", scales)[0] * ledger.times
+    times = display_unit("time", scales)[0] * ledger.times
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
         values = getattr(ledger, name)
@@ -188,7 +188,7 @@ def sampled(motion: Trajectory, until: float) -> Course:
 
     course = course_of(motion, until)
     scales, blows = course.scales, course.blows
-    time, length, force, impulse = (told_in(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
+    time, length, force, impulse = (display_unit(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
     speed = 1.0 if scales is None else scales.velocity
     if blows is not None:
         blows = blows._replace(
@@ -222,11 +222,11 @@ def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
             words = LOOKS[meaning].words
             axes.plot(np.where(those, course.times, np.nan), distance, **look, label=words, gid=meaning)
     logs = [(part.begins, part.seen_at(motion.plane).contacts) for part in motion.parts]
-    times = told_in("time", scales)[0] * np.concatenate([begins + log.time for begins, log in logs])
+    times = display_unit("time", scales)[0] * np.concatenate([begins + log.time for begins, log in logs])
     shown = (times <= course.times[-1]) & np.concatenate([log.is_impact for _, log in logs])
     speeds = np.concatenate([log.angular_speed for _, log in logs])
     _impacts(axes, times[shown], speeds[shown] > -1.0, clearance(scales))
-    whole = told_in("time", scales)[0] * (motion.begins + motion.time)
+    whole = display_unit("time", scales)[0] * (motion.begins + motion.time)
     if motion.outcome is not Outcome.TIME_REACHED and course.times[-1] >= 0.999 * whole:
         place = complex(course.times[-1], distance[-1])
         point(axes, place, "end", label=f"end: {motion.outcome.words}", clip=False)
@@ -295,7 +295,7 @@ def _gap_axis(axes: Axes, scales: Scales | None) -> None:
 def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
     """Draw the forces of contact in the unit that the whole motion needs, and impulses on an axis of their own if the wall is rigid."""
     large = bool(course.scales) and float(whole.force.max()) >= _LARGE
-    factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{told_in('force', course.scales)[1]}"
+    factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{display_unit('force', course.scales)[1]}"
     normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
     for values, look in ((normal, NORMAL), (friction, FRICTION)):
@@ -336,5 +336,5 @@ def _speeds(axes: Axes, course: Course) -> None:
         tallest = max(tallest, float(slips.max(initial=0.0)))
     if course.race is not None:
         axes.plot(course.times, race, **RACE.stroke, label=RACE.words, gid="race")
-    unit = told_in("velocity", None)[1] if course.scales is None else "m/s"
+    unit = display_unit("velocity", None)[1] if course.scales is None else "m/s"
     axes.set(ylim=(min(0.0, 1.1 * float(race.min())), 1.1 * tallest or 1.0), ylabel=f"speed ({unit})")

@@ -18,9 +18,9 @@ from carom.base.arguments import checked
 from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
 from carom.plots.coexistence import coexistence, looks_between, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
-from carom.plots.parameter_axes import label_parameter, told_parameter
+from carom.plots.parameter_axes import format_parameter, label_parameter
 from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
-from carom.plots.words import axis_label, number, told_in
+from carom.plots.words import axis_label, display_unit, number
 
 if TYPE_CHECKING:
     from carom.bifurcations import Curve, Diagram, OrbitBranch
@@ -135,7 +135,7 @@ def _speed_line(
     at_special_points: list[float],
     virtual: bool,
 ) -> None:
-    """Draw speeds along a branch, in the unit in which people are told them."""
+    """Draw speeds along a branch, in their display unit."""
     unit, places = diagram.axis.field.usual_size, np.arange(len(branch))
     special = np.array([point.value for point in branch.special])
     there = diagram.told_speeds(special, np.array(at_special_points))
@@ -148,7 +148,7 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
     value = float(diagram.axis.value(diagram.model))
     if not diagram.interval[0] <= value <= diagram.interval[1]:
         return []
-    words = f"present value: {told_parameter(value, diagram.axis.field, diagram.model.scales)}"
+    words = f"present value: {format_parameter(value, diagram.axis.field, diagram.model.scales)}"
     return [panel.axvline(value / unit, gid="present", label=words, **_PRESENT) for panel in panels][:1]
 
 
@@ -252,7 +252,7 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
     tried = diagram.disturbances
     ring: dict[str, Any] = {"ls": "none", "marker": "o", "mec": "#1a1a1a", "mew": 0.6}
     if tried and any(sample.met for sample in diagram.attractors):
-        factor, unit = told_in("velocity", diagram.model.scales)
+        factor, unit = display_unit("velocity", diagram.model.scales)
         words = f"share of {tried.count} disturbances up to {number(factor * tried.fastest, 3)} {unit}"
         entries.append(Line2D([], [], mfc="#ffffff", ms=4.0, **ring, label=words))
     if any(not sample.met for sample in diagram.attractors):

@@ -14,7 +14,7 @@ from carom.plots.courses import sampled
 from carom.plots.figure import frames
 from carom.plots.plane import MANY_POINTS, Floats, clearance_circle, key, label_frame, point
 from carom.plots.style import LOOKS, styled
-from carom.plots.words import clearance, told_in
+from carom.plots.words import clearance, display_unit
 
 if TYPE_CHECKING:
     from carom.motions.courses import Course
@@ -88,7 +88,7 @@ def _finer(scales: Scales | None) -> float:
 
 
 def _gap_label(scales: Scales | None) -> str:
-    return f"gap to the wall ({told_in('length', None)[1] if scales is None else 'µm'})"
+    return f"gap to the wall ({display_unit('length', None)[1] if scales is None else 'µm'})"
 
 
 def _held(course: Course, values: Floats) -> Floats:

@@ -15,7 +15,7 @@ from carom.plots.cells import around
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import key
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
-from carom.plots.words import counted, formula, number, told_in
+from carom.plots.words import counted, display_unit, formula, number
 
 _REACH = 1.04
 """Half-width of the axes, relative to the largest kick."""
@@ -61,7 +61,7 @@ def _title(kicks: Any) -> str:
 def _proven(axes: Axes, kicks: Any) -> None:
     """Fill the cells: green the darker the more impacts, in the colour of the rub, grey where nothing is proven."""
     greys = iter(_GREYS)
-    radius = told_in("velocity", kicks.rotor.scales)[0] * kicks.largest
+    radius = display_unit("velocity", kicks.rotor.scales)[0] * kicks.largest
     outlines = [radius * _outline(edges) for edges in kicks.edges]
     for place, part in enumerate(kicks.parts):
         if part.impacts is not None:
@@ -99,7 +99,7 @@ def _outline(edges: np.ndarray) -> np.ndarray:
 
 def _frame(axes: Axes, kicks: Any) -> None:
     """Draw the circles of what never touches and of what all comes back."""
-    factor, unit = told_in("velocity", kicks.rotor.scales)
+    factor, unit = display_unit("velocity", kicks.rotor.scales)
     reach = _REACH * factor * kicks.largest
     axes.set_aspect("equal")
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))

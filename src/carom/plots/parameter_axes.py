@@ -55,7 +55,7 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
     return True
 
 
-def told_parameter(value: float, field: Field, scales: Scales | None) -> str:
+def format_parameter(value: float, field: Field, scales: Scales | None) -> str:
     """Write a value of a parameter as its axis tells it, with its unit."""
     partner = _partner(field, scales)
     if partner is not None and scales is not None:

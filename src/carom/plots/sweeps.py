@@ -88,7 +88,7 @@ def sweep_map(
     """
     if name not in data:
         raise InputError("name", name, f"one of: {', '.join(map(str, data.data_vars))}")
-    values, plan = _as_told(data[name]), json.loads(data.attrs["plan"])
+    values, plan = _in_display_unit(data[name]), json.loads(data.attrs["plan"])
     spacings = {axis["name"]: axis["spacing"] for axis in plan["axes"]}
     dimensions = [str(dimension) for dimension in values.dims]
     if not 1 <= len(dimensions) <= 2 or not set(dimensions) <= spacings.keys():
@@ -132,8 +132,8 @@ def sweep_map(
     return figure
 
 
-def _as_told(values: xarray.DataArray) -> xarray.DataArray:
-    """Return a variable in the unit in which people are told it: speeds in mm/s."""
+def _in_display_unit(values: xarray.DataArray) -> xarray.DataArray:
+    """Return a variable in the unit in which it is shown: speeds in mm/s."""
     if "si_of" not in values.attrs:
         return values
     factor, unit = shown_from_si(values.attrs.get("units", "1"))

@@ -80,7 +80,7 @@ def formula(unit: str) -> str:
     return "$" + r"\,".join(part.replace("c_r", r"c_\mathrm{r}").replace("Ω", r"\Omega") for part in parts) + "$"
 
 
-def told_in(kind: str, scales: Scales | None) -> tuple[float, str]:
+def display_unit(kind: str, scales: Scales | None) -> tuple[float, str]:
     """Return by what figures multiply a size in units of the equations, and the unit for their labels.
 
     The kind is a property of :class:`~carom.parameters.Scales`.  Without scales, sizes stay in units of the equations.
@@ -91,7 +91,7 @@ def told_in(kind: str, scales: Scales | None) -> tuple[float, str]:
 
 def clearance(scales: Scales | None) -> float:
     """Return the radius of the clearance circle as it is drawn: in mm, or 1 without scales."""
-    return told_in("length", scales)[0]
+    return display_unit("length", scales)[0]
 
 
 def time_in_words(time: float, scales: Scales | None) -> str:
@@ -104,8 +104,8 @@ def _seconds(time: float) -> str:
 
 
 def axis_label(words: str, kind: str, scales: Scales | None) -> str:
-    """Return an axis label: words or a symbol, and the unit of their kind as in :func:`told_in`."""
-    return f"{words} ({told_in(kind, scales)[1]})"
+    """Return an axis label: words or a symbol, and the unit of their kind as in :func:`display_unit`."""
+    return f"{words} ({display_unit(kind, scales)[1]})"
 
 
 def axis_time(scales: Scales | None) -> str:

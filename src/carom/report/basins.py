@@ -20,7 +20,7 @@ CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "bl
 CELLS_OF_MANY_MODES: dict[Kind, tuple[int, ...]] = {"kick": (20, 20), "shock": (6, 24), "blade_loss": (36,)}
 """The same of rotors of many modes, whose motions take milliseconds each."""
 BEYOND = 1.5
-"""Largest disturbance of a basin relative to the smallest that is lost, where all that must be survived came back."""
+"""Largest disturbance of a basin relative to the smallest that does not come back, where all that must be survived came back."""
 
 _MISSING = {
     "no-change-needed": "No change is needed: all that was tried of what it must survive came back.",
@@ -81,7 +81,7 @@ def _required(study: Study, kind: Kind) -> float:
 
 
 def _disturbances(study: Study, kind: Kind) -> Disturbance:
-    """Disturbances up to what must be survived, or beyond the smallest that is lost if that is larger."""
+    """Disturbances up to what must be survived, or beyond the smallest that does not come back if that is larger."""
     size = _required(study, kind)
     if kind == "blade_loss":
         return BladeLoss(size, study.required.blade_loss_node)

@@ -106,7 +106,7 @@ def _whirls(found: Levitating) -> list[tuple[str, str, str]]:
 
 
 def _mark(study: Study) -> str:
-    """Colour of the headline: that of levitation only where nothing is lost and nothing is asked that cannot be given."""
+    """Colour of the headline: that of levitation only where everything comes back and nothing is asked that cannot be given."""
     if study.verdict.level == "no-contact-free-motion":
         return "var(--bad)"
     doubtful = study.bearing_demand is not None and study.bearing_demand.is_exceeded
