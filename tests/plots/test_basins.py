@@ -25,7 +25,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.orbits.names import OrbitName
-from carom.plots.cells import MotionLook, looks_of
+from carom.plots.cells import MotionLook
 
 pytestmark = pytest.mark.jit_only
 
@@ -74,18 +74,6 @@ def test_legends_say_which_motion_it_is(name, said):
     assert shown.words == said
 
 
-def test_every_settled_outcome_has_a_look_of_its_own():
-    settled = [outcome.label for outcome in Outcome if outcome.settled]
-    looks = [plots.OUTCOMES[label] for label in (*settled, "irregular")]
-    assert len({look.colour for look in looks}) == len(looks)
-    assert len({look.words for look in looks}) == len(looks)
-    for look in looks:
-        # Told apart in grey by the hatch where not by the ground.
-        twins = [other for other in looks if other.hatch == look.hatch and other is not look]
-        for other in twins:
-            assert abs(grey(look.colour) - grey(other.colour)) > 0.08
-
-
 def test_the_worse_an_outcome_the_darker_it_is_in_even_steps():
     # Rest on the bearing, which only weight brings about, is beside this order.
     settled = [outcome.label for outcome in Outcome if outcome.settled and outcome is not Outcome.AT_REST]
@@ -96,15 +84,6 @@ def test_the_worse_an_outcome_the_darker_it_is_in_even_steps():
     assert min(steps) >= 19.5
     assert max(steps) == steps[0]
     assert max(steps) < 1.7 * min(steps)
-
-
-@pytest.mark.parametrize("label", ["bouncing", "mixed", "forward-rub"])
-def test_motions_of_one_outcome_differ_in_hue_alone(label):
-    outcome = next(one for one in Outcome if one.label == label)
-    looks = looks_of([MotionName(outcome, 1, number=number) for number in range(1, 5)], [0.4, 0.3, 0.2, 0.1])
-    assert len({look.colour for look in looks}) == 4
-    # Colours have 8 bits in each part.
-    assert [printed(look.colour) for look in looks] == pytest.approx([printed(looks[0].colour)] * 4, abs=0.004)
 
 
 def grey(colour):
@@ -133,14 +112,6 @@ def test_kicks_by_size_and_direction(rotor):
     assert beside.get_xlabel() == "size of the kick (mm/s)"
     assert any(text.startswith("levitation, ") for text in words(figure))
     assert "smallest kick found that does not come back" in words(figure)
-
-
-def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
-    basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
-    steps = plots.basin(basin).axes[1].patches
-    tops = [patch.get_data().values for patch in steps]
-    assert tops[-1] == pytest.approx(np.full(12, 100.0))
-    assert tops[0] == pytest.approx(100.0 * basin.recovered.mean(axis=1))
 
 
 @pytest.mark.parametrize(
@@ -179,51 +150,9 @@ def test_cells_are_where_their_start_is(rotor):
     )  # the first in the order of outcomes is levitation
 
 
-@pytest.mark.parametrize("plan", [Grid(VelocityKick(1.0), (6, 8)), Grid(ContactRelease("rotating"), (20,))])
-def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
-    found = map_basins(rotor, plan)
-    axes = plots.basin(found).axes[0]
-    hatched = [patch for patch in axes.patches if patch.get_hatch()]
-    looks = {plots.OUTCOMES[Outcome(code).label].hatch for code in np.unique(found.outcomes)} - {""}
-    assert {patch.get_hatch() for patch in hatched} == looks
-    (mesh,) = [entry for entry in axes.collections if isinstance(entry, QuadMesh)]
-    corners = np.vstack([patch.get_path().vertices for patch in hatched])
-    np.testing.assert_allclose(np.hypot(*corners.T).max(), np.hypot(*mesh.get_coordinates().T).max(), rtol=1e-9)
-
-
-def test_without_scales_units_are_those_of_the_equations():
-    rotor = carom.models.jeffcott(MACHINE.replace(scales=None))
-    figure = plots.basin(map_basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
-    assert r"($c_\mathrm{r}\,\Omega$)" in figure.axes[1].get_xlabel()
-
-
-@pytest.mark.parametrize(("scales", "speed"), [(SCALES, "50+0j mm/s"), (None, r"0.388+0j $c_\mathrm{r}\,\Omega$")])
-def test_the_velocity_of_a_slice_is_told_in_the_unit_of_people(scales, speed):
-    machine = MACHINE.replace(scales=scales)
-    basin = map_basins(machine, Grid(StateSlice(0.05 / SCALES.velocity), (4, 4)))
-    assert plots.basin(basin).axes[0].get_title() == f"starts at {speed} in the fixed frame"
-
-
 def test_a_grid_of_states_has_no_picture(rotor):
     with pytest.raises(InputError, match="sample"):
         plots.basin(map_basins(rotor, Grid(AnyState(1.0), (2, 2, 2, 2))))
-
-
-def test_a_gain_map_is_drawn_in_the_terms_of_the_machine():
-    rig = carom.load("examples/tum-test-rig.toml")
-    plan = Grid(VelocityKick.of(rig, "1 m/s"), (4, 6))
-    found = map_gains(rig, plan, shape=(4, 4))
-    figure = plots.gain_map(found, told_by=rig)
-    axes = figure.axes[0]
-
-    assert fits(figure)
-    assert axes.get_xlabel() == "proportional gain, current over displacement $P$ (A/m)"
-    assert axes.get_ylabel() == "derivative gain, current over velocity $D$ (A s/m)"
-    # Two bearings of 50 N/A and -100 N/mm: half to twice k = 2 (50 P - 1e5) and c = 2 * 50 D.
-    assert axes.get_xlim() == pytest.approx((3500.0, 8000.0))
-    assert axes.get_ylim() == pytest.approx((2.5, 10.0))
-    (star,) = [line for line in axes.get_lines() if line.get_gid() == "present"]
-    assert (star.get_xdata()[0], star.get_ydata()[0]) == pytest.approx((5000.0, 5.0))
 
 
 def test_gain_map(rotor):
@@ -248,47 +177,3 @@ def test_gain_map(rotor):
     np.testing.assert_array_equal(shares[levitates], found.dataset["recovered"].values.T[levitates])
     with pytest.raises(InputError, match="measure"):
         plots.gain_map(found, measure="beauty")
-
-
-def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
-    plan = Grid(VelocityKick.of(MACHINE, "80 mm/s"), (5, 5))
-    found = map_gains(MACHINE, plan, shape=(3, 3))
-    x, y = (found.dataset[axis.name].values for axis in found.axes)
-    node = abs(x - found.present[0]).argmin(), abs(y - found.present[1]).argmin()
-
-    # A machine that levitates beside the edge of levitation: the middle of its cell may be beyond.
-    for measure in ("recovered", "levitates"):
-        found.dataset[measure].values[node] = 0.0
-    assert found.present_share.count
-    assert "no levitation (in the middle of the cell)" in words(plots.gain_map(found))
-
-    found.dataset["levitates"].values[:] = 1.0
-    found.dataset["smallest_unrecovered_kick"].values[:] = 0.25
-    found.dataset["smallest_unrecovered_kick"].values[0, 1] = np.nan
-    figure = plots.gain_map(found, measure="smallest_unrecovered_kick")
-    assert "every kick tried comes back" in words(figure)
-    assert "smallest kick tried that does not come back (mm/s)" in [axes.get_ylabel() for axes in figure.axes]
-
-
-def test_gain_map_of_dimensionless_parameters():
-    plan = Grid(VelocityKick(0.3), (5, 5))
-    found = map_gains(MACHINE.replace(scales=None), plan, ("omega", "gamma"), shape=(3, 3))
-    axes = plots.gain_map(found, title="a title").axes[0]
-    assert r"\omega" in axes.get_xlabel()
-    assert axes.get_title() == "a title"
-
-
-def test_a_motion_has_one_name_and_one_colour_in_every_figure(damped):
-    """Shares of attractors and of a basin."""
-    figure = plots.attractors(carom.find_attractors(damped.rotor, count=40))
-    (axes,) = figure.axes
-    bars = {label.get_text(): patch for label, patch in zip(axes.get_yticklabels(), axes.patches, strict=True)}
-    picture = plots.basin(map_basins(damped.rotor, Grid(VelocityKick(1.0), (8, 12))))
-    entries = {
-        text.get_text().rsplit(", ", 1)[0]: patch
-        for text, patch in zip(picture.legends[0].get_texts(), picture.legends[0].get_patches(), strict=True)
-    }
-    assert "regular bouncing" in bars.keys() & entries.keys()
-    for name in bars.keys() & entries.keys():
-        assert bars[name].get_facecolor() == entries[name].get_facecolor(), name
-        assert (bars[name].get_hatch() or "") == (entries[name].get_hatch() or ""), name

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from drawn_legends import fits, legend_words
+from drawn_legends import legend_words
 from machines import PAPER
 
 from carom import bifurcations, plots
-from carom.parameters import Machine, Scales
+from carom.parameters import Scales
 from carom.plots.style import LOOKS
 
 
@@ -35,17 +35,6 @@ def test_looks_change_at_the_special_points():
     assert lower.get_xlim() == pytest.approx((0.03, 0.4))
 
 
-def test_run_up_is_drawn_over_revolutions_per_minute():
-    parameters = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2)).parameters
-    found = bifurcations.find_bifurcations(parameters, "speed", (100.0, 330.0))
-    figure = plots.bifurcation_diagram(found)
-    assert "rpm" in figure.axes[-1].get_xlabel()
-    assert figure.axes[0].get_xlim() == pytest.approx((100.0 * 30 / np.pi, 330.0 * 30 / np.pi))
-
-
-SOFT = PAPER.replace(gamma=0.1, omega=0.34, rho=0.2, mu=0.2, d=0.6)
-
-
 @pytest.mark.jit_only
 def test_bars_say_what_exists_where():
     found = bifurcations.find_bifurcations(PAPER, "gamma", (0.03, 0.4), attractors=3)
@@ -67,24 +56,6 @@ def test_bars_say_what_exists_where():
     assert np.ravel(bars("rolling backward whirl", 4.5)) == pytest.approx([0.03, 0.4])
     dots = [collection for collection in below.collections if len(collection.get_offsets())]
     assert len(dots) == len(found.attractors)
-
-
-@pytest.mark.parametrize("parameters", [PAPER, SOFT])
-def test_legends_fit(parameters):
-    found = bifurcations.find_bifurcations(parameters, "gamma", (0.02, 0.4))
-    assert fits(plots.bifurcation_diagram(found))
-
-
-def test_virtual_orbits_are_hidden_unless_asked_for():
-    found = bifurcations.find_bifurcations(PAPER, "gamma", (0.03, 0.4))
-
-    def grey(figure):
-        return [line for axes in figure.axes for line in axes.lines if line.get_color() == LOOKS["virtual"].colour]
-
-    hidden, shown = plots.bifurcation_diagram(found), plots.bifurcation_diagram(found, virtual=True)
-    assert grey(hidden) == []
-    assert grey(shown)
-    assert set(legend_words(shown)) - set(legend_words(hidden)) >= {"virtual"}
 
 
 def test_damping_of_a_machine_is_told_in_its_unit():

@@ -8,7 +8,6 @@ from matplotlib.path import Path
 
 import carom as cm
 from carom import plots
-from carom.base.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 
@@ -62,9 +61,3 @@ def test_what_exceeds_a_limit_is_outlined(found):
 def _rectangles(patch):
     """The rectangles of a compound path, which is inside where one of them is."""
     return [Path(corners) for corners in patch.get_path().vertices.reshape(-1, 5, 2)]
-
-
-def test_other_measures(found):
-    assert plots.drop_map(found, "depth").axes[2].get_ylabel() == "largest depth in the bearing (µm)"
-    with pytest.raises(InputError, match="measure = speed: one that this map has: force, impulse"):
-        plots.drop_map(found, "speed")

@@ -7,8 +7,6 @@ import pytest
 
 import carom as cm
 from carom import plots
-from carom.base.outcome import InputError
-from carom.disturbances import whirl
 from carom.motions import drop_loads
 
 pytestmark = pytest.mark.jit_only
@@ -74,37 +72,3 @@ def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole(rigid):
     assert "surface of the race" not in words(figure)
     _, right = plots.drop_orbit(rigid, until=20.0).axes
     assert right.get_title() == "close to the wall"
-
-
-def test_a_whirl_over_the_top_is_drawn_without_lines_across():
-    motion = cm.simulate(
-        cm.load("examples/touchdown-balls.toml"), cm.drop(whirl("0.2 mm", "-400 Hz", "30 deg")), "15 ms"
-    )
-    _, right = plots.drop_orbit(motion, title="a whirl").axes
-    angles = line(right, "path").get_xdata()
-    assert np.nanmax(np.abs(np.diff(angles))) < 180.0
-    assert right.get_xlim() == (-180.0, 180.0)
-
-
-def test_the_first_contacts_have_a_column_of_their_own(soft):
-    long = cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(), "700 ms")
-    figure = plots.touchdown(long)
-    first, whole = figure.axes[0], figure.axes[1]
-    assert first.get_title() == "the first contacts"
-    assert whole.get_title() == "the whole motion"
-    assert first.get_xlim()[1] < 0.25 * whole.get_xlim()[1]
-    assert plots.drop_orbit(long).axes[0].get_title() == "fixed frame, the first 30 contacts"
-
-
-def test_in_units_of_the_equations():
-    rotor = cm.models.jeffcott(cm.parameters.Parameters(0.1, 0.76, 0.4, 0.0, 0.15, 0.5, 50.0))
-    motion = cm.simulate(rotor, cm.kick(0.5), 20.0)
-    assert "c_" in plots.touchdown(motion).axes[0].get_ylabel()
-    assert "c_" in plots.drop_orbit(motion).axes[1].get_ylabel()
-
-
-def test_nothing_followed_cannot_be_drawn():
-    nothing = cm.simulate(cm.load("examples/keogh-cole.toml"), cm.kick(1e-6))
-    assert nothing.time == 0.0  # known at once
-    with pytest.raises(InputError, match="motion = no time followed"):
-        plots.touchdown(nothing)

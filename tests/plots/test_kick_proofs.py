@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 from drawn_legends import fits, legend_words
 from matplotlib.collections import PolyCollection
@@ -39,15 +37,3 @@ def test_cells_have_the_colour_of_their_part(kicks):
     assert "proven, never touches: 25 %" in legend_words(figure)
     assert "none touches below 109.8 mm/s" in legend_words(figure)
     assert fits(figure)
-
-
-def test_title_says_what_is_proven(kicks):
-    words = " ".join(kicks.plot().get_suptitle().split())
-    assert words == f"Proven: {kicks.words}"
-    assert kicks.plot(title="a title").get_suptitle() == "a title"
-
-
-def test_speed_up_to_which_all_come_back_is_marked_beyond_the_harmless_one(kicks):
-    more = replace(kicks, all_up_to=0.9 * kicks.largest)
-    assert "all proven to come back below 135 mm/s" in legend_words(more.plot())
-    assert not any("all proven" in words for words in legend_words(kicks.plot()))

@@ -8,7 +8,6 @@ from linear_rotors import single, tilting
 
 import carom
 from carom.base.outcome import InputError
-from carom.motions import energy_ledger
 
 pytestmark = pytest.mark.jit_only
 
@@ -26,19 +25,6 @@ def test_equilibria_are_drawn_in_the_circle_of_each_plane():
         # Nothing drawn lies outside the frame.
         reach = panel.get_xlim()[1]
         assert all(abs(points).max() < reach for points in drawn)
-
-
-def test_shares_of_attractors_are_bars():
-    found = carom.find_attractors(single().model, [carom.kick(0.01), carom.kick(0.02), carom.kick(3.0)])
-    (drawn,) = found.plot("kicks").axes
-    assert [bar.get_width() for bar in drawn.patches] == [100.0 * member.share_of_disturbances for member in found]
-    assert [label.get_text() for label in drawn.get_yticklabels()] == [str(member.name) for member in found]
-
-
-def test_energies_and_motions_of_two_planes_are_drawn():
-    motion = carom.simulate(tilting().model, carom.kick(1.5), until=20.0)
-    assert motion.seen_at(1).plot().axes
-    assert len(energy_ledger(motion).plot().axes[0].lines) == 7
 
 
 def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():

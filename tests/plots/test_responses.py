@@ -61,25 +61,3 @@ def test_zones_and_marks(real):
     title = upper.figure.get_suptitle()
     assert "1,759 rpm" in title
     assert "1,337 µm" in title
-
-
-@pytest.mark.parametrize(
-    "changes", [{"damping": 0.0}, {"damping": "12000 N s/m"}, {"eccentricity": 0.0}, {"speed": "1350 rpm"}]
-)
-def test_special_machines_are_drawn(changes):
-    machine = cm.load("examples/keogh-cole.toml").machine.replace(**changes)
-    assert fits(plots.unbalance_response(unbalance_response(machine)))
-
-
-def test_the_zone_that_is_told_is_the_band_in_which_the_present_speed_lies_and_the_phase_has_no_jumps():
-    response = unbalance_response(cm.load("examples/keogh-cole.toml", ["eccentricity=0.05 mm", "gravity=9.81"]))
-    figure = response.plot()
-    letter = response.zone_at(response.present)
-    assert f"zone {letter} with the sag" in figure.get_suptitle()
-    upper, _ = figure.axes
-    dot = 2e6 * response.now.touchdowns.major[0, 0]
-    lowest = {text.get_text(): text.xy[1] for text in upper.texts}
-    assert dot <= lowest[f"zone {letter}"]
-    assert all(top <= dot for words, top in lowest.items() if words < f"zone {letter}")
-    assert np.abs(np.diff(response.lags, axis=0)).max() < np.pi
-    np.testing.assert_allclose(np.exp(1j * response.lags), np.exp(1j * response.whirl.lags), atol=1e-12)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from drawn_legends import fits, legend_words
 from flexible_machines import munich
 
 from carom import plots
@@ -32,20 +31,3 @@ def test_both_directions_together_are_the_shape(place):
     ]
     assert np.linalg.norm(along) == pytest.approx(max(widths), rel=1e-4)
     assert drawn["along"].get_xdata() == pytest.approx(1e3 * MACHINE.rotor.places)
-
-
-def test_bearings_and_sensors_are_marked_at_their_nodes():
-    drawn, nodes = lines(FIGURE.axes[0]), 1e3 * MACHINE.rotor.node_places
-    assert drawn["magnet"].get_xdata() == pytest.approx(nodes[[each.node for each in MACHINE.bearings]])
-    sensors = [node for each in MACHINE.bearings for node in each.sensor_nodes]
-    assert drawn["sensor"].get_xdata() == pytest.approx(nodes[sensors])
-    assert drawn["touchdown"].get_xdata() == pytest.approx(nodes[[each.node for each in MACHINE.touchdowns]])
-
-
-def test_titles_tell_the_whirls_and_the_legend_all_marks():
-    for axes, whirl in zip(FIGURE.axes, WHIRLS, strict=False):
-        assert whirl.sense in axes.get_title()
-        assert f"{whirl.damping_ratio:.1g}"[:3] in axes.get_title()
-    assert {"magnet", "sensor", "touchdown bearing"} <= set(legend_words(FIGURE))
-    assert len(FIGURE.axes) == 5
-    assert fits(FIGURE)

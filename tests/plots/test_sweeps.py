@@ -11,8 +11,6 @@ from sweep_tasks import Failing, basins_plan
 from carom import plots
 from carom.base.outcome import InputError
 from carom.parameters import Case, Machine, Zones
-from carom.parameters.formats import shown_from_si
-from carom.plots.maps import cell_edges
 from carom.sweeps import GridAxis, open_sweep, run_sweep
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.studies import StudyTask
@@ -77,15 +75,6 @@ def test_shades_are_the_stored_numbers_in_their_places(failing):
     assert words(figure) == ["failed"]
 
 
-def test_flags_have_colours_with_words(failing, studies):
-    figure = plots.sweep_map(failing, "status")
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["waiting", "done", "failed"]
-    figure = plots.sweep_map(studies, "levitates")
-    assert [text.get_text() for text in figure.legends[0].get_texts()][:2] == ["no", "yes"]
-    assert figure.legends[0].get_title().get_text() == studies.levitates.attrs["long_name"]
-    assert len(figure.axes) == 1
-
-
 def test_cells_without_a_value_say_why(failing, studies):
     """The reasons look different, lie where they hold, and are told in words."""
     known = failing.assign(value=failing.value.where(failing.status == 1).where(failing.mu > 0.06))
@@ -103,58 +92,6 @@ def test_cells_without_a_value_say_why(failing, studies):
     np.testing.assert_array_equal(cells(figure, "none"), (computed & (known.possible > 0)).values)
     looks = {(entry.get_facecolor(), entry.get_hatch()) for entry in figure.axes[0].patches}
     assert len(looks) == 4
-
-
-def test_shares_are_in_percent_and_counts_whole(failing, studies):
-    share = failing.value.assign_attrs(units="1", long_name="share")
-    bar = plots.sweep_map(failing.assign(recovered=share), "recovered").axes[1]
-    assert bar.get_ylim() == (0.0, 1.0)
-    assert [text.get_text() for text in bar.get_yticklabels()][-1] == "100 %"
-    figure = plots.sweep_map(studies, "stable_orbits")
-    ticks = figure.axes[1].get_yticks()
-    assert (ticks == ticks.round()).all()
-    (cells,) = (mesh for mesh in figure.axes[0].collections if mesh.get_gid() == "cells")
-    low, high = cells.get_clim()
-    assert high - low == cells.get_cmap().N, "each count has a shade of its own"
-
-
-def test_cells_of_a_geometric_axis_stay_on_it():
-    edges = cell_edges(np.array([1.0, 10.0, 100.0]), logarithmic=True)
-    np.testing.assert_allclose(edges, 10.0 ** np.array([-0.5, 0.5, 1.5, 2.5]), rtol=1e-14)
-    np.testing.assert_allclose(cell_edges(np.array([1.0, 2.0, 4.0])), [0.5, 1.5, 3.0, 5.0])
-
-
-@pytest.mark.parametrize(
-    ("name", "label"),
-    [
-        ("levitation_radius", r"radius of levitation ($c_\mathrm{r}$)"),
-        ("levitation_radius_si", "radius of levitation (mm)"),
-        ("rub_force", r"normal force of the stable synchronous rub ($m$ $c_\mathrm{r}$ $\Omega^2$)"),
-        ("stable_orbits", "stable orbits with one impact a period"),
-    ],
-)
-def test_bar_has_words_and_unit(studies, name, label):
-    figure = plots.sweep_map(studies, name)
-
-    assert figure.axes[1].get_ylabel() == label
-    assert figure.axes[0].get_xlabel().endswith("(rpm)")
-    assert figure.axes[0].get_ylabel().endswith("(N s/m)")
-
-
-def test_lengths_and_speeds_are_drawn_in_the_units_of_people(studies):
-    alone = studies.sel(damping=500.0)
-    (line,) = plots.sweep_map(alone, "levitation_radius_si").axes[0].lines
-    np.testing.assert_allclose(line.get_ydata(), 1e3 * alone["levitation_radius_si"].values, rtol=1e-15)
-    assert shown_from_si("m/s") == (1e3, "mm/s")
-    assert shown_from_si("N") == (1.0, "N")
-
-
-def test_one_axis_is_a_line(studies):
-    figure = plots.sweep_map(studies.sel(damping=500.0), "levitation_radius")
-    (line,) = figure.axes[0].lines
-
-    np.testing.assert_array_equal(line.get_ydata(), studies.levitation_radius.values[:, 0])
-    np.testing.assert_allclose(line.get_xdata(), studies.speed.values * 30 / np.pi, rtol=1e-15)
 
 
 def test_what_cannot_be_drawn_is_told(studies):

@@ -13,7 +13,6 @@ from carom import find_equilibria, find_orbits
 from carom.bifurcations import motions_at
 from carom.models import jeffcott
 from carom.orbits import period_condition
-from carom.reproductions import mora2014
 
 
 def test_motions_of_figure_2(found):
@@ -185,11 +184,3 @@ def test_new_curves_of_figure_6(found, omega):
         exact = brentq(function, drawn - 2e-3, drawn + 2e-3, xtol=1e-9)
         # Between its points the curve is drawn straight.
         assert drawn == pytest.approx(exact, abs=3e-5)
-
-
-def test_progress_is_told():
-    shares = []
-    mora2014.reproduce(progress=lambda report: shares.append((report.share, report.step)))
-    assert [share for share, _ in shares] == sorted(share for share, _ in shares)
-    assert all(words for _, words in shares)
-    assert len(shares) >= 4
