@@ -28,7 +28,7 @@ from carom.core.records import record
 LONGEST_BLOCK = 3.0
 """Longest time of a block.
 
-This and the next two, like DEGREE and LEVELS, were chosen by the sweep in ``docs/decisions/002-first-crossing.md``.
+This and the next two, like DEGREE and LEVELS, were chosen by the sweep in ``docs/decisions/crossings.md``.
 """
 LARGEST_PHASE = 5.3
 """Largest ``|λ|`` times the length of a block."""
