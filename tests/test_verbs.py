@@ -75,9 +75,6 @@ CALLS = {
     ),
     "bifurcations.motions_at": cm.bifurcations.motions_at,
     "bifurcations.orbit_windows": lambda m: cm.bifurcations.orbit_windows(m, "damping", [3600.0, 3700.0]),
-    "bifurcations.sample_attractors": lambda m: cm.bifurcations.sample_attractors(
-        m, "gamma", (0.4, 0.5), FEW, values=1
-    ),
     "closed_forms.fading_speed": cm.closed_forms.fading_speed,
     "closed_forms.find_equilibria": cm.find_equilibria,
     "closed_forms.harmless_blade_loss": cm.closed_forms.harmless_blade_loss,
@@ -126,7 +123,6 @@ GENERAL = {
     "attractors.exponents_of",
     "orbits.lyapunov_exponents",
     "attractors.find_attractors",
-    "bifurcations.sample_attractors",
     "attractors.follow_until_settled",
     "basins.map_basins",
     "basins.map_drops",

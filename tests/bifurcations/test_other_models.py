@@ -1,61 +1,23 @@
-"""Diagrams of other models than the planar rotor: their equilibria, the orbits that a search finds, and where disturbances settle."""
+"""Diagrams of other models than the planar rotor: their equilibria, and the orbits that a search finds."""
 
 from __future__ import annotations
 
-import dataclasses
-from functools import partial
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from linear_rotors import as_matrices, single, tilting
+from linear_rotors import as_matrices, single
 
 import carom as cm
-from carom.attractors import MotionName
-from carom.base.outcome import Outcome
-from carom.bifurcations import sample_attractors
-from carom.bifurcations.samples import _impacts
-from carom.disturbances import Grid, VelocityKick
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
 
 RANGE = (0.2, 0.5)
 
 
 @pytest.mark.jit_only
-def test_attractors_along_a_parameter_are_those_of_each_model():
-    rotor, kicks = tilting().model, Grid(VelocityKick(fastest=1.2), (2, 2))
-    samples = sample_attractors(rotor, "gamma", RANGE, kicks, values=1)
-    expected = cm.find_attractors(rotor.replace(gamma=RANGE[0]), kicks)
-    found = {sample.name: (sample.count, sample.known) for sample in samples}
-    assert {sample.value for sample in samples} == {RANGE[0]}
-    assert {each.name: (each.count, each.known) for each in expected if each.settled}.items() <= found.items()
-
-
-@pytest.mark.jit_only
-def test_radial_speeds_are_those_of_the_plane_where_it_bounces():
-    alone = single().model
-    nearer = [
-        dataclasses.replace(each, plane=[0.3 * number for number in each.plane]) for each in alone.equations.touchdowns
-    ]
-    beside = alone.replace(touchdowns=[*nearer, *alone.equations.touchdowns])
-    start = [complex(part[0]) for part in beside.system.kicked(np.array(0.9))]
-    struck = simulate(beside, State(*start), 60.0)
-    assert struck.is_impact.any()
-    assert 0 not in struck.event_planes[struck.is_impact]
-    bouncing = SimpleNamespace(name=MotionName(Outcome.BOUNCING, 1), state=State(*start))
-    assert _impacts(beside, bouncing).size == 1
-
-
-@pytest.mark.jit_only
-def test_a_diagram_shows_equilibria_and_where_disturbances_settle(monkeypatch):
-    monkeypatch.setattr("carom.bifurcations.diagrams.sample_attractors", partial(sample_attractors, values=2))
+def test_a_diagram_shows_equilibria(monkeypatch):
     monkeypatch.setattr("carom.bifurcations.steady.SAMPLES", 5)
     monkeypatch.setattr("carom.bifurcations.followed.VALUES", 2)
     monkeypatch.setattr("carom.bifurcations.followed.GUESSES", 20)
     rotor = single().model
-    diagram = cm.find_bifurcations(rotor, "friction", (0.1, 0.2), attractors=3)
-    assert {sample.value for sample in diagram.attractors} >= {0.1, 0.2}
+    diagram = cm.find_bifurcations(rotor, "friction", (0.1, 0.2))
     assert diagram.rolling.values.size == 0
     for branch in diagram.equilibria:
         for value, force, admissible in zip(branch.values, branch.normal_force, branch.admissible, strict=True):

@@ -230,10 +230,6 @@ def test_wrong_usage(carom, machine, arguments, words):
             ("bifurcations", "MACHINE", "--along", "speed", "--from", "1 rpm", "--to", "1.0 rpm"),
             "--to = 1.0 rpm: must be another",
         ),
-        (
-            ("bifurcations", "MACHINE", "--along", "mu", "--from", "0", "--to", "1", "--seed", "1"),
-            "allowed only with --attractors",
-        ),
         (("regions", "MACHINE", "--x", "1 N/m,1 N/m"), "--x = 1 N/m,1 N/m: must be two different values of stiffness"),
         (("regions", "MACHINE", "--x", "1,2,3"), "--x = 1,2,3: must be two different values of stiffness"),
         (("simulate", "MACHINE", "--kick", "1 kg"), "such as '50 mm/s'; 'kg' is not a unit of velocity"),

@@ -53,62 +53,6 @@ def test_table_and_files(capsys, tmp_path):
     assert document["interval"] == pytest.approx([104.71975512, 314.15926536])
 
 
-@pytest.mark.jit_only
-def test_run_up_with_all_motions(capsys):
-    """Along the speed gamma and omega move together while rho stays; simulated attractors lie on the known motions."""
-    words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
-    assert main([*words, "--attractors", "4", "--seed", "3", "--json"]) == 0
-    document = json.loads(capsys.readouterr().out)
-    details = {point["detail"] for point in document["points"] if point["kind"] == "boundary-equilibrium"}
-    assert details == {"persistence", "non-smooth fold"}
-    assert all(document["rolling"]["holds"])
-    samples = document["attractors"]
-    assert {"levitation", "rolling backward whirl", "synchronous rub", "B1,d"} <= {sample["name"] for sample in samples}
-    assert len({sample["value"] for sample in samples}) == 31
-    (levitation,) = [branch for branch in document["equilibria"] if branch["kind"] == "contact-free"]
-    there = dict(zip(levitation["values"], levitation["admissible"], strict=True))
-    assert (document["disturbances"]["count"], document["disturbances"]["seed"]) == (4, 3)
-    assert "up to 166 mm/s in the fixed frame" in document["disturbances"]["words"]
-    for sample in samples:
-        assert sample["share"] == sample["count"] / 4
-        assert sample["count"] + sample["known_starts"] > 0
-        if sample["name"] == "levitation":
-            nearest = min(there, key=lambda value: abs(value - sample["value"]))
-            assert there[nearest]
-        if sample["name"] == "B1,d":
-            known = [
-                speed
-                for branch in document["branches"]
-                for value, speed in zip(branch["values"], branch["radial_speed"], strict=True)
-                if abs(value - sample["value"]) < 5.0
-            ]
-            assert min(abs(speed - sample["radial_speeds"][0]) for speed in known) < 0.05
-
-
-@pytest.mark.jit_only
-def test_starts_next_to_a_motion_are_no_disturbances(capsys):
-    """Rolling holds up to a hundred times this damping, but no disturbance of 258 mm/s gets there."""
-    words = ["bifurcations", MACHINE, "--along", "damping", "--from", "3450 N s/m", "--to", "4000 N s/m"]
-    assert main([*words, "--attractors", "12"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    (rolling,) = [line for line in lines if line.strip().startswith("rolling")]
-    (levitation,) = [line for line in lines if line.strip().startswith("levitation")]
-    assert "31 of 31" in rolling
-    assert "a start next to it, no disturbance" in rolling
-    assert "up to 12 of 12 disturbances" in levitation
-    assert any("At each of 31 values 12 disturbances (seed 0)" in line for line in lines)
-
-
-@pytest.mark.jit_only
-def test_simulated_attractors_are_the_same_for_the_same_seed(capsys):
-    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.05", "--to", "0.2", "--attractors", "2", "--json"]
-    documents = []
-    for _ in range(2):
-        assert main(words) == 0
-        documents.append(json.loads(capsys.readouterr().out))
-    assert documents[0]["attractors"] == documents[1]["attractors"]
-
-
 def test_plane_as_json(capsys):
     words = ["regions", PAPER, "--plane", "gamma,omega", "--x", "0.02,0.4", "--y", "0.6,1.0", "--grid", "6", "--json"]
     assert main(words) == 0

@@ -8,7 +8,6 @@
 ``word_equations``      equations of a word, and what vanishes at special points
 ``single_impact``       what the closed form tells of orbits with one impact
 ``followed``            orbits that searches and special points lead to, for diagrams
-``samples``             attractors found by simulation, for diagrams
 ``points``              special points of branches
 ``neighbours``          the word on the other side of a special point at which it changes
 ``boundary``            where levitation meets the wall
@@ -41,14 +40,12 @@ from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.regions import RegionMap, map_regions
-from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch
 from carom.bifurcations.windows import OrbitWindows, orbit_windows
 from carom.bifurcations.words import continue_orbit, switch
 
 __all__ = [
     "KINDS",
-    "AttractorSample",
     "Bifurcation",
     "BoundaryEquilibrium",
     "Codimension2Point",
@@ -70,6 +67,5 @@ __all__ = [
     "map_regions",
     "motions_at",
     "orbit_windows",
-    "sample_attractors",
     "switch",
 ]

@@ -1,4 +1,4 @@
-"""Bifurcation diagrams: all steady motions and single-impact orbits along one parameter, optionally other motions."""
+"""Bifurcation diagrams: all steady motions and single-impact orbits along one parameter, optionally orbits with several impacts."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.attractors import DisturbanceSet
-from carom.base.arguments import Seed, Whole, checked
+from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result, in_a_line
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.followed import followed_branches
 from carom.bifurcations.points import HALVING, Bifurcation
-from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -37,8 +35,6 @@ from carom.parameters.scaling import SCALING
 
 SAMPLES = 13
 """Number of values of the parameter at which all orbits are searched."""
-FOLLOWING_SHARE = 0.2
-"""Fraction of the progress for following branches, if attractors are searched too."""
 SINGLE_SHARE = 0.2
 """Fraction of the progress for orbits with one impact, if others are searched too."""
 LONGEST_PERIOD = 60.0
@@ -65,10 +61,6 @@ class Diagram(Result):
         How much was searched for them; of other models than the planar rotor also for those with one.
     points : tuple of Bifurcation
         In ascending order of the parameter.
-    attractors : tuple of AttractorSample
-        Motions to which simulated disturbances, and starts next to known motions, settled; empty unless asked for.
-    disturbances : DisturbanceSet or None
-        Disturbances followed at each of the values of ``attractors``.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
@@ -85,8 +77,6 @@ class Diagram(Result):
     several: tuple[Any, ...]
     search: Searched | None
     points: tuple[Bifurcation, ...]
-    attractors: tuple[AttractorSample, ...] = ()
-    disturbances: DisturbanceSet | None = None
 
     def rows(self) -> list[tuple[str, str]]:
         """The motions, and each special point."""
@@ -150,8 +140,6 @@ def find_bifurcations(
     *,
     impacts: Impacts = 1,
     virtual: bool = False,
-    attractors: Whole = 0,
-    seed: Seed = 0,
     progress: ShowProgress = None,
 ) -> Diagram:
     """Find the branches of motions on an interval of a parameter, and their special points.
@@ -174,11 +162,6 @@ def find_bifurcations(
         at 9 values finds.  Unlike the orbits with one impact, some with several may be missing.
     virtual : bool
         Follow all orbits, including those of higher pairs that are virtual at all of these values.
-    attractors : int
-        Disturbances (:class:`~carom.attractors.DisturbanceSet`) to simulate at each of 31 values, to show where they
-        settle: irregular bouncing, orbits with several impacts, rolling and so on.  None by default.
-    seed : int
-        Seed of these disturbances.
 
     Raises
     ------
@@ -204,12 +187,7 @@ def find_bifurcations(
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
-    followed = 1.0 if not attractors else FOLLOWING_SHARE
-    orbits, several, search = _branches(model, along, limits, tell.part(0.0, followed), impacts, virtual=virtual)
-    disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
-    samples: tuple[AttractorSample, ...] = ()
-    if disturbances:
-        samples = sample_attractors(model, parameter, limits, disturbances, progress=tell.part(followed, 1.0))
+    orbits, several, search = _branches(model, along, limits, tell, impacts, virtual=virtual)
     return Diagram(
         model=model,
         axis=along,
@@ -220,8 +198,6 @@ def find_bifurcations(
         several=several,
         search=search,
         points=_points(model, along, limits, [*orbits, *several]),
-        attractors=samples,
-        disturbances=disturbances,
     )
 
 

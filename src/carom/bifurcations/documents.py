@@ -5,21 +5,18 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from carom.attractors import DisturbanceSet, document_of, exact_interval
+from carom.attractors import exact_interval
 from carom.base.results import record
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
 from carom.bifurcations.simulated import SimulatedBranch
 from carom.models.axes import Axis
-from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.searched import Searched
-from carom.parameters import Scales
 
 POINT = "kind branch=name parameter value period radial_speed admissible detail"
 BRANCH = "values period admissible stable ends=stops"
-SAMPLE = "value name outcome whirl count share radial_speeds known_starts=known"
 CURVE = "kind orbits points periods radial_speeds admissible ends=stops"
 MOTIONS = (
     "name=region words contact_free orbits stable_orbits stable_orbit_names=stable_names unstable_orbit_names=unstable_names "
@@ -48,8 +45,6 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
             record(branch, "kind values radius normal_force admissible stable") for branch in diagram.equilibria
         ],
         "rolling": record(diagram.rolling, "values largest_force holds"),
-        "attractors": [record(sample, SAMPLE) | document_of(sample.survival) for sample in diagram.attractors],
-        "disturbances": _disturbances(diagram.disturbances, diagram.model.scales) if diagram.disturbances else None,
     }
 
 
@@ -99,8 +94,3 @@ def _word(orbit: Orbit | OrbitBranch | SimulatedBranch | None) -> dict[str, Any]
 
 def _axis(axis: Axis) -> dict[str, Any]:
     return {"parameter": axis.name, "unit": axis.field.unit}
-
-
-def _disturbances(tried: DisturbanceSet, scales: Scales | None) -> dict[str, Any]:
-    words = {"words": tried.general_words(scales), "patience": PATIENCE}
-    return record(tried, "count seed fastest") | words

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError
+from carom.base.outcome import STEADY_WORDS
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.output import hand_over, write_output
@@ -21,13 +21,6 @@ IMPACTS = option(
     min=1,
     max=64,
 )
-SAMPLED = option(
-    "N",
-    "Simulate N disturbances at each of 31 values and show where they settle: bouncing, rub, rolling and so on.",
-    default=0,
-    min=0,
-    max=10_000,
-)
 FROM = option("A", "First value of the parameter, dimensionless or with a unit.", "--from", default=...)
 TO = option("B", "Last value of the parameter.", "--to", default=...)
 
@@ -39,8 +32,6 @@ def bifurcations(
     end: str = TO,
     settings: list[str] | None = options.SETTINGS,
     impacts: int = IMPACTS,
-    attractors: int = SAMPLED,
-    seed: int | None = options.SEED,
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
@@ -61,18 +52,8 @@ def bifurcations(
         model = rotor_of(case)
         varied = axis(model, along.strip())
         interval = read_ends(start, end, varied)
-        if seed is not None and not attractors:
-            raise InputError("--seed", seed, "allowed only with --attractors")
         check_output(out)
-        diagram = find_bifurcations(
-            model,
-            varied.name,
-            interval,
-            impacts=impacts,
-            attractors=attractors,
-            seed=seed or 0,
-            progress=tell,
-        )
+        diagram = find_bifurcations(model, varied.name, interval, impacts=impacts, progress=tell)
         document, name = diagram_document(diagram), f"bifurcations-{varied.name}"
         write_output(out, case, name, document, {name: diagram.plot})
     hand_over(out, document, as_json, lambda: _print_diagram(diagram, varied.value(model)))
@@ -122,40 +103,9 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
     if diagram.search is not None:
         screen.print(f"Searched at several values, counted together. {diagram.search.words}")
-    if diagram.attractors:
-        _print_attractors(diagram)
 
 
 def _speed(diagram: Diagram, point: Bifurcation) -> str:
     """The radial speed at a special point: with six decimals in units of the equations, with four in mm/s."""
     decimals = 6 if diagram.model.scales is None else 4
     return f"{round(float(diagram.told_speeds(point.value, point.radial_speed)), decimals) + 0.0:.{decimals}f}"
-
-
-def _print_attractors(diagram: Diagram) -> None:
-    """Print the ranges in which disturbances reached each motion, and those in which only a start next to it did."""
-    from carom.cli.fitting import print_table
-
-    screen, tried = console(), diagram.disturbances
-    if tried is None:
-        return
-    values = len({sample.value for sample in diagram.attractors})
-    rows = []
-    for name in dict.fromkeys(sample.name for sample in diagram.attractors):
-        for met in (True, False):
-            alike = [sample for sample in diagram.attractors if sample.name == name and sample.met == met]
-            if alike:
-                ends = (_shown(diagram.axis, sample.value) for sample in (alike[0], alike[-1]))
-                most = max(sample.count for sample in alike)
-                reached = f"up to {most} of {tried.count} disturbances" if met else "a start next to it, no disturbance"
-                rows.append((name, *ends, f"{len(alike)} of {values}", reached))
-    print_table(screen, "Where motions settled", ("motion", "from", "to", "at values", "reached by"), rows)
-    screen.print(
-        f"At each of {values} values {tried.general_words(diagram.model.scales)}; and starts next to the motions known in closed form."
-    )
-    lasting: dict[str, list[str]] = {}
-    for sample in diagram.attractors:
-        if sample.survival:
-            lasting.setdefault(sample.survival.words, []).append(_shown(diagram.axis, sample.value))
-    for words, places in lasting.items():
-        screen.print(f"{IRREGULAR_BOUNCING.capitalize()}: {words}; at {diagram.axis.name} = {', '.join(places)}")

@@ -8,45 +8,33 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from carom.base.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.base.outcome import STEADY_WORDS, Outcome
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.bifurcations import AttractorSample, Bifurcation, Diagram, OrbitBranch
+    from carom.bifurcations import Bifurcation, Diagram, OrbitBranch
 
 Interval = tuple[float, float]
 
 LEVITATION, RUB, ROLLING = STEADY_WORDS.values()
-BOUNCING, WITH_RUB = Outcome.BOUNCING.words, Outcome.MIXED.words
+BOUNCING = Outcome.BOUNCING.words
 _COLOURS = {
     LEVITATION: OUTCOMES["levitated"].colour,
     RUB: OUTCOMES["forward-rub"].colour,
-    DRIFTING_RUB: OUTCOMES["forward-rub"].colour,
     BOUNCING: OUTCOMES["bouncing"].colour,
-    WITH_RUB: OUTCOMES["mixed"].colour,
-    IRREGULAR_BOUNCING: OUTCOMES["irregular"].colour,
-    Outcome.BACKWARD_WHIRL.words: OUTCOMES["backward-whirl"].colour,
     ROLLING: OUTCOMES["rolling"].colour,
 }
-ROWS = tuple(_COLOURS)
-"""From top to bottom."""
 _THICK = 4.5
-_LARGEST = 26.0
 
 
 def rows_of(diagram: Diagram) -> list[str]:
     """Return the rows that are not empty."""
-    present = {_row_of_sample(sample) for sample in diagram.attractors}
-    present |= {row for row, ranges in _ranges(diagram).items() if any(ranges)}
-    return [row for row in ROWS if row in present]
+    return [row for row, ranges in _ranges(diagram).items() if any(ranges)]
 
 
 def row_of_point(point: Bifurcation) -> str | None:
     """Return the row in which a special point is marked; ``None`` if it belongs to an orbit."""
-    row = {"rubbing": WITH_RUB, "rolling": ROLLING}.get(point.motion)
-    if row is None and np.isnan(point.radial_speed):
-        row = LEVITATION if point.motion == "contact-free" else RUB
-    return row
+    return {"contact-free": LEVITATION, "rub": RUB, "rolling": ROLLING}.get(point.motion)
 
 
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
@@ -61,8 +49,6 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
         for intervals, look in ((unstable, LOOKS["unstable"].stroke | {"zorder": 1.5}), (stable, bar)):
             for low, high in _joined(intervals):
                 axes.plot([low / unit, high / unit], [heights[row]] * 2, **look)
-    for sample in diagram.attractors:
-        _dot(axes, sample, heights[_row_of_sample(sample)], unit)
     axes.set_yticks([heights[row] for row in rows], rows)
     axes.tick_params(axis="y", length=0, which="both")
     axes.minorticks_off()
@@ -70,15 +56,15 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
 
 
 def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]]:
-    """Return the ranges of the stable and of the unstable motions of each row."""
+    """Return the ranges of the stable and of the unstable motions of each row, from top to bottom."""
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     marks = [point.value for point in diagram.points if np.isnan(point.radial_speed)]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
     return {
         LEVITATION: (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
         RUB: (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
-        ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
         BOUNCING: _on_orbits(diagram.branches),
+        ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
     }
 
 
@@ -128,30 +114,3 @@ def _joined(intervals: list[Interval]) -> list[Interval]:
         else:
             joined.append((low, high))
     return joined
-
-
-def _row_of_sample(sample: AttractorSample) -> str:
-    if sample.irregular:
-        return IRREGULAR_BOUNCING
-    words = str(OUTCOMES[sample.outcome].words)
-    return next((row for row in (RUB, DRIFTING_RUB) if sample.name.startswith(row)), words)
-
-
-def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:
-    """Draw a dot whose area is proportional to the share of disturbances.
-
-    A motion that none of them reached is a small empty ring.  Irregular bouncing that ends is a cross.
-    """
-    if sample.transient:
-        size = _LARGEST * max(sample.share, 0.1)
-        axes.scatter([sample.value / unit], [height], s=size, marker="x", color="#1a1a1a", linewidth=0.8, zorder=4)
-        return
-    axes.scatter(
-        [sample.value / unit],
-        [height],
-        s=_LARGEST * (max(sample.share, 0.1) if sample.met else 0.05),
-        facecolor="#ffffff" if sample.met else "none",
-        edgecolor="#1a1a1a",
-        linewidth=0.6,
-        zorder=4,
-    )

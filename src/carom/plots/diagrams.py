@@ -15,12 +15,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.base.arguments import checked
-from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
+from carom.base.outcome import STEADY_WORDS
 from carom.plots.coexistence import coexistence, looks_between, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import format_parameter, label_parameter
 from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
-from carom.plots.words import axis_label, display_unit, number
+from carom.plots.words import axis_label
 
 if TYPE_CHECKING:
     from carom.bifurcations import Curve, Diagram, OrbitBranch
@@ -71,9 +71,6 @@ BOUNDARIES = MappingProxyType(
 
 FAINT = 0.3
 """Opacity of curves that only virtual orbits have."""
-_MET: dict[str, Any] = {"marker": ".", "ms": 3.2, "mew": 0.0, "color": "#1a1a1a"}
-_UNMET: dict[str, Any] = {"marker": "o", "ms": 2.2, "mew": 0.4, "mfc": "none", "mec": "#1a1a1a"}
-"""Looks of impacts of motions that disturbances reached, and of motions that only a start next to them reached."""
 _PRESENT: dict[str, Any] = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), "zorder": 1.2}
 """Look of the value of the machine itself."""
 
@@ -84,7 +81,7 @@ def bifurcation_diagram(diagram: Diagram, virtual: bool = False) -> Figure:
     """Draw all motions along a parameter, with their special points, in two panels.
 
     Upper, where there are orbits: their radial speed at the impact, in mm/s if the machine is known.  Lower: which motions exist, with broad bars
-    where they are stable, and the motions to which simulated disturbances settled.  The shaft speed is in rpm.
+    where they are stable.  The shaft speed is in rpm.
 
     Parameters
     ----------
@@ -113,7 +110,7 @@ def bifurcation_diagram(diagram: Diagram, virtual: bool = False) -> Figure:
 
 
 def _speeds(axes: Axes, diagram: Diagram, unit: float, virtual: bool) -> None:
-    """Draw the radial speeds of orbits, and of motions to which disturbances settled."""
+    """Draw the radial speeds of orbits."""
     for branch in diagram.orbits:
         there = [point.radial_speed for point in branch.special]
         _speed_line(axes, diagram, branch, branch.radial_speed, there, virtual)
@@ -121,10 +118,6 @@ def _speeds(axes: Axes, diagram: Diagram, unit: float, virtual: bool) -> None:
         for k, speeds in enumerate(several.radial_speeds.T):
             there = [float(point.orbit.impact_speeds[k]) for point in several.special]
             _speed_line(axes, diagram, several, speeds, there, virtual)
-    for sample in diagram.attractors:
-        values = np.full(len(sample.radial_speeds), sample.value / unit)
-        speeds = diagram.told_speeds(sample.value, sample.radial_speeds)
-        axes.plot(values, speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
 
 
 def _speed_line(
@@ -229,7 +222,6 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
         diagram.told_speeds(branch.values[branch.admissible, None], branch.radial_speeds[branch.admissible]).ravel()
         for branch in diagram.branches
     ]
-    speeds += [diagram.told_speeds(sample.value, sample.radial_speeds) for sample in diagram.attractors]
     shown = np.concatenate([*speeds, [0.0]])
     high = float(shown.max())
     return -0.12 * (high or 1.0), 1.1 * high
@@ -240,27 +232,7 @@ def _diagram_key(diagram: Diagram, marked: list[Look], virtual: bool) -> list[Li
     if diagram.orbits or diagram.several:
         entries += [LOOKS["stable"].entry("stable orbit"), LOOKS["unstable"].entry("unstable orbit")]
         entries += [LOOKS["virtual"].entry("virtual")] if virtual else []
-    return entries + _attractor_key(diagram) + [look.entry() for look in marked]
-
-
-def _attractor_key(diagram: Diagram) -> list[Line2D]:
-    """Return the legend entries of simulated motions, with the disturbances that the shares refer to."""
-    entries = []
-    for met, style, words in ((True, _MET, "impacts after a disturbance"), (False, _UNMET, "after a start next to it")):
-        if any(len(sample.radial_speeds) for sample in diagram.attractors if sample.met == met):
-            entries.append(Line2D([], [], ls="none", **style, label=words))
-    tried = diagram.disturbances
-    ring: dict[str, Any] = {"ls": "none", "marker": "o", "mec": "#1a1a1a", "mew": 0.6}
-    if tried and any(sample.met for sample in diagram.attractors):
-        factor, unit = display_unit("velocity", diagram.model.scales)
-        words = f"share of {tried.count} disturbances up to {number(factor * tried.fastest, 3)} {unit}"
-        entries.append(Line2D([], [], mfc="#ffffff", ms=4.0, **ring, label=words))
-    if any(not sample.met for sample in diagram.attractors):
-        entries.append(Line2D([], [], mfc="none", ms=2.0, **ring, label="met by none, only from a start next to it"))
-    if any(sample.transient for sample in diagram.attractors):
-        words = f"{IRREGULAR_BOUNCING} that ends"
-        entries.append(Line2D([], [], ls="none", marker="x", ms=4.0, color="#1a1a1a", mew=0.8, label=words))
-    return entries
+    return [*entries, *(look.entry() for look in marked)]
 
 
 def curve_line(axes: Axes, curve: Curve, units: np.ndarray, virtual: bool = True) -> None:
