@@ -124,7 +124,7 @@ def test_the_machine_file_that_is_printed_has_the_bearings_of_the_source(name, t
         exact = magnetic(name)
         one, other = (at.bearings[0].loop.at(np.array([3j, 3000j])) for at in (machine, exact))
         assert one == pytest.approx(other, rel=1e-12)
-        # The magnets of this example hold nothing: their stiffness at rest is 0 (decision 092).
+        # The magnets of this example hold nothing: their stiffness at rest is 0 (docs/decisions/flexible-rotors.md).
         assert exact.bearings[0].ki * 1000.0 + exact.bearings[0].ks == pytest.approx(0.0, abs=1e-9)
     else:
         assert max(machine.reduce(0.5).linear.system.exponents.real) < 0.0

@@ -1,4 +1,4 @@
-"""Transients of levitated rotors by ROSS, against exact ones: where its integrators are right, and where they are not (decision 092).
+"""Transients of levitated rotors by ROSS, against exact ones: where its integrators are right, and where they are not (docs/decisions/flexible-rotors.md).
 
 ``ross_transient.py`` has written ``ross_transient.json`` with ROSS 2.3.0.  Exact here are flights of the imported rotor by its modes, and the same with
 another sign of the magnets' stiffness.

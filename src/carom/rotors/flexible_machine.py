@@ -27,7 +27,7 @@ from carom.rotors.support import Support
 
 ACCURACY = 0.02
 """Error of contact forces by reduction that is accepted by default; it is that of one
-straight contact, and motions with bending of their own may differ by more (decision 087)."""
+straight contact, and motions with bending of their own may differ by more (``docs/decisions/flexible-rotors.md``)."""
 FALL = 9.81
 """Acceleration, m/s², of a fall through the clearance, whose energy gives the depth in a touchdown bearing."""
 _KINDS = {
