@@ -117,7 +117,11 @@ def test_claims_that_are_explained_are_made():
 
 PAGES = [
     ROOT / "README.md",
-    *(page for page in sorted(DOCS.rglob("*.md")) if not {"generated", "decisions"} & set(page.parts)),
+    *(
+        page
+        for page in sorted(DOCS.rglob("*.md"))
+        if not {"generated", "decisions"} & set(page.relative_to(DOCS).parts)
+    ),
 ]
 PLACEHOLDERS = {"M.toml", "MACHINE.toml", "SWEEP.toml"}
 
