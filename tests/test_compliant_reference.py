@@ -74,17 +74,6 @@ def test_friction_takes_its_share_of_the_normal_impulse():
     assert misses[0] / misses[1] == pytest.approx(10.0, rel=0.05)  # an error of the order 1/√k
 
 
-def test_a_rotor_that_nothing_holds_falls_to_the_wall():
-    """0.25 mm at 9.81 m/s² take √(2c/g) = 7.139215615 ms, in whatever frame they are followed."""
-    clearance, speed = 0.25e-3, 1000.0
-    plane = Plane((1.0,), KelvinVoigt(STIFFNESS, 1.0), 0.2, 40.0)
-    rotor = Rotor.planar(0.0, 0.0, 0.0, 0.0, plane, weight=9.81 / (clearance * speed**2))
-    first = follow(rotor, [0.0], [0.0], 10.0).events[0]
-
-    assert first.time / speed == pytest.approx(7.139215615e-3, abs=5e-13)
-    assert first.position[0] * np.exp(1j * first.time) == pytest.approx(-1.0, abs=ERROR)
-
-
 # ------------------------------------------------------------------------------------- polar coordinates, 20 digits
 
 
@@ -205,20 +194,6 @@ def test_coupled_planes_are_planar_rotors_in_other_coordinates():
     np.testing.assert_allclose(
         np.array([turned @ together.position, turned @ together.velocity]).T, ends, rtol=0.0, atol=ERROR
     )
-
-
-def test_planes_that_change_together_are_one_plane_of_their_stiffness():
-    law = KelvinVoigt(1e3, 10.0)
-    half = KelvinVoigt(500.0, 5.0)
-    one = Rotor.planar(**PARAMETERS, plane=Plane((1.0,), law, 0.3, 4.0))
-    pair = Rotor(one.mass, one.damping, one.stiffness, one.forcing, [Plane((1.0,), half, 0.3, 4.0)] * 2)
-    # Two planes that roll share their friction in no particular way: until then.
-    whole, halves = (follow(rotor, [0.9], [2.0 - 0.5j], 0.4) for rotor in (one, pair))
-
-    assert [event.phase for event in halves.events] == [event.phase for event in whole.events for _ in range(2)]
-    assert [event.plane for event in halves.events] == [0, 1] * len(whole.events)
-    np.testing.assert_allclose(halves.position, whole.position, rtol=0.0, atol=ERROR)
-    np.testing.assert_allclose(halves.velocity, whole.velocity, rtol=0.0, atol=ERROR)
 
 
 def test_a_motion_may_be_followed_in_parts():

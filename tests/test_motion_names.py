@@ -68,25 +68,6 @@ def is_written_out(text: str) -> bool:
     )
 
 
-def test_a_name_that_is_written_out_is_found():
-    found = (
-        "levitation",
-        "the levitation",
-        "no stable synchronous rub",
-        "A drifting rub holds it",
-        "bouncing on ",
-        "ends in regular bouncing",
-        "-impact bouncing with rub",
-    )
-    assert all(map(is_written_out, found))
-    assert not any(
-        map(
-            is_written_out,
-            ("bouncing", "Levitation", "rub", "came back to levitation", "levitation_radius", "backward whirl"),
-        )
-    )
-
-
 @pytest.mark.parametrize("package", NAMING)
 def test_names_of_motions_have_one_home(package):
     found = [

@@ -10,12 +10,11 @@ import pytest
 import rich.console
 import rich.progress
 from machines import PAPER
-from rich.console import Console
 from sweep_tasks import Drawn, plan_of
 
 import carom
 from carom import basins
-from carom.base.progress import Progress, Reporter, bar, shows_progress
+from carom.base.progress import Progress, Reporter, shows_progress
 from carom.disturbances import Grid, Sample, VelocityKick
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
@@ -61,14 +60,6 @@ def test_a_sweep_reports_in_the_same_way(tmp_path):
     carom.run_sweep(plan_of(Drawn(), chunk=5), tmp_path / "s.zarr", workers=1, threads=True, progress=told.append)
     assert [type(report) for report in told] == [Progress, Progress]
     assert told[-1].share == 1.0
-
-
-def test_true_shows_a_bar(monkeypatch):
-    shown = []
-    monkeypatch.setattr(carom.base.progress, "Timer", AtOnce)
-    monkeypatch.setattr(rich.progress.Progress, "update", lambda _, task, **state: shown.append(state))
-    assert carom.settle(PAPER, [0.1, 0.2j], [0.3, 0.4j], progress=True).outcomes.size == 2
-    assert shown[-1] == {"completed": 1.0, "description": "following starts"}
 
 
 class AtOnce:
@@ -122,27 +113,6 @@ def test_where_someone_watches_one_bar_appears_by_itself_and_leaves_nothing(term
     assert text.endswith("\x1b[1A\x1b[2K")  # up to the line of the bar, which is erased
 
 
-def test_a_bar_that_was_not_asked_for_waits_longer(terminal):
-    AtOnce.waits.clear()
-    outer()
-    outer(progress=True)
-    assert AtOnce.waits == [2.0, 0.7]
-
-
-def test_a_bar_ends_where_its_function_fails(terminal):
-    @shows_progress
-    def failing(*, progress=None):
-        progress(0.25)
-        raise ValueError("too bad")
-
-    with pytest.raises(ValueError, match="too bad"):
-        failing()
-    assert terminal.getvalue().endswith("\x1b[1A\x1b[2K")
-    before = terminal.tell()
-    outer()
-    assert terminal.tell() > before
-
-
 @pytest.mark.parametrize(
     "why", ["not wanted", "by nobody", "in another thread", "in another process", "by the environment"]
 )
@@ -160,35 +130,6 @@ def test_no_bar_appears_where_it_is_not_wanted_or_not_seen(why, terminal, monkey
     else:
         outer(progress=False if why == "not wanted" else None)
     assert terminal.getvalue() == ""
-
-
-@pytest.mark.parametrize("wish", [None, False])
-def test_nothing_is_shown_unless_someone_watches(wish, capfd):
-    carom.settle(PAPER, [0.1], [0.3], progress=wish)
-    assert capfd.readouterr() == ("", "")
-
-
-def test_a_bar_appears_after_a_moment_and_shows_words_as_they_are(monkeypatch):
-    screen = Console(file=io.StringIO(), width=80, force_terminal=True)
-    monkeypatch.setattr(carom.base.progress, "PATIENCE", 0.0)
-    drawn = threading.Event()
-    monkeypatch.setattr(rich.progress.Progress, "start", lambda shown: (start(shown), drawn.set()))
-    with bar("loading", screen) as tell:
-        tell(0.5, "drawing [bold]")
-        assert drawn.wait(60)
-    assert "drawing [bold]" in screen.file.getvalue()
-
-
-def test_short_functions_show_nothing_and_leave_no_thread(monkeypatch, terminal):
-    monkeypatch.setattr(carom.base.progress, "Timer", threading.Timer)
-    before = threading.active_count()
-    for _ in range(5):
-        outer()
-    assert terminal.getvalue() == ""
-    for thread in threading.enumerate():
-        if isinstance(thread, threading.Timer):
-            thread.join(10)
-    assert threading.active_count() == before
 
 
 def test_parts_report_shares_of_the_whole():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 
 from carom.base.progress import Progress
-from carom.explorer.background import Job, SupersededError, Worker
+from carom.explorer.background import Job, Worker
 
 SOON = 30.0
 """Seconds after which a thread that does not answer is taken to hang."""
@@ -68,22 +68,6 @@ def test_what_pauses_lets_newer_and_more_urgent_work_go_first():
     assert told == ["urgent", "soon"]
 
 
-def test_a_pause_ends_when_its_work_is_dropped_or_the_desk_closed():
-    told: list[str] = []
-    worker = Worker(("one",))
-    dropped, kept, last = (Work(name, told) for name in ("dropped", "kept", "last"))
-    for work in (dropped, kept, last):
-        work.go.set()
-    worker.submit("one", Job(dropped.run, dropped.done, pause=2 * SOON))
-    worker.drop()
-    worker.submit("one", kept.request)
-    assert kept.ended.wait(SOON)
-    worker.submit("one", Job(last.run, last.done, pause=2 * SOON))
-    worker.close()
-    assert worker.join(SOON)
-    assert told == ["kept"]
-
-
 def test_what_is_dropped_ends_at_its_next_report_and_says_nothing():
     told: list[str] = []
     worker = Worker(("one",))
@@ -114,34 +98,6 @@ def test_errors_are_handed_over_and_do_not_end_the_desk():
     worker.submit("one", after.request)
     assert after.ended.wait(SOON)
     worker.close()
-
-
-def test_a_result_that_nobody_takes_does_not_end_the_desk():
-    told: list[object] = []
-    worker, begun = Worker(("one",)), threading.Event()
-
-    def gone(result):
-        begun.set()
-        raise SupersededError
-
-    worker.submit("one", Job(lambda tell: None, gone))
-    assert begun.wait(SOON)
-    after = Work("after", told)
-    after.go.set()
-    worker.submit("one", after.request)
-    assert after.ended.wait(SOON)
-    worker.close()
-
-
-def test_progress_is_told_with_its_kind():
-    told: list[object] = []
-    worker = Worker(("one",), lambda kind, progress: told.append((kind, progress)))
-    work = Work("work", [])
-    work.go.set()
-    worker.submit("one", work.request)
-    assert work.ended.wait(SOON)
-    worker.close()
-    assert told == [("one", Progress(0.5, "half"))]
 
 
 def test_a_desk_without_work_closes():

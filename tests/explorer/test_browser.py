@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-import re
 from pathlib import Path
 
 import pytest
-from browsing import DESK, SOON, answered, drag, fits, flown, painted, point, said, served
+from browsing import DESK, SOON, answered, drag, fits, painted, said, served
 from playwright.sync_api import expect
 
 import carom
 from carom.explorer.computing.kicks import map_kicks
-from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.models import jeffcott
 
@@ -56,38 +54,6 @@ def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(page):
     assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-12)
 
 
-def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
-    answered(page, "table")
-    picture = page.evaluate(
-        """() => new Promise((done) => {
-          const slider = document.querySelector('[data-name="damping"] .slider');
-          const pale = () => [...document.querySelectorAll("[data-of=motion], [data-of=beside], [data-of=figures], [data-of=table]")].map((card) => card.classList.contains("old"));
-          slider.value = 560;
-          slider.dispatchEvent(new Event("input"));
-          const arrived = carom.controls.arrived;
-          carom.controls.arrived = (number) => {
-            arrived(number);
-            if (number < carom.number) return; // the picture of a machine before, still under way
-            carom.controls.arrived = arrived;
-            setTimeout(() => done([number, carom.number, ...pale()]));
-          };
-        })"""
-    )
-    assert picture == [said(page, "carom.number")] * 2 + [True] * 5
-    # The hardest impact and the response are looked for when the slider is let go.
-    page.wait_for_function(
-        "() => document.querySelectorAll('[data-of]:not([data-of=hardest], [data-of=response]).old').length === 0"
-    )
-    value = said(page, "carom.controls.value('damping')")
-    rotor = carom.models.jeffcott(carom.load(MACHINE, [f"damping={value} N s/m"]).parameters)
-    names = said(
-        page, "[...document.querySelectorAll('#motions tbody td:first-child')].map((cell) => cell.textContent)"
-    )
-    assert names == [row.name for row in table_of(rotor).rows]
-    # The line of the time shown is at the end: the figure is that of the motion, whose instants are in milliseconds.
-    assert said(page, "carom.begun.parts.now.location") == said(page, "carom.begun.parts.distances.data.xs[0].at(-1)")
-
-
 @pytest.mark.parametrize(
     ("kind", "part"),
     [
@@ -106,31 +72,6 @@ def test_the_machine_is_copied(page, kind, part):
     assert part in said(page, "navigator.clipboard.readText()")
 
 
-def test_the_command_that_is_copied_follows_the_kick_that_is_shown(page):
-    point(page, 0.5, 0.3, click=True)
-    flown(page, 1, 0.5, 0.3)
-    kick = re.compile(r"A kick of ([\d.]+) mm/s at ([\d.]+)°")
-    expect(page.locator("#beside-words")).to_have_text(kick)
-    size, angle = kick.match(page.locator("#beside-words").inner_text()).groups()
-    page.wait_for_function(
-        "size => { const found = carom.panels.exports.command.match(/--kick '([\\d.]+)/);"
-        " return found && Number(Number(found[1]).toPrecision(3)) === Number(size); }",
-        arg=size,
-    )
-    page.locator('[data-copy="command"]').click()
-    expect(page.locator("#copied")).to_contain_text("is in the clipboard")
-    copied = re.search(r"--kick '([\d.]+) mm/s,([\d.]+) deg'", said(page, "navigator.clipboard.readText()")).groups()
-    assert [f"{float(part):.3g}" for part in copied] == [size, angle]
-
-
-def test_without_a_clipboard_the_text_is_selected(page):
-    said(page, "(navigator.clipboard.writeText = () => Promise.reject(new Error('no')), 0)")
-    page.wait_for_function("() => carom.panels.exports")
-    page.locator('[data-copy="toml"]').click()
-    expect(page.locator("#copy-text")).to_be_visible()
-    assert said(page, "document.getElementById('copy-text').value").startswith("[machine]")
-
-
 def test_a_wrong_value_is_one_line_and_the_page_goes_on(page):
     page.locator("#box-damping").fill("a lot <b>")
     page.keyboard.press("Enter")
@@ -144,27 +85,6 @@ def test_a_wrong_value_is_one_line_and_the_page_goes_on(page):
     answered(page, "basin", said(page, "carom.number"))
     page.locator("#reset").click()
     expect(page.locator("#box-damping")).to_have_value("1400")
-
-
-def test_a_wrong_value_in_the_address_leaves_the_rest_of_the_machine(open_page):
-    page = open_page("#damping=a+lot&friction=0.1")
-    expect(page.locator("#problem")).to_contain_text("damping = a lot: must be")
-    expect(page.locator("#box-friction")).to_have_value("0.1")
-    assert said(page, "carom.controls.value('friction')") == 0.1
-    assert said(page, "document.getElementById('sentence').textContent") != "Loading the kernels …"
-    page.close()
-
-
-def test_a_wrong_value_does_not_hide_what_is_still_computed(page):
-    page.locator("#box-damping").fill("2600")
-    page.keyboard.press("Enter")
-    number = said(page, "carom.number")
-    page.locator("#box-damping").fill("a lot")
-    page.keyboard.press("Enter")
-    expect(page.locator("#problem")).to_be_visible()
-    answered(page, "verdict", number)
-    assert said(page, "carom.basin.message.number") == number
-    expect(page.locator("#hardest.old, #headline.old, #advice.old")).to_have_count(0)
 
 
 @pytest.mark.parametrize(
@@ -202,50 +122,12 @@ def test_two_pages_are_independent(page, open_page):
     second.close()
 
 
-def test_terms_of_engineers_are_read_and_kept_in_the_address(page, open_page):
-    page.locator("#box-eccentricity").fill("5000 g mm")
-    page.keyboard.press("Enter")
-    answered(page, "basin", said(page, "carom.number"))
-    expect(page.locator("#problem")).to_be_hidden()
-    assert not page.locator('[data-name="eccentricity"] .unit').is_visible()
-    assert page.locator('[data-name="damping"] .unit').is_visible()
-    # The rotor has 50 kg.
-    assert said(page, "carom.controls.value('eccentricity')") == pytest.approx(0.1, rel=1e-11)
-    again = open_page(said(page, "location.hash"))
-    expect(again.locator("#box-eccentricity")).to_have_value("5000 g mm")
-    assert said(again, "carom.controls.value('eccentricity')") == pytest.approx(0.1, rel=1e-11)
-    again.close()
-
-
 def test_what_was_set_is_in_the_address(open_page):
     page = open_page("#damping=6000+N+s%2Fm&friction=0.1")
     expect(page.locator("#share")).to_have_text("100 %", timeout=SOON)
     expect(page.locator("#box-damping")).to_have_value("6000")
     expect(page.locator("#box-friction")).to_have_value("0.1")
     page.close()
-
-
-@pytest.mark.parametrize("width", [390, 1280])
-def test_what_arrives_late_moves_nothing_under_the_pointer(page, width):
-    page.set_viewport_size({"width": width, "height": 844})
-    place = "document.getElementById('basin').getBoundingClientRect().y + scrollY"
-    answered(page, "verdict", said(page, "carom.number"))
-    expect(page.locator("#survived li")).to_have_count(1)
-    late = said(page, place)
-    texts = "['sentence', 'headline', 'advice', 'cancel', 'resume'].map((id) => document.getElementById(id))"
-    for hidden in ("true", "false"):
-        said(
-            page,
-            f"(({texts}).forEach((one, k) => {{ if (k < 3) one.textContent = ''; else one.hidden = {hidden}; }}), 0)",
-        )
-        assert said(page, place) == late
-    said(
-        page,
-        "carom.shows.state[0]({ kind: 'working', share: 0.5, words: 'looking for the smallest lost kick '.repeat(3) })",
-    )
-    assert said(page, place) == late
-    fits(page, width)
-    page.set_viewport_size(DESK)
 
 
 @pytest.mark.parametrize("width", [390, 700, 1280])
@@ -265,24 +147,6 @@ def test_nothing_is_wider_than_the_screen(page, width):
     page.set_viewport_size(DESK)
 
 
-def test_motion_can_be_left_out(page):
-    page.emulate_media(reduced_motion="reduce")
-    page.locator("#replay").click()
-    page.wait_for_function("() => carom.flights.every((one) => one.now === one.message.times.at(-1) && !one.running)")
-    page.emulate_media(reduced_motion="no-preference")
-
-
-def test_light_and_dark(page):
-    colours = (
-        "[getComputedStyle(document.body).backgroundColor, carom.begun.plots.distances.left[0].axis_label_text_color]"
-    )
-    light = said(page, colours)
-    page.emulate_media(color_scheme="dark")
-    page.wait_for_function(f"light => {colours}.every((one, place) => one !== light[place])", arg=light)
-    page.emulate_media(color_scheme="light")
-    page.wait_for_function(f"light => {colours}.every((one, place) => one === light[place])", arg=light)
-
-
 def test_a_server_that_stops_and_comes_back(open_page):
     with served(MACHINE) as (first, where):
         page = open_page("#damping=6000+N+s%2Fm", where)
@@ -295,26 +159,6 @@ def test_a_server_that_stops_and_comes_back(open_page):
                 "() => document.getElementById('gone').hidden && window.carom && carom.basin && carom.basin.message"
             )
             expect(page.locator("#share")).to_have_text("100 %", timeout=SOON)
-        page.close()
-
-
-def test_what_was_set_for_one_machine_is_not_set_for_another(open_page):
-    with served(MACHINE) as (first, where):
-        page = open_page("", where)
-        page.locator("#box-damping").fill("6000")
-        page.keyboard.press("Enter")
-        answered(page, "basin", 2)
-        assert "damping=6000" in said(page, "location.hash")
-        first.terminate()
-        first.wait()
-        expect(page.locator("#gone")).to_be_visible(timeout=SOON)
-        with served(MACHINE, int(where.rstrip("/").rpartition(":")[2]), "--set", "mass=40 kg"):
-            page.wait_for_function(
-                "() => document.getElementById('gone').hidden && window.carom && carom.basin && carom.basin.message"
-            )
-            expect(page.locator("#box-damping")).to_have_value("1400")
-            expect(page.locator("#problem")).to_contain_text("set for another machine")
-            assert said(page, "location.hash") == ""
         page.close()
 
 
@@ -382,20 +226,4 @@ def test_a_foreign_page_gets_nothing(browser, address):
     socket = address.replace("http", "ws") + "ws"
     opening = f"new Promise(done => {{ const s = new WebSocket('{socket}'); s.onopen = () => done('open'); s.onerror = () => done('refused'); }})"
     assert said(page, opening) == "refused"
-    context.close()
-
-
-def test_no_page_shows_it_in_a_frame(browser, address):
-    context = browser.new_context()
-    page = context.new_page()
-    # Another origin on this machine, as the browser refuses those of other machines by itself.
-    page.goto(address.replace("127.0.0.1", "localhost"))
-    framed = """address => new Promise((done) => {
-      const frame = document.createElement("iframe");
-      frame.onload = done;
-      frame.src = address;
-      document.body.append(frame);
-    })"""
-    page.evaluate(framed, address)
-    assert page.frames[1].locator("#basin").count() == 0
     context.close()

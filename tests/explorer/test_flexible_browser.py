@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from browsing import DESK, answered, drag, fits, painted, point, said
+from browsing import answered, drag, painted, said
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.jit_only
@@ -44,42 +44,3 @@ def test_dragging_a_gain_changes_the_answer_at_once(page):
     answered(page, "motion", said(page, "carom.number"))
     page.wait_for_function("() => !document.querySelector('#motion-card').classList.contains('old')")
     assert said(page, "carom.controls.settings.derivative").endswith(" A s/m")
-
-
-def test_a_gain_that_does_not_hold_the_rotor_is_said(page):
-    page.locator("#box-proportional").fill("1500")
-    page.keyboard.press("Enter")
-    expect(page.locator("#headline")).to_contain_text("It does not levitate")
-    expect(page.locator("#motion-words")).to_contain_text("No disturbance is followed")
-    expect(page.locator("#sentence")).to_contain_text("No disturbance is followed")
-    expect(page.locator("#clear")).to_have_text("–")
-
-
-def test_single_bearings_follow_what_is_set_of_all(page):
-    page.locator("details summary").click()
-    page.locator("#box-proportional_2").fill("4500")
-    page.keyboard.press("Enter")
-    expect(page.locator("#box-proportional")).to_have_attribute("placeholder", "differ")
-    drag(page, "proportional", (0.55,))
-    page.wait_for_function("() => !('proportional_2' in carom.controls.settings)")
-    expect(page.locator("#box-proportional_2")).to_have_value(
-        said(page, "String(carom.controls.value('proportional'))")
-    )
-    page.locator("details summary").click()
-
-
-def test_a_kick_that_is_clicked_is_followed_and_kept_in_the_address(page):
-    for answer in ("basin", "motion", "beside"):
-        answered(page, answer, said(page, "carom.number"))
-    point(page, -0.15, 0.05, click=True)
-    page.wait_for_function("() => location.hash.includes('kick=-')")
-    page.wait_for_function("() => carom.motion.message.kick.second > 0")
-    expect(page.locator("#motion-words")).to_contain_text(re.compile(r"A kick of [\d.]+ mm/s at "))
-    assert re.search(r"--kick '[\d.]+ mm/s,", said(page, "carom.panels.exports.command"))
-
-
-def test_it_fits_a_narrow_screen_too(page):
-    page.set_viewport_size({"width": 390, "height": 800})
-    fits(page, 390)
-    page.set_viewport_size(DESK)
-    fits(page, DESK["width"])

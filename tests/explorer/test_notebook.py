@@ -148,12 +148,6 @@ def hosted(browser, figure, colours):
     return page, until
 
 
-PIXEL = """([id, across, up]) => {
-  const canvas = document.querySelector("#cell > div > div").shadowRoot.getElementById(id);
-  return [...canvas.getContext("2d").getImageData(across * canvas.width, up * canvas.height, 1, 1).data].slice(0, 3);
-}"""
-
-
 @pytest.mark.jit_only
 def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure):
     page, until = hosted(browser, figure, "background: #fff; color: #000")
@@ -180,22 +174,4 @@ def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure)
         pass
     page.evaluate("end()")
     assert page.evaluate("takers.size") == 0
-    assert page.problems == []
-
-
-@pytest.mark.jit_only
-@pytest.mark.parametrize(
-    ("colours", "dark"), [("background: #fff; color: #222", False), ("background: #111; color: #ddd", True)]
-)
-def test_it_is_light_or_dark_as_the_notebook_is_and_stays_inside_it(browser, figure, colours, dark):
-    page, until = hosted(browser, figure, colours)
-    until("basin", size=120)
-    red, green, blue = page.evaluate(PIXEL, ["motion-0", 0.5, 0.15])
-    assert (max(red, green, blue) < 100) is dark
-    assert page.evaluate("getComputedStyle(document.body).maxWidth") == "none"  # the style of the page does not leak
-    assert page.evaluate("typeof window.carom_looks") == "undefined"
-    page.evaluate("document.body.style.color = '#dddddd'")
-    page.wait_for_timeout(100)
-    red, green, blue = page.evaluate(PIXEL, ["motion-0", 0.5, 0.15])
-    assert max(red, green, blue) < 100
     assert page.problems == []

@@ -20,8 +20,7 @@ import carom
 from carom.base.outcome import InputError
 from carom.explorer import server as servers
 from carom.explorer.computing.exports import Origin
-from carom.explorer.page import questions
-from carom.explorer.server import LEFT, Explorer, _compile
+from carom.explorer.server import LEFT, Explorer
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
 
@@ -160,20 +159,6 @@ def test_a_page_that_is_closed_ends_its_work_and_gives_its_memory_back():
         assert document() is None
 
 
-def test_asking_for_the_page_is_cheap():
-    with serving() as (explorer, run):
-        first = status(run, explorer.address).body.decode()
-        for _ in range(1000):
-            assert status(run, explorer.address).code == 200
-        assert explorer._server.get_sessions("/") == []
-        assert workers() == []
-        second = status(run, explorer.address).body.decode()
-        # Nothing but the key is made anew.
-        keys = [re.search(r'"token":"([^"]+)"', text)[1] for text in (first, second)]
-        assert keys[0] != keys[1]
-        assert first.replace(keys[0], "") == second.replace(keys[1], "")
-
-
 @pytest.mark.parametrize("path", ["autoload.js?bokeh-autoload-element=1", "metadata", "favicon.ico", "elsewhere"])
 def test_what_the_page_does_not_use_is_closed(path):
     with serving() as (explorer, run):
@@ -215,20 +200,3 @@ def test_malformed_sessions_leave_the_page_answering():
             connection.close()
         all_closed(explorer, run)
         connect(explorer, run).close()
-
-
-def test_compiling_is_quiet_only_where_the_program_ends_meanwhile(monkeypatch):
-    """As Python says it of a thread that cannot begin any more; any other error is told."""
-    words = ["cannot schedule new futures after interpreter shutdown", "dictionary changed size during iteration"]
-
-    def fail(*given):
-        raise RuntimeError(words.pop(0))
-
-    monkeypatch.setattr(questions, "map_kicks", fail)
-    origin, ready = Origin(MACHINE, (), carom.load(MACHINE)), threading.Event()
-    _compile(origin, ready)
-    assert ready.is_set()
-    ready.clear()
-    with pytest.raises(RuntimeError, match="changed size"):
-        _compile(origin, ready)
-    assert ready.is_set()

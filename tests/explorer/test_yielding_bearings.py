@@ -9,16 +9,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from compilation import sized
 
 import carom
-from carom.base.outcome import InputError
 from carom.cli import main
 from carom.explorer.computing.controls import controls_of, values_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python
-from carom.explorer.computing.judgement import find_hardest
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
@@ -122,13 +118,6 @@ def test_options_and_file_lead_to_the_same_machine(origin, kind, changes, tmp_pa
     assert values_of(again) == values_of(case)
 
 
-def test_what_a_bearing_cannot_have_is_named_by_its_box(origin):
-    with pytest.raises(InputError, match=r"^touchdown_restitution = '?2'?: must be a number, [^\n]*$"):
-        with_settings(origin("restitution").case, {"touchdown_restitution": "2"})
-    with pytest.raises(InputError, match=r"^touchdown_stiffness = [^\n]*$"):
-        with_settings(origin("balls").case, {"touchdown_stiffness": "a lot"})
-
-
 @pytest.mark.jit_only
 @pytest.mark.parametrize(
     ("kind", "changes"),
@@ -199,26 +188,6 @@ def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
     assert follow_kick(rotor, kicks, 1e-4, 0.0).words.endswith("ends in levitation without contact.")
 
 
-def test_the_largest_force_is_compared_with_its_limit(origin, monkeypatch):
-    monkeypatch.setattr("carom.explorer.computing.judgement.SIZES", 1)
-    monkeypatch.setattr("carom.explorer.computing.judgement.DIRECTIONS", 3)
-    case = origin("restitution").case
-    rotor = rotor_of(case)
-    found = find_hardest(rotor, planes_of(case)[0], 1.0, case.limits)
-    assert found.value.endswith(" N")
-    assert found.remark.startswith("in 3 kicks up to ")
-    exceeded = found.blow * rotor.scales.force > 5000.0
-    assert found.remark.endswith(f"; limit 5,000 N: {'exceeded' if exceeded else 'kept'}")
-
-
-@pytest.mark.jit_only
-def test_losses_of_a_blade_are_shown_too(origin):
-    case = origin("restitution").case
-    losses = planes_of(case)[2]
-    assert losses.usual > 0.0
-    assert map_kicks(rotor_of(case), losses, sized(6, 4), 2.0 * losses.usual).exists.any()
-
-
 def test_steady_motions_are_listed_and_what_is_left_out_is_named(origin):
     rotor = rotor_of(origin("restitution").case)
     table = table_of(rotor)
@@ -229,12 +198,6 @@ def test_steady_motions_are_listed_and_what_is_left_out_is_named(origin):
     ]
     assert not any(row.remark for row in table.rows)
     assert "carom orbits searches them" in table.argument
-
-
-def test_a_shaft_whose_speed_changes_never_rests_in_contact(origin):
-    rotor = rotor_of(origin("drive").case)
-    with pytest.raises(InputError, match="a shaft whose speed changes"):
-        table_of(rotor)
 
 
 def test_steady_motions_on_a_race_that_turns_are_listed(origin):

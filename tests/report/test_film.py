@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import re
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 import carom as cm
 from carom.motions import drop_loads
 from carom.report import write_drop_report
-from carom.report.film import MOST, STEP, film_of
+from carom.report.film import film_of
 from carom.studies import DropStudy
 
 pytestmark = pytest.mark.jit_only
@@ -63,37 +62,6 @@ def test_impacts_on_a_rigid_wall_and_a_bearing_on_a_mount():
     mount = position[:, 1] * np.exp(1j * times)
     assert np.abs(np.array(data["mx"]) + 1j * np.array(data["my"]) - mount).max() < 1e-4
     assert np.abs(mount).max() > 0.01
-
-
-def test_a_film_of_no_contact():
-    film = film_of(cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(), "3 ms"))
-    assert film.poster == 0
-    assert json.loads(film.data)["peaks"] == []
-    assert film.legend == []
-    assert film.shown == "Shown: the release; nothing is touched."
-
-
-def test_only_what_can_be_told_apart_is_filmed():
-    case = cm.load("examples/touchdown-balls.toml")
-    film = film_of(cm.simulate(case, cm.drop(), "400 ms"))
-    assert not film.whole
-    assert film.course.times[-1] <= 40.0 * math.tau
-    assert (
-        f"Filmed: the first {float(film.units.time[0] * film.course.times[-1]):.4g} ms, at most 30 contacts"
-        in film.caption
-    )
-
-
-def test_what_becomes_too_fast_later_does_not_shorten_the_film_of_what_comes_before():
-    """Here the rotor begins to roll backward at eighty times the speed of the shaft when it has bounced for a while."""
-    case = cm.load("examples/dropped-rotor.toml", ["friction=0.4", "unbalance=200 g mm"])
-    motion = cm.simulate(case, cm.drop(regained_after="40 ms"), "90 ms")
-    film, impacts = film_of(motion), motion.parts[0].contacts
-    assert not film.whole
-    assert len(film.course.times) < 1.1 * MOST
-    assert np.abs(np.diff(film.course.place)).max() < 2.0 * STEP
-    assert film.course.times[-1] > 0.9 * impacts.time[-1]
-    assert "Filmed: the first 2" in film.caption
 
 
 @pytest.fixture(scope="module")
@@ -155,38 +123,5 @@ def test_it_begins_with_the_largest_force_and_plays_from_the_release(page):
     assert seconds(opened) == first
 
 
-def test_slider_and_contacts_lead_to_their_instant(page, balls):
-    opened, (_, motion) = page(), balls
-    slider = opened.get_by_role("slider", name="Time after the release")
-    slider.fill("1000")
-    assert reading(opened, "time") == "30 ms"
-    assert reading(opened, "slip") == "\N{EN DASH}"
-    slider.press("ArrowRight")
-    assert reading(opened, "time") == "30.03 ms"
-    assert slider.get_attribute("aria-valuetext") == "30.03 ms"
-    opened.get_by_role("button", name="Next contact").click()
-    peaks = 1e3 * motion.rotor.scales.time * motion.contacts.peak_time
-    assert seconds(opened) == pytest.approx(peaks[peaks > 30.03][0], rel=1e-3)
-    opened.get_by_role("button", name="Previous contact").click()
-    assert seconds(opened) == pytest.approx(peaks[peaks < 30.03][-1], rel=1e-3)
-
-
-def test_who_wants_no_motion_is_shown_one_contact_after_another(page, balls):
-    opened, (_, motion) = page(reduced_motion="reduce"), balls
-    opened.get_by_role("button", name="Play").click()
-    first = 1e3 * motion.rotor.scales.time * motion.contacts.peak_time[0]
-    assert seconds(opened) == 0.0
-    opened.wait_for_function("document.querySelector('[data-reading=time]').textContent !== '0 ms'")
-    assert seconds(opened) == pytest.approx(first, rel=1e-3)
-
-
 def test_without_scripts_there_is_no_film(page):
     assert not page(java_script_enabled=False).locator(".film").is_visible()
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_it_fits_on_a_phone(page, scheme):
-    opened = page(color_scheme=scheme)
-    opened.set_viewport_size({"width": 390, "height": 844})
-    assert opened.evaluate("document.documentElement.scrollWidth") == 390
-    assert opened.locator(".machine").is_visible()

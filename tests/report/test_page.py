@@ -13,7 +13,6 @@ from carom.loading import load
 from carom.parameters import Parameters
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
-from carom.report.html import with_subscripts
 from carom.studies.facts import about
 from carom.studies.summaries import survived_rows
 
@@ -71,19 +70,6 @@ def written(tmp_path_factory):
     return result, path, path.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [
-        ("6.9 m c_r² Ω³ of Omega", "6.9\xa0m\xa0c<sub>r</sub>²\xa0Ω³ of Ω"),
-        ("from 19.8 N s/m to 7,928 N s/m", "from 19.8\xa0N\xa0s/m to 7,928\xa0N\xa0s/m"),
-        ("33 % of 5.44×10⁹ N/m at B1,d", "33\xa0% of 5.44×10⁹\xa0N/m at B<sub>1,d</sub>"),
-        ("200 starts, 12 of 12 at 1 mm/s", "200 starts, 12 of 12 at 1\xa0mm/s"),
-    ],
-)
-def test_symbols_are_formulas_and_numbers_keep_their_units(text, shown):
-    assert with_subscripts(text) == shown
-
-
 def test_every_symbol_of_a_report_is_a_formula(written):
     for page in (written[2], report_page(study_once(SOURCE), [])):
         page = re.sub(r"<code>--set.*?</code>", "", page)  # to be pasted as it is
@@ -126,20 +112,6 @@ def test_page_shows_the_study(written):
     assert "{%" not in text
 
 
-def test_figures_are_files_too(written):
-    result, path, _ = written
-    names = {picture.name for picture in pictures(result)}
-
-    assert names >= {"basins", "overview", "multipliers", "disturbance-synchronous-rub"}
-    assert names >= {f"orbit-{orbit.name.replace(',', '')}" for orbit in result.stable_orbits}
-    for picture in pictures(result):
-        assert re.fullmatch(r"[A-Z](?!.*\. )[^\n]*\.", picture.caption)  # one sentence
-    files = {file.name for file in (path.parent / "figures").iterdir()}
-    assert files == {f"{name}.{ending}" for name in names for ending in ("svg", "png")}
-    listed = json.loads((path.parent / "study.json").read_text(encoding="utf-8"))["figures"]
-    assert {f"figures/{name}" for name in files} == set(listed)
-
-
 @pytest.mark.parametrize("gamma", [3.0, pytest.param(0.1, marks=pytest.mark.deep)])
 def test_same_study_gives_the_same_bytes(gamma, tmp_path):
     result = study_once(SOURCE.replace(gamma=gamma))
@@ -173,27 +145,6 @@ def test_any_machine_has_a_report(parameters, tmp_path):
     assert page.open == []
     assert len(page.identifiers) == len(set(page.identifiers))
     assert "nan" not in re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)
-
-
-def test_figures_fit_a_telephone(written):
-    """Letters of 7 points in a figure of one column are at least 9 pixels high on a screen 390 pixels wide."""
-    _, path, _ = written
-    files = [*(path.parent / "figures").glob("*.svg")]
-    assert len(files) > 3
-    for file in files:
-        width = float(re.search(r'viewBox="0 0 ([\d.]+) ', file.read_text(encoding="utf-8"))[1])
-        assert width == pytest.approx(88.0 / 25.4 * 72.0, rel=1e-4)
-        assert 7.0 * 340.0 / width > 9.0
-
-
-def test_tables_are_stacked_on_narrow_screens(written):
-    _, _, text = written
-    tables = re.findall(r'<table class="stacked">(.*?)</table>', text, flags=re.DOTALL)
-    assert len(tables) == 3
-    for table in tables:
-        for row in re.findall(r"<tr[^>]*>(.*?)</tr>", table, flags=re.DOTALL)[1:]:
-            cells = re.findall(r"<td[^>]*>", row)
-            assert all("data-label=" in cell for cell in cells[1:])
 
 
 def test_recommendation_comes_first(written):
@@ -231,20 +182,6 @@ def test_figures_are_svg_and_png(written, monkeypatch, tmp_path):
 
 def bottom(page, selector):
     return page.evaluate("chosen => document.querySelector(chosen).getBoundingClientRect().bottom", selector)
-
-
-@pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (390, "dark"), (1280, "light")])
-def test_nothing_is_wider_than_the_screen(width, scheme, written, browser):
-    _, path, _ = written
-    page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-    page.goto(path.absolute().as_uri())
-    page.evaluate("document.querySelector('details').open = true")
-    assert page.evaluate("document.documentElement.scrollWidth") == width
-    beyond = "[...document.querySelectorAll('table, figure, dd, code')].filter(e => e.getBoundingClientRect().right > innerWidth)"
-    assert page.evaluate(f"{beyond}.length") == 0
-    letters = "[...document.querySelectorAll('figure svg')].map(s => 7 * s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
-    assert min(page.evaluate(letters)) > 9.0
-    page.close()
 
 
 def test_the_first_screen_and_the_first_printed_page_hold_the_answer(written, browser):

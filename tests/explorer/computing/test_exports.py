@@ -20,7 +20,7 @@ from carom.explorer.computing.controls import controls_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import jeffcott, rotor_of
+from carom.models import jeffcott
 from carom.motions import Trajectory
 from carom.parameters import Requirement, Shock
 from carom.studies import UnbalanceResponse
@@ -107,25 +107,6 @@ def test_the_program_computes_what_is_shown(changes, capsys, monkeypatch, tmp_pa
         for name in ("basin.png", "motion.png", "response.png", "diagram.png")
         if name != "basin.png" or rest_of(rotor).levitates
     ]
-
-
-@pytest.mark.parametrize(
-    ("given", "changes"),
-    [
-        (origin(), {"damping": "2500"}),
-        (origin(), {"damping": "300"}),
-        (origin(PAPER), {}),
-        (origin(RIG), {"speed": "1500"}),
-    ],
-)
-def test_machines_are_told_in_the_program(given, changes):
-    case = shown(given, changes)
-    kick = Kick(planes_of(case)[0], rest_of(jeffcott(case.parameters)), 0.1, 0.0, 1.0)
-    program = as_python(given, changes, jeffcott(case.parameters), kick, controls_of(case)[0])
-    names: dict[str, object] = {}
-    exec(program[: program.index("basin =")], names)
-    told = rotor_of(names["machine"])
-    assert getattr(told, "rotor", told).parameters == jeffcott(case.parameters).parameters
 
 
 @pytest.mark.jit_only

@@ -6,19 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from compilation import sized
 from machines import PAPER
 
 import carom
-from carom.base.outcome import InputError, Outcome
 from carom.explorer.computing.exports import Kick
-from carom.explorer.computing.kicked_motion import LONGEST, MOST_IMPACTS, follow_kick
-from carom.explorer.computing.kicks import map_kicks
+from carom.explorer.computing.kicked_motion import LONGEST, follow_kick
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import hits_of
 from carom.models import jeffcott, rotor_of
-from carom.plots import OUTCOMES
 
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))
 BOUNCING = jeffcott(PAPER)
@@ -66,62 +62,6 @@ def test_every_impact_is_on_the_wall_at_its_instant():
     np.testing.assert_allclose(np.hypot(kicked.planes[0].x, kicked.planes[0].y)[places], 1.0, atol=SINGLE)
     angles = np.angle(kicked.planes[0].x + 1j * kicked.planes[0].y)[places]
     np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * kicked.planes[0].impact_angles), atol=LONGEST * SINGLE)
-
-
-def test_each_flight_has_the_colour_of_its_cell():
-    cells = sized(12, 2)
-    shown = map_kicks(ROTOR, KICKS, cells, 1.5)
-    middles = shown.middles
-    for radial in range(0, cells, 3):
-        for tangential in range(0, cells, 3):
-            if not shown.exists[radial, tangential]:
-                continue
-            kicked = follow_kick(ROTOR, KICKS, float(middles[radial]), float(middles[tangential]))
-            ending = shown.endings[shown.cells[tangential, radial]]
-            assert kicked.colour == ending.colour
-            assert f" ends in {ending.words}" in kicked.words
-
-
-def test_a_small_kick_never_strikes():
-    kicked = follow_kick(ROTOR, KICKS, 1e-4, 0.0)
-    assert (kicked.outcome, kicked.planes[0].hardest, len(kicked.planes[0].impact_times), kicked.planes[0].spans) == (
-        "levitated",
-        0.0,
-        0,
-        (),
-    )
-    assert kicked.words == "A kick of 0.0001 c_r Ω at 217° ends in levitation without an impact."
-    assert kicked.whole
-
-
-def test_no_kick_at_all_can_be_drawn():
-    kicked = follow_kick(ROTOR, KICKS, 0.0, 0.0)
-    assert kicked.times[-1] > 0.0
-    assert np.ptp(kicked.planes[0].x) < SINGLE
-
-
-def test_long_motions_are_cut_and_say_so():
-    weak = jeffcott(PAPER.replace(gamma=0.09))
-    kicked = follow_kick(weak, KICKS, 0.9, 0.4)
-    assert kicked.times[-1] <= LONGEST * (1.0 + SINGLE)
-    assert len(kicked.planes[0].impact_times) <= MOST_IMPACTS
-    assert not kicked.whole
-
-
-def test_lasting_contact_is_told_in_words_and_colours():
-    kicked = next(
-        found
-        for speed in (0.4, 0.6, 0.9, 1.2, 1.5)
-        if (found := follow_kick(ROTOR, KICKS, speed, 0.3)).outcome == "forward-rub" and found.planes[0].spans
-    )
-    assert kicked.planes[0].spans[-1].words.startswith("sliding")
-    assert kicked.planes[0].spans[-1].end <= kicked.times[-1] * (1.0 + SINGLE)
-    assert kicked.colour == OUTCOMES[Outcome.FORWARD_RUB.label].colour
-
-
-def test_what_cannot_start_is_refused():
-    with pytest.raises(InputError, match="start velocity"):
-        follow_kick(ROTOR, KICKS, float("nan"), 0.0)
 
 
 @pytest.mark.jit_only

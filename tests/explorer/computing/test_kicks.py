@@ -10,13 +10,11 @@ from compilation import sized
 from machines import PAPER
 
 import carom
-from carom.base.outcome import Outcome
 from carom.disturbances import FASTEST, BaseShock, BladeLoss, Grid, KickPlane
-from carom.explorer.computing.kicks import NOWHERE, map_kicks, opening_range, telling_pair
+from carom.explorer.computing.kicks import NOWHERE, map_kicks
 from carom.explorer.computing.planes import Plane, planes_of
-from carom.explorer.computing.rest import RestKick, rest_of
+from carom.explorer.computing.rest import RestKick
 from carom.models import jeffcott
-from carom.plots import OUTCOMES
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CELLS = sized(24, 3)
@@ -44,28 +42,12 @@ def test_the_picture_is_the_basin(found):
             assert ending.words == basin.motions[basin.dataset["motion"].values[radial, tangential]].words
 
 
-def test_colours_are_those_of_the_figures(found):
-    colours = {OUTCOMES[Outcome(code).label].colour for code in np.unique(found.outcomes[found.exists])}
-    assert colours <= {ending.colour for ending in found.endings}
-    assert sum(ending.share for ending in found.endings) == pytest.approx(1.0, abs=1e-12)
-
-
 def test_the_smallest_lost_kick_is_lost_and_none_of_the_picture_is_smaller(found):
     sizes = found.sizes
     np.testing.assert_allclose(found.middles, KickPlane(FASTEST).coordinates[0].middles(CELLS), rtol=1e-12)
     assert not found.recovered[np.isclose(sizes, found.smallest_lost, rtol=1e-12)].all()
     assert found.recovered[sizes < found.smallest_lost * (1.0 - 1e-12)].all()
     assert (found.exists == (sizes <= FASTEST)).all()
-
-
-def test_kicks_of_a_rotor_that_cannot_levitate_disturb_the_rub():
-    rest = rest_of(GROUNDED)
-    rub = next(one for one in carom.find_equilibria(GROUNDED) if one.kind == "rub" and one.stable)
-    assert not rest.levitates
-    assert rest.position == rub.position
-    shown = map_kicks(GROUNDED, KICKS, sized(8, 2), FASTEST)
-    assert shown.share.fraction == 0.0
-    np.testing.assert_array_equal(shown.cells.T == NOWHERE, ~shown.exists)
 
 
 def test_a_kick_from_the_wall_starts_there_with_its_velocity():
@@ -84,14 +66,6 @@ def test_sizes_stay_in_si_units_where_the_speed_changes():
     assert shown.largest * faster.scales.velocity == pytest.approx(kicks.usual, rel=1e-14)
     assert kicks.usual == pytest.approx(np.sqrt(4.0 * 9.80665 * case.parameters.scales.clearance))
     assert planes_of(carom.load(EXAMPLES / "source-paper.toml"))[0].usual == 1.0
-
-
-@pytest.mark.parametrize(
-    ("path", "names"),
-    [("balanced-rotor.toml", ["kick", "shock", "blade-loss"]), ("source-paper.toml", ["kick", "blade-loss"])],
-)
-def test_kinds_are_offered_where_their_sizes_are_known(path, names):
-    assert [plane.name for plane in planes_of(carom.load(EXAMPLES / path))] == names
 
 
 @pytest.mark.jit_only
@@ -117,29 +91,3 @@ def test_pictures_of_shocks_and_losses_of_a_blade_are_those_of_the_library():
                 after, start = rotor, BaseShock(size, plane.lasting(rotor)).release(rotor, angle)
             if place[0] % 3 == 0:
                 assert found.outcomes[place] == carom.simulate(after, start, settle=True).outcome
-
-
-@pytest.mark.jit_only
-def test_the_page_begins_with_a_range_in_which_something_is_lost_and_something_comes_back():
-    case = carom.load(EXAMPLES / "balanced-rotor.toml")
-    rotor, kicks = jeffcott(case.parameters), planes_of(case)[0]
-    largest = opening_range(rotor, kicks)
-    assert kicks.required == 0.1
-    assert 0.2 < largest < 0.35
-    found = map_kicks(rotor, kicks, 60, largest)
-    assert 0.1 < found.share.fraction < 0.4
-    # An arm of kicks that come back after contact, beyond a ring of which all are lost somewhere.
-    assert found.recovered[found.sizes > 1.8 * found.smallest_lost].sum() > 50
-    back, lost = telling_pair(found)
-    rest = rest_of(rotor)
-    motions = [carom.simulate(rotor, rest.kicked(*kick), settle=True) for kick in (back, lost)]
-    assert motions[0].outcome is Outcome.LEVITATED
-    assert len(motions[0].contacts.time) > 0
-    assert motions[1].outcome is not Outcome.LEVITATED
-    assert np.hypot(*back) == pytest.approx(np.hypot(*lost), rel=0.1)
-
-
-def test_two_kicks_are_drawn_where_none_comes_back():
-    back, lost = telling_pair(map_kicks(GROUNDED, KICKS, sized(8, 4), FASTEST))
-    assert 0.0 < np.hypot(*back) <= FASTEST
-    assert 0.0 < np.hypot(*lost) <= FASTEST

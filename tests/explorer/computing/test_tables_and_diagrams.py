@@ -11,7 +11,7 @@ import carom
 from carom.explorer.computing.controls import controls_of
 from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.motions import table_of
-from carom.models import jeffcott, rotor_of
+from carom.models import jeffcott
 
 MACHINE = Path(__file__).parents[3] / "examples" / "keogh-cole.toml"
 
@@ -36,12 +36,6 @@ def test_the_table_has_every_orbit_with_its_multipliers(case):
         assert row.multipliers.startswith(f"{orbit.multipliers.spectral_radius:.3g}")
     assert table.argument == orbits.argument
     assert rows["levitation"].state == "stable"
-
-
-def test_complex_multipliers_are_told_once(case):
-    (row,) = (row for row in table_of(jeffcott(case.parameters)).rows if row.name == "orbit B1,d")
-    values = carom.find_orbits(case)["B1,d"].multipliers.values
-    assert row.multipliers.count("±") == np.count_nonzero(values.imag > 0.0)
 
 
 def test_the_diagram_has_the_orbits_of_the_machine(case, picture):
@@ -75,31 +69,3 @@ def test_bars_end_where_steady_motions_do(case, picture):
     assert rub.high == pytest.approx(3407.85, abs=step)
     points = {point.words: point.x for point in picture.points}
     assert points["fold of synchronous rubs"] - rub.high < step
-
-
-def test_impact_speeds_along_the_speed_are_those_of_each_machine(case):
-    (control,) = (one for one in controls_of(case) if one.name == "speed")
-    shown = picture_along(jeffcott(case.parameters), control)
-    found = 0
-    for line in shown.lines:
-        if line.kind == "stable":
-            place = int(np.flatnonzero(np.isfinite(line.y))[-1])
-            there = case.replace(speed=f"{float(line.x[place])!r} rpm")
-            speeds = [1e3 * orbit.radial_speed * there.parameters.scales.velocity for orbit in carom.find_orbits(there)]
-            # A rounded speed of the shaft changes the orbit in the last digits.
-            assert min(abs(line.y[place] / speed - 1.0) for speed in speeds) < 1e-6
-            found += 1
-    assert found
-
-
-def test_a_diagram_along_the_speed_is_in_rpm(case):
-    (control,) = (one for one in controls_of(case) if one.name == "speed")
-    shown = picture_along(jeffcott(case.replace(damping=3000.0).parameters), control)
-    assert shown.bars
-    assert all(control.low * (1 - 1e-9) <= bar.low <= bar.high <= control.high * (1 + 1e-9) for bar in shown.bars)
-
-
-def test_beside_limits_of_magnetic_bearings_there_are_steady_motions_alone():
-    table = table_of(rotor_of(carom.load(MACHINE, ["eccentricity=0.1 mm", "force_limit=300 N"])))
-    assert "carom orbits searches them" in table.argument
-    assert [row.name for row in table.rows] == ["levitation"]

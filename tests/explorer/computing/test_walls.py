@@ -7,9 +7,9 @@ import pytest
 from machines import PAPER
 
 import carom
-from carom.explorer.computing.walls import COMPLIANT, RIGID, hits_of, wall_at
+from carom.explorer.computing.walls import RIGID, hits_of
 from carom.models import jeffcott
-from carom.parameters import LoadLimits, Parameters, Scales, TouchdownBearing
+from carom.parameters import Parameters, Scales, TouchdownBearing
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)
 PLANAR = Parameters(**{**PAPER.as_dict(), "gamma": 0.3}, scales=SCALES)
@@ -19,11 +19,6 @@ SOFT = jeffcott(PLANAR, TouchdownBearing("kelvin-voigt", 1e8, restitution=0.8))
 @pytest.fixture(scope="module")
 def motion():
     return carom.simulate(SOFT, carom.kick("160 mm/s"), settle=True)
-
-
-def test_the_wall_is_that_of_the_rotor():
-    assert wall_at(SOFT, 0) is COMPLIANT
-    assert wall_at(jeffcott(PLANAR), 0) is RIGID
 
 
 def test_impacts_of_a_rigid_wall_are_those_of_its_log():
@@ -48,27 +43,9 @@ def test_arrivals_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_m
     assert 0.999 * hits.deepest < depth <= hits.deepest * (1.0 + 1e-9)
 
 
-def test_force_and_depth_are_told_with_their_units(motion):
-    words = COMPLIANT.told(hits_of(motion), SCALES)
-    force, depth = words.split(", largest depth ")
-    assert float(force.removeprefix("largest force ").removesuffix(" N").replace(",", "")) == pytest.approx(
-        hits_of(motion).hardest * SCALES.force,
-        rel=5e-3,  # three digits are told
-    )
-    assert depth.endswith(" % of the clearance")
-
-
 def test_a_contact_in_which_a_motion_begins_is_no_arrival_but_its_force_counts():
     start = carom.State(1.02 + 0j, 0j)
     motion = carom.simulate(SOFT, start, 0.05)
     hits = hits_of(motion)
     assert (hits.count, len(hits.time)) == (1, 0)
     assert hits.hardest > 0.0
-
-
-def test_a_limit_of_the_force_is_told_beside_the_largest():
-    force = 0.5 * SCALES.force
-    stated = LoadLimits(force=force)
-    assert COMPLIANT.beside(0.4, stated, SCALES).endswith(": kept")
-    assert COMPLIANT.beside(0.6, stated, SCALES) == f"; limit {LoadLimits.format('force', force)}: exceeded"
-    assert COMPLIANT.beside(0.6, LoadLimits(), SCALES) == RIGID.beside(0.6, stated, SCALES) == ""
