@@ -6,16 +6,12 @@ import dataclasses
 import enum
 import pkgutil
 from importlib import import_module
-from pathlib import Path
 
 import numpy as np
 import pytest
-from machines import PAPER
 
 import carom
-from carom.base.outcome import InputError
 from carom.base.results import WIDEST, Result, fields_of, in_a_line, in_si
-from carom.parameters.formats import format_along
 
 
 class Colour(enum.Enum):
@@ -131,59 +127,6 @@ def test_speeds_and_times_of_a_machine_in_si_units_are_told_beside_the_numbers()
     assert "1725.31 rpm  boundary-equilibrium, levitation" in repr(diagram)
 
 
-def test_sizes_of_whatever_is_found_are_told_in_si_units():
-    machine = carom.load("examples/keogh-cole.toml")
-    motion = carom.simulate(machine, carom.kick("150 mm/s", "30 deg"), until="0.5 s")
-    loudest = motion.contacts.normal_impulse.max()
-    assert "(-0.568-0.352i mm), velocity=1.00747+0.581666i (130+75i mm/s)" in repr(motion)  # 150 mm/s at 30 degrees
-    assert f"to {loudest:.6g} (" in repr(motion.contacts)
-    assert f"to {loudest * 50 * 0.7e-3 * 184.2:.3g} N s)" in repr(motion.contacts)
-    assert "normal force 0.758533 (901 N)" in repr(carom.find_equilibria(machine))
-    assert "  position       0.896512-0.443019i (0.628-0.31i mm)\n" in repr(carom.find_equilibria(machine)[1])
-    kicks = carom.disturbances.VelocityKick.of(machine, "100 mm/s")
-    lost = carom.basins.smallest_unrecovered(machine, kicks)
-    assert "  largest          0.775555 (100 mm/s)" in repr(lost)
-    assert f"  size             {lost.size:.6g} ({lost.size * 0.7 * 184.2:.3g} mm/s)" in repr(lost)
-    assert carom.base.results.in_a_line(lost).startswith(f"smallest that does not come back {lost.size:.6g} (5.4")
-    blade = carom.basins.smallest_unrecovered(machine, carom.disturbances.BladeLoss(0.5))
-    assert "  largest          0.5 (17,500 g mm)" in repr(blade)  # half of 50 kg times 0.7 mm
-    ending = carom.find_attractors(machine, carom.disturbances.Sample(kicks, 1), known=False).endings[0]
-    assert f"  time       {ending.time:.6g} ({round(ending.time / 0.1842, -1):,.0f} ms)\n" in repr(
-        ending
-    )  # some 3,000 ms
-    basin = carom.map_basins(machine, carom.Grid(kicks, (4, 6)))
-    assert repr(basin.share_recovered).startswith("<Share: ")
-    assert "c 1,400 N s/m, k 980,000 N/m, e_c 0.3 mm, c_r 0.7 mm, R 40 mm, Ω 1,759 rpm" in repr(basin)
-    assert "γ 0.1, ω 0.76" in repr(carom.find_orbits(carom.load("examples/source-paper.toml")))
-
-
-def test_ranges_are_told_in_the_units_of_people():
-    machine = carom.load("examples/keogh-cole.toml")
-    plane = carom.bifurcations.Plane("gamma", "speed", (0.1, 0.2), ("1700 rpm", "1850 rpm"))
-    assert in_a_line(plane) == "gamma 0.1 to 0.2, speed 1,700 to 1,850 rpm"
-    scales = machine.parameters.scales
-    # 50 kg times 184.2 rad/s
-    assert format_along("gamma", (0.1, 0.2), scales) == "damping 921 to 1,842 N s/m"
-    gains = carom.map_gains(machine, FEW, ("stiffness", "damping"), shape=(2, 2))
-    assert "plane          stiffness 490,000 to 1,960,000 N/m, damping 700 to 2,800 N s/m\n" in repr(gains)
-    assert "present        stiffness 980,000 N/m, damping 1,400 N s/m\n" in repr(gains)
-    (point, *_) = carom.find_bifurcations(machine, "speed", ("1700 rpm", "1800 rpm")).points
-    assert "  value         1,725.31 rpm\n" in repr(point)
-    curve = carom.continue_curve(
-        point, carom.bifurcations.Plane("damping", "speed", (500.0, 2000.0), ("1700 rpm", "1850 rpm"))
-    )
-    assert f"  points         {len(curve.points)}, damping 5" in repr(curve)
-    assert " N s/m, speed 1,7" in repr(curve)
-
-
-def test_along_a_scale_of_the_machine_sizes_are_not_told_in_the_units_of_one_of_them():
-    orbit = carom.find_orbits(carom.load("examples/keogh-cole.toml"))["B1,d"]
-    slower = carom.continue_orbit(orbit, "speed", ("1740 rpm", "1780 rpm"))
-    assert f"values        {len(slower)} from 1,740 to 1,780 rpm\n" in repr(slower)
-    assert " ms)" not in repr(slower)
-    assert " ms)" in repr(carom.continue_orbit(orbit, "damping", ("1300 N s/m", "1500 N s/m")))
-
-
 def test_a_machine_shows_what_its_file_says_and_what_follows():
     case = carom.load("examples/tum-test-rig.toml", ["friction=0.2"])
     text = repr(case)
@@ -200,44 +143,6 @@ def test_a_machine_shows_what_its_file_says_and_what_follows():
     plain = repr(carom.load("examples/source-paper.toml"))
     assert "scaled damping                0.1\n" in plain
     assert "units of the equations" not in plain
-
-
-def test_a_machine_shows_what_is_stated_of_its_bearing(tmp_path):
-    file = tmp_path / "<b>.toml"
-    stated = '[limits]\nimpulse = "5 N s"\nimpacts = 20\n[survive]\nkick = "50 mm/s"\nshock = "5 g, 11 ms"\nblade_loss = "2000 g mm"\n'
-    file.write_text(Path("examples/keogh-cole.toml").read_text("utf-8") + stated, "utf-8")
-    case = carom.load(file)
-    assert "normal impulse of an impact 5 N s, impacts of a touchdown 20\n" in repr(case)
-    assert "kicks up to 50 mm/s; shocks up to 5 g, 11 ms; a loss of a blade of 2,000 g mm\n" in repr(case)
-    with pytest.raises(InputError, match=r"^found = Case <b>: an AttractorSet$"):
-        carom.basins.share_of_kicks(case)
-
-
-def test_text_of_what_is_found_is_short():
-    orbits = carom.find_orbits(PAPER)
-    motion = carom.simulate(PAPER, carom.kick(0.8), 100.0)
-    diagram = carom.find_bifurcations(PAPER, "gamma", (0.06, 0.2))
-    endings = carom.settle(PAPER, np.full(5, 0.1j), np.linspace(0.0, 1.0, 5) + 0j)
-    for result in (
-        orbits,
-        *orbits,
-        motion,
-        motion.contacts,
-        diagram,
-        endings,
-        *diagram.orbits,
-        carom.find_equilibria(PAPER)[0],
-    ):
-        text = repr(result)
-        assert text.startswith(type(result).__name__)
-        assert len(text.splitlines()) <= 20
-        assert max(map(len, text.splitlines())) <= WIDEST + 40
-        assert "object at 0x" not in text
-    last = orbits["B1,d"]
-    words = f"B1,d      period {last.period:.6g}, radial speed {last.radial_speed:.6g}, stable, admissible"
-    assert words in repr(orbits)
-    assert "period-doubling, B1,d" in repr(diagram)
-    assert repr(endings).splitlines()[1] == "  motions   5"
 
 
 def test_numbers_of_a_document_have_twins_in_si_units_where_the_machine_is_known():

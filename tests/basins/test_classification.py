@@ -73,31 +73,6 @@ def test_motions_have_the_names_of_the_attractors(rotor):
     assert (index[~basin.exists] == -1).all()
 
 
-def test_period_doubled_bouncing_has_a_name_of_its_own():
-    rotor = carom.models.jeffcott(PAPER.replace(gamma=0.0832))
-    basin = map_basins(rotor, Grid(VelocityKick(1.0), (3, 8)))
-    assert "2-impact bouncing" in basin.fractions
-    assert "B1,d" not in basin.fractions
-
-
-def test_irregular_bouncing_is_told_from_periodic():
-    rotor = carom.models.jeffcott(PAPER.replace(gamma=0.082))
-    basin = map_basins(rotor, Grid(VelocityKick(1.0), (3, 8)), patience=1500)
-    irregular = basin.dataset["motion"].values == basin.motions.index("irregular bouncing")
-    assert irregular.sum() > 12
-    assert (basin.outcomes[irregular] == Outcome.BOUNCING).all()
-    assert (basin.dataset["multiplicity"].values[irregular] == 0).all()
-    assert "1500 impacts" in basin.dataset.attrs["criteria"]
-
-
-def test_threads_change_nothing(rotor, kicks):
-    one, two = (
-        map_basins(rotor, kicks.plan, threads=threads, source={"machine_file": "machine.toml"}) for threads in (1, 2)
-    )
-    assert one.dataset.identical(two.dataset)
-    assert one.dataset.identical(kicks.dataset)
-
-
 @pytest.mark.parametrize(
     "plan",
     [
@@ -159,28 +134,7 @@ def test_shares_of_a_sample_have_an_interval(rotor):
         basin.share_of("flying")
 
 
-def test_no_levitation_no_kick():
-    grounded = carom.models.jeffcott(PAPER.replace(gamma=0.05))
-    with pytest.raises(InputError, match="possible"):
-        map_basins(grounded, Grid(VelocityKick(), (3, 3)))
-    released = map_basins(grounded, Grid(ContactRelease(), (5,)))
-    assert released.share_recovered.count == 0
-
-
 def test_a_time_may_have_a_unit(rotor):
     plan = Grid(VelocityKick(1.0), (3, 4))
     in_words = map_basins(rotor, plan, until="20 ms").dataset
     xarray.testing.assert_identical(in_words["time"], map_basins(rotor, plan, until=0.02 / SCALES.time).dataset["time"])
-
-
-@pytest.mark.deep
-def test_basins_of_a_heavy_rotor_tell_bouncing_by_its_impacts_and_are_read_again(tmp_path):
-    """Its bouncing repeats with the turns of the shaft; no orbit is looked for."""
-    heavy = carom.load("examples/dropped-rotor.toml", ["damping=10 N s/m", "restitution=0.9", "friction=0.05"])
-    found = map_basins(heavy, Grid(carom.disturbances.AnyState(2.0), (2, 6, 2, 6)))
-    assert {"levitation", "rolling backward whirl"} <= set(found.fractions)
-    assert any("bouncing" in name for name in found.fractions)
-    found.save(tmp_path / "basin.nc")
-    again = type(found).load(tmp_path / "basin.nc")
-    assert again.parameters == heavy.parameters
-    assert again.rotor.forces[0].accelerations == pytest.approx(found.rotor.forces[0].accelerations, rel=1e-15)

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-import sys
 
 import numpy as np
 import pytest
-from compilation import sized
-from linear_rotors import tilting
 from machines import PAPER
 
 import carom
@@ -63,12 +60,6 @@ def test_the_present_machine(found):
     assert found.present_share == share
 
 
-def test_neither_threads_nor_chunks_matter(found, monkeypatch):
-    monkeypatch.setattr(sys.modules[map_gains.__module__], "CHUNK", 250)
-    again = map_gains(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, threads=1, source={"machine_file": "machine.toml"})
-    assert again.dataset.identical(found.dataset)
-
-
 def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
     slow = MACHINE.replace(speed=120.0, damping=3000.0)
@@ -109,48 +100,6 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
 def test_what_cannot_be_mapped(words, complaint):
     with pytest.raises(InputError, match=complaint):
         map_gains(MACHINE, KICKS, **words)
-
-
-def test_any_model_has_gain_maps():
-    rotor = tilting().model
-    kicks = Grid(VelocityKick(fastest=0.6), (3, 4))
-    found = map_gains(rotor, kicks, ("gamma", "omega"), shape=(2, 3), ranges=((0.2, 0.5), None))
-    assert found.present == (rotor.value("gamma"), rotor.value("omega"))
-    levitates = found.dataset["levitates"].values > 0.0
-    assert levitates.any()
-    assert not levitates.all()
-    for i, gamma in enumerate(found.dataset["gamma"].values):
-        for k, omega in enumerate(found.dataset["omega"].values):
-            machine = rotor.replace(gamma=gamma, omega=omega)
-            assert levitates[i, k] == (np.abs(machine.system.arrays.offsets).max() < 1.0)
-            share = map_basins(machine, kicks).share_recovered.fraction if levitates[i, k] else 0.0
-            assert found.dataset["recovered"].values[i, k] == share
-    found.plot()
-
-
-def test_intervals_cover_the_shares_of_95_of_100_machines():
-    """Against a large sample of each machine, over many seeds; and no seed makes them miss together."""
-    machine, ranges, shape = PAPER.replace(gamma=0.15, rho=0.3), ((0.74, 0.78), (0.11, 0.3)), (4, 4)
-    model, seeds = VelocityKick(1.0), sized(60, 30)
-
-    def shares(plan):
-        found = map_gains(machine, plan, ("omega", "gamma"), ranges=ranges, shape=shape).dataset
-        return (found[name].values for name in ("recovered_low", "recovered", "recovered_high"))
-
-    _, true, _ = shares(Sample(model, 20_000, seed=10**6))
-    assert true.min() < 0.3
-    assert true.max() > 0.7
-    covered, apart = [], []
-    for seed in range(seeds):
-        low, middle, high = shares(Sample(model, 69, seed=seed))
-        covered.append((low <= true) & (true <= high))
-        apart.append((middle - true).ravel())
-    # At least 95 % of the intervals, less three deviations of this number of them.
-    count = np.size(covered)
-    assert np.sum(covered) >= 0.95 * count - 3.0 * math.sqrt(0.05 * 0.95 * count)
-    # Machines of one map err independently: their errors add up as those of different samples do.
-    together, each = np.var(np.mean(apart, axis=1)), np.mean(np.var(apart, axis=0))
-    assert together * true.size < each * (1.0 + 4.0 * math.sqrt(2.0 / (seeds - 1)))
 
 
 def test_every_machine_of_a_map_draws_its_own_sample():

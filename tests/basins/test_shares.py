@@ -130,33 +130,6 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
     assert (coarse["lost"], coarse["lost_size"]) == ("–", 0.0)
 
 
-@pytest.mark.jit_only
-def test_plans_of_kicks_have_the_same_share_as_attractors_and_as_basins():
-    rotor = jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
-    for plan in (Grid(VelocityKick(0.8), (9, 8)), Grid(KickPlane(0.8), (9, 9)), Sample(KickPlane(0.8), 60, seed=1)):
-        assert share_of_kicks(find_attractors(rotor, plan, known=False)) == map_basins(rotor, plan).share_recovered
-
-
-@pytest.mark.jit_only
-def test_no_share_without_kicks():
-    rotor = jeffcott(PAPER)
-    assert share_of_kicks(find_attractors(jeffcott(PAPER.replace(gamma=0.05)), DisturbanceSet(10), known=False)) is None
-    assert share_of_kicks(find_attractors(rotor, [carom.kick(0.1)], known=False)) is None
-    assert share_of_kicks(find_attractors(rotor, Grid(ContactRelease(), (4,)), known=False)) is None
-
-
-@pytest.mark.jit_only
-def test_the_share_does_not_depend_on_the_direction_of_the_real_axis():
-    shares = []
-    for turn in (0.0, 1.0, 4.0):
-        rotor = jeffcott(PAPER.replace(gamma=0.15, rho=0.3, phi=PAPER.phi + turn))
-        shares.append(map_basins(rotor, Grid(KickPlane(0.8), (50, 50))).share_recovered.fraction)
-        drawn = map_basins(rotor, Sample(VelocityKick(0.8), 4000, seed=int(turn))).share_recovered
-        assert drawn.low - 0.01 < shares[0] < drawn.high + 0.01
-    # The parts of a kick plane turn with the rotor: the same cells, up to rounding at a boundary.
-    assert shares == pytest.approx([shares[0]] * 3, abs=2.0 / (0.785 * 2500))
-
-
 def test_weights_are_in_the_dataset():
     rotor = jeffcott(PAPER.replace(gamma=0.2))
     basin = map_basins(rotor, Grid(VelocityKick(0.2), (3, 4)))

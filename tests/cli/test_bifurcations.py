@@ -69,15 +69,6 @@ def test_plane_as_json(capsys):
         assert set(curve["ends"]) <= {"edge of the plane", "closed loop"}
 
 
-def test_plane_as_tables_around_the_machine(capsys, tmp_path):
-    out = str(tmp_path)
-    assert main(["regions", MACHINE, "--plane", "speed,damping", "--grid", "3", "--out", out]) == 0
-    shown = capsys.readouterr().out
-    assert "Curves" in shown
-    assert "Regions" in shown
-    assert (tmp_path / "figures" / "regions-speed-damping.png").stat().st_size > 10_000
-
-
 @pytest.mark.jit_only
 def test_orbits_with_two_impacts_are_listed(capsys):
     words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.0832", "--to", "0.0836", "--impacts", "2"]

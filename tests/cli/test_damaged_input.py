@@ -1,8 +1,6 @@
 """Damaged files and options: accepted as what they say, or refused in printable lines; never a traceback."""
 
 import re
-import subprocess
-import sys
 import tomllib
 from functools import cache
 from importlib import import_module
@@ -23,7 +21,6 @@ from carom.sweeps import load_sweep
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CASES = sized(40, 40, 500)
 """Of each of three kinds: machine files, sweep files, options."""
-PROCESSES = 60
 HOSTILE = (
     *(
         b"\0",
@@ -368,52 +365,7 @@ def test_damaged_options_are_accepted_or_refused(carom, machine, tmp_path, monke
     assert CASES // 50 <= accepted <= CASES // 2
 
 
-@pytest.mark.parametrize(
-    ("name", "unit"), [("damping", "N s/m"), ("speed", "rad/s"), ("gamma", ""), ("eccentricity", "m")]
-)
-def test_damaged_settings_are_what_they_say(machine, name, unit):
-    rng = np.random.default_rng([4, len(name)])
-    accepted = 0
-    for _ in range(CASES):
-        text = damaged(b"0.5 " + unit.encode(), rng).decode("utf-8", "replace")
-        try:
-            case = load(machine, [f"{name}={text}"])
-        except InputError as problem:
-            assert_printable(str(problem))
-            continue
-        accepted += 1
-        same(getattr(case.machine if unit else case.parameters, name), text, unit)
-
-    assert accepted >= CASES // 50
-
-
 # ------------------------------------------------------------------------------------------ processes
-
-
-@pytest.mark.deep
-def test_damaged_files_and_options_in_processes(tmp_path, machine):
-    """With an option, or a machine, that cannot be used: so that none begins to compute."""
-    rng = np.random.default_rng(5)
-    for number in range(PROCESSES):
-        path = tmp_path / f"{number}.toml"
-        words = ["orbits", str(path), "--longest-period", "0"]
-        if number % 3 == 0:
-            path.write_bytes(damaged((EXAMPLES / "keogh-cole.toml").read_bytes(), rng))
-        elif number % 3 == 1:
-            path.write_bytes(damaged((EXAMPLES / "sweep-gains.toml").read_bytes(), rng).replace(b"keogh-cole", b"none"))
-            words = ["sweep", str(path), "--out", str(tmp_path / "none.zarr")]
-        else:
-            setting = damaged(b"gamma=0.1", rng).replace(b"\0", b"\x01")
-            words = [b"orbits", machine.encode(), b"--set", setting, b"--longest-period", b"0"]
-        done = subprocess.run([sys.executable, "-m", "carom", *words], capture_output=True, check=False)
-        errors = done.stderr.decode()
-
-        assert (done.returncode, done.stdout) == (2, b""), errors
-        for line in errors[:-1].split("\n"):
-            assert line.startswith("carom: ")
-            assert line.isprintable()
-        assert "carom: unexpected" not in errors
-    assert not (tmp_path / "none.zarr").exists()
 
 
 def test_main_refuses_a_file_named_in_another_encoding(tmp_path, capsys):

@@ -36,39 +36,6 @@ def test_the_motion_is_that_of_simulate(carom):
     assert bearing["limits"]
 
 
-def test_what_it_is_released_from(carom):
-    options = ("--whirl", "0.2 mm,-80 Hz,30 deg", "--race-speed", "500 rpm", "--phase", "90 deg")
-    _, out, _ = carom("drop", MACHINE, *options, "--regained-after", "6 ms", "--json")
-    found = json.loads(out)
-    said = found["disturbance"]
-    assert said["radius_si"] == pytest.approx(0.2e-3)
-    assert said["speed_si"] == pytest.approx(0.2e-3 * 80.0 * 2.0 * 3.141592653589793)
-    assert said["race_speed_si"] == pytest.approx(500.0 * 3.141592653589793 / 30.0)
-    assert said["unbalance_angle"] == pytest.approx(0.0, abs=1e-15)
-    assert said["regained_after_si"] == pytest.approx(6e-3)
-    assert "the race turns at 500 rpm; levitation returns after 6 ms" in said["words"]
-    case = cm.load(MACHINE)
-    whirl = cm.disturbances.whirl("0.2 mm", "-80 Hz", "30 deg")
-    motion = cm.simulate(case, cm.drop(whirl, phase="90 deg", race_speed="500 rpm", regained_after="6 ms"))
-    assert found["time"] == motion.begins + motion.time
-
-
-def test_a_bearing_on_a_mount(carom):
-    """Depth is that in the bearing, which the mount makes softer; the start is that of the rotor."""
-    mount = ("touchdown_mount_mass=2 kg", "touchdown_mount_stiffness=2e7 N/m", "touchdown_mount_damping=3000 N s/m")
-    settings = [part for setting in mount for part in ("--set", setting)]
-    _, out, _ = carom(*SHORT, "--json")
-    fixed = json.loads(out)
-    code, out, err = carom(*SHORT, *settings, "--json")
-    mounted = json.loads(out)
-    assert (code, err) == (0, "")
-    assert mounted["disturbance"]["words"] == fixed["disturbance"]["words"]
-    soft, hard = (each["touchdown_bearings"][0]["loads"] for each in (mounted, fixed))
-    assert soft["force_si"] < 0.6 * hard["force_si"]
-    # The peak force is k δ^1.5 but for what the rate adds.
-    assert soft["force_si"] == pytest.approx(2e10 * soft["depth_si"] ** 1.5, rel=1e-2)
-
-
 def test_figures_and_a_page(carom, tmp_path):
     where = tmp_path / "drop"
     code, out, err = carom(*SHORT, "--out", str(where), "--json")
@@ -105,12 +72,6 @@ def test_bad_input_gets_one_line(carom, options, words):
     assert (code, out) == (2, "")
     assert err.startswith(f"carom: {words}")
     assert err.count("\n") == 1
-
-
-def test_a_rigid_wall_has_no_race(carom):
-    code, _, err = carom("drop", "examples/dropped-rotor.toml", "--race-speed", "500 rpm")
-    assert code == 2
-    assert "race_speed = " in err
 
 
 MAP = ("drop", "examples/dropped-rotor.toml", "--map", "phase,speed", "--grid", "3x2", "--y", "8000 rpm,9000 rpm")

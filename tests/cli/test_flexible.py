@@ -28,15 +28,6 @@ def test_a_drop_tells_both_bearings(carom):
     assert cm.models.rotor_from(found["rotor"]).scales == loads.scales
 
 
-def test_a_motion_with_all_its_stages(carom):
-    code, out, _ = carom("simulate", MACHINE, "--drop", "--regained-after", "8 ms", "--until", "30 ms")
-    assert code == 0
-    assert "The fall:" in out
-    code, out, _ = carom("simulate", MACHINE, "--drop", "--until", "10 ms", "--json")
-    assert code == 0
-    assert {entry["touchdown_bearing"] for entry in json.loads(out)["contacts"]} <= {1, 2}
-
-
 def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
     """In words, as CSV, as netCDF and as JSON, counted from 1 everywhere."""
     table, log, until = tmp_path / "log.csv", tmp_path / "log.nc", "15 ms"
@@ -81,22 +72,6 @@ def test_a_study_writes_its_report(carom, tmp_path, monkeypatch):
     assert page.count("<svg") == len(document["figures"]) // 2
 
 
-def test_a_sweep_of_studies_over_gains(carom, tmp_path):
-    """Where a whirl grows nothing comes back, without a simulation; elsewhere the share is that of the study of that point."""
-    path, store = tmp_path / "sweep.toml", str(tmp_path / "sweep.zarr")
-    path.write_text(
-        f'machine = "{Path(MACHINE).absolute()}"\nset = ["gravity=0"]\n[axes.proportional]\nvalues = ["1000 A/m", "5500 A/m"]\n'
-        "[study]\ndisturbances = 4\n"
-    )
-    code, _, err = carom("sweep", str(path), "--out", store, "--threads", "--workers", "1")
-    assert (code, err) == (0, "")
-    found = cm.open_sweep(store)
-    assert found.levitates.values.tolist() == [0, 1]
-    assert found.recovered.values.tolist() == [0.0, 1.0]
-    alone = cm.closed_forms.levitation(cm.load(MACHINE, ["gravity=0", "proportional=5500 A/m"]))
-    assert found.levitation_radius.values[1] == pytest.approx(alone.radius)
-
-
 SWEEP = f"""machine = "{Path(MACHINE).absolute()}"
 set = ["gravity=0"]
 [axes.proportional]
@@ -124,36 +99,6 @@ def test_a_sweep_of_basins_over_gains_is_resumed(carom, tmp_path):
     assert "Nothing was left to compute." in out
 
 
-@pytest.mark.parametrize(
-    ("changes", "says"),
-    [
-        (("axes.proportional", "axes.propotional"), "axes.propotional = propotional: unknown name"),
-        (("1000 A/m", "1000 N/m"), "axes.proportional.values = 1000 N/m: must be a gain in A/m"),
-        (('"gravity=0"', '"proportional=5000 A/m"'), "axes.proportional = varied: is set too"),
-    ],
-)
-def test_a_sweep_over_what_is_no_parameter_gets_one_line(carom, tmp_path, changes, says):
-    path = tmp_path / "sweep.toml"
-    path.write_text(SWEEP.replace(*changes))
-    code, out, err = carom("sweep", str(path), "--out", str(tmp_path / "store"))
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert says in err
-
-
-def test_gains_are_mapped_by_their_names(carom, tmp_path):
-    small = ("--grid", "1x2", "--kick", "10 mm/s", "--set", "gravity=0", "--gains", "2x2")
-    code, out, err = carom("basins", MACHINE, *small, "--x", "1000 A/m,5500 A/m", "--out", str(tmp_path / "out"))
-    words = " ".join(out.split())
-    assert code == 0
-    assert err.startswith("Written to ")
-    assert "Map: proportional gain 1,000 A/m to 5,500 A/m; derivative gain 2.5 A s/m to 10 A s/m." in words
-    assert "50 % cannot levitate" in words
-    found = cm.basins.GainMap.load(tmp_path / "out" / "gains.nc")
-    assert found.dataset.levitates.values.tolist() == [[0.0, 0.0], [1.0, 1.0]]
-    assert found.present == (5000.0, 5.0)
-    assert [each.name for each in found.axes] == ["proportional", "derivative"]
-
-
 def test_orbits_tell_steady_motions(carom):
     code, out, err = carom("orbits", MACHINE, "--set", "gravity=0", "--json")
     assert (code, err) == (0, "")
@@ -171,11 +116,3 @@ def test_orbits_tell_steady_motions(carom):
     assert "Under gravity, rubs and whirls are not steady motions" in " ".join(out.split())
     code, out, err = carom("orbits", MACHINE, "--longest-period", "3")
     assert (code, out, err.count("\n")) == (2, "", 1)
-
-
-def test_an_unstable_levitation_is_one_line(carom):
-    code, out, err = carom(
-        "simulate", MACHINE, "--kick", "5 mm/s", "--until", "20 ms", "--set", "proportional=1000 A/m"
-    )
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert err.startswith("carom: levitation = unstable: a displacement to one side grows")

@@ -159,12 +159,6 @@ def test_the_command_is_loaded_where_an_interrupt_is_caught():
     assert project["scripts"] == {"carom": "carom.__main__:run"}
 
 
-def test_the_program_ends_without_a_last_look_for_garbage():
-    code = "import gc, sys; from carom.__main__ import run; sys.argv[1:] = ['--version']; run(); print(gc.get_freeze_count())"
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert int(ended.stdout.split()[-1]) > 10_000
-
-
 def test_a_sigterm_removes_unfinished_files(tmp_path):
     code = """
 import os, pathlib, signal, sys

@@ -82,24 +82,6 @@ def test_kicks_are_proven_and_verified(capsys, tmp_path):
     assert recover["enclosures"]["speed_si"] == ["0.105", "0.105"]
 
 
-@pytest.mark.jit_only
-def test_figure_of_kicks_is_written_with_the_certificate_and_from_it(capsys, tmp_path):
-    command = ["prove", SPINDLE, "--kicks-up-to", "105 mm/s", "--most-impacts", "1"]
-    assert main([*command, "--out", str(tmp_path / "proven")]) == 0
-    assert "figures/proven-kicks.svg" in capsys.readouterr().out
-    assert main(["prove", "--check", str(tmp_path / "proven" / "proof.json"), "--out", str(tmp_path / "drawn")]) == 0
-    assert {file.name for file in (tmp_path / "drawn").rglob("*.*")} == {"proven-kicks.svg", "proven-kicks.png"}
-    for place in ("proven", "drawn"):
-        assert (tmp_path / place / "figures" / "proven-kicks.png").stat().st_size > 10_000
-
-
-def test_other_proofs_have_no_figure(capsys, tmp_path):
-    assert main(["prove", PAPER, "--set", "gamma=3", "--out", str(tmp_path)]) == 0
-    assert not (tmp_path / "figures").exists()
-    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--out", str(tmp_path / "drawn")]) == 2
-    assert "only for a proof of kicks" in capsys.readouterr().err
-
-
 def test_all_states_are_proven_and_verified(capsys, tmp_path):
     assert main(["prove", SPINDLE, "--states-up-to", "100 mm/s", "--out", str(tmp_path)]) == 0
     assert "undecided" not in capsys.readouterr().out
@@ -108,17 +90,6 @@ def test_all_states_are_proven_and_verified(capsys, tmp_path):
     assert recover["enclosures"]["speed_si"] == ["0.1", "0.1"]
     assert "runs away to rolling" in lost["statement"]
     assert whole["status"] == "proven"
-
-
-@pytest.mark.parametrize(
-    ("option", "largest", "about"),
-    [("--shocks-up-to", "50 g, 0.2 ms", "shocks"), ("--unbalance-up-to", "30 um", "unbalance steps")],
-)
-def test_other_disturbances_are_proven(capsys, option, largest, about):
-    assert main(["prove", SPINDLE, option, largest, "--json"]) == 0
-    recover, everything = json.loads(capsys.readouterr().out)["claims"]
-    assert (recover["about"], recover["kind"], everything["status"]) == (about, "recover", "proven")
-    assert recover["enclosures"]["impacts"] == ["0", "0"]
 
 
 def test_changed_certificate_is_refused(capsys, tmp_path):
@@ -145,34 +116,6 @@ def test_value_of_the_parameter_along_which_is_proven_is_not_assumed(capsys):
     printed = capsys.readouterr().out
     assert "gamma from 0.1 to 0.10001" in printed
     assert "gamma = 0.3" not in printed
-
-
-def test_kicks_of_a_box_of_machines_are_proven_and_verified(capsys, tmp_path):
-    box = [
-        "--along",
-        "damping",
-        "--from",
-        "300 N s/m",
-        "--to",
-        "400 N s/m",
-        "--along",
-        "friction",
-        "--from",
-        "0.1",
-        "--to",
-        "0.3",
-    ]
-    kicks = ["prove", SPINDLE, "--kicks-up-to", "111 mm/s", "--most-impacts", "1", *box]
-    assert main([*kicks, "--out", str(tmp_path)]) == 0
-    printed = " ".join(capsys.readouterr().out.split())
-    assert (
-        "For all 300 N s/m <= damping <= 400 N s/m and 0.1 <= friction <= 0.3, all kicks out of levitation" in printed
-    )
-    assert "damping from 300 N s/m to 400 N s/m, friction from 0.1 to 0.3." in printed
-    assert "350 N s/m" not in printed
-
-    assert main(["prove", "--check", str(tmp_path / "proof.json")]) == 0
-    assert "Verified from the certificate alone" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

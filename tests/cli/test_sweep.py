@@ -1,13 +1,11 @@
 """``carom sweep``: table, JSON, one-line errors, and going on."""
 
 import json
-from pathlib import Path
 
 import pytest
 
 from carom.cli.app import BAD_INPUT
-from carom.sweeps import Tally, open_sweep
-from carom.sweeps.running import rate_words
+from carom.sweeps import open_sweep
 
 SWEEP = """
 machine = "{machine}"
@@ -49,15 +47,6 @@ def test_table_tells_what_was_done(carom, sweep_file, store):
     data = open_sweep(store)
     assert data.damping.attrs["units"] == "N s/m"
     assert data.levitates.values.tolist() == [[1.0, 1.0]] * 4
-
-
-def test_seed_told_is_that_of_the_sweep(carom, sweep_file, store):
-    sampled = '[basins]\nstarts = 3\n[basins.disturbance]\nkind = "kick"\nfastest = "0.1 m/s"\n'
-    sweep_file.write_text("seed = 7\n" + sweep_file.read_text().replace("[study]\n", sampled))
-    _, out, _ = carom("sweep", sweep_file, "--out", store, "--threads", "--workers", 1)
-
-    assert "Seed 7." in " ".join(out.split())
-    assert "seed 0" not in out
 
 
 def test_same_command_goes_on(carom, sweep_file, store):
@@ -160,16 +149,3 @@ def test_bad_input_is_one_line(carom, sweep_file, tmp_path, monkeypatch, argumen
 
     assert (code, out, err.count("\n")) == (BAD_INPUT, "", 1)
     assert words in err
-
-
-def test_progress_tells_rate_and_time_left():
-    tally = Tally(Path("s.zarr"), points=10_000, done=1200, failed=34, computed=617, seconds=100.0)
-
-    assert tally.words == "1,234 of 10,000 points, 6.17 points/s, 24 min left, 34 failed"
-
-
-@pytest.mark.parametrize(
-    ("rate", "words"), [(0.0, "0"), (0.01234, "0.0123"), (6.174, "6.17"), (999.6, "1,000"), (11_420.0, "11,400")]
-)
-def test_rates_have_three_digits_and_no_power_of_ten(rate, words):
-    assert rate_words(rate, "starts") == f"{words} starts/s"

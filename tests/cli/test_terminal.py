@@ -12,7 +12,7 @@ from rich.text import Text
 from carom.base.progress import _bar
 from carom.cli.app import app, main
 from carom.cli.screen import Screen
-from carom.cli.terminal import console, print_document
+from carom.cli.terminal import print_document
 
 
 @pytest.mark.parametrize(
@@ -35,18 +35,6 @@ def test_clocks_stay_whole_and_words_are_shortened_at_their_end(words, width):
     shown = line.rstrip().rpartition("-:--:-- ")[2].rstrip("…")
     assert words.startswith(shown)
     assert len(shown) >= min(len(words), 30)
-
-
-@pytest.mark.parametrize(
-    ("columns", "width"), [(None, 80), ("", 80), ("wide", 80), ("0", 80), ("120", 120), ("60", 60)]
-)
-def test_output_that_goes_elsewhere_has_80_columns_unless_others_are_asked_for(monkeypatch, capsys, columns, width):
-    monkeypatch.delenv("COLUMNS", raising=False)
-    if columns is not None:
-        monkeypatch.setenv("COLUMNS", columns)
-    console().print("x " * 200)
-
-    assert max(map(len, capsys.readouterr().out.splitlines())) in (width - 1, width)
 
 
 @pytest.mark.parametrize("columns", ["80", "100"])
@@ -89,13 +77,6 @@ def test_texts_in_tables_and_bars_are_printable():
 
     assert text.replace("\n", "").isprintable()
     assert text.count("a\\x1b") == 5
-
-
-def test_colours_of_a_terminal_stay():
-    screen = Screen(file=io.StringIO(), width=80, force_terminal=True, color_system="standard")
-    screen.print(Text(EVIL, style="bold"))
-
-    assert screen.file.getvalue() == f"\x1b[1m{SHOWN}\x1b[0m\n"
 
 
 def test_json_is_printable_and_holds_what_was_given(capsys):

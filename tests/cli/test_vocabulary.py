@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
@@ -32,23 +31,6 @@ COMMANDS = {
 }
 
 pytestmark = pytest.mark.jit_only
-
-
-def names_in(document):
-    """All names of motions in a document."""
-    if isinstance(document, dict):
-        for key, entry in document.items():
-            if key in ("attractor", "motion") and isinstance(entry, str):
-                yield entry
-            elif key == "fractions":
-                yield from entry
-            elif key == "attractors":
-                yield from (member["name"] for member in entry)
-            else:
-                yield from names_in(entry)
-    elif isinstance(document, list):
-        for entry in document:
-            yield from names_in(entry)
 
 
 def is_a_name(text):
@@ -84,16 +66,6 @@ def test_texts_of_commands_use_these_names_and_80_columns(command, capsys, monke
             assert name in text
     if command == "study":
         assert "1,759 rpm" in text
-
-
-@pytest.mark.parametrize("command", ["study", "basins"])
-def test_json_uses_these_names(command, capsys):
-    assert main((*COMMANDS[command], "--json")) == 0
-    document = json.loads(capsys.readouterr().out)
-    ranges = {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
-    found = set(names_in(document)) - ranges
-    assert {"levitation", "synchronous rub", "B1,d"} <= found
-    assert all(is_a_name(name) for name in found)
 
 
 @pytest.mark.parametrize("outcome", Outcome)

@@ -8,13 +8,12 @@ import math
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import tilting
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
-from carom.basins import Basin, smallest_unrecovered
-from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
+from carom.base.outcome import Outcome
+from carom.basins import smallest_unrecovered
+from carom.disturbances import BladeLoss, Grid
 from carom.models import Force, jeffcott
 from carom.parameters import Machine, Parameters
 
@@ -172,65 +171,6 @@ def test_the_start_is_the_old_whirl():
     assert not starts.velocities.any()
     assert starts.exists.all()
     assert not starts.touched.any()
-
-
-def test_a_rotor_that_does_not_levitate_has_no_start():
-    grounded = LIGHT.replace(eccentricity=3e-4)
-    assert not Grid(BladeLoss(0.4), (4,)).starts(jeffcott(grounded.parameters)).exists.any()
-    with pytest.raises(InputError, match="before a disturbance"):
-        BladeLoss(0.4).apply(grounded)
-    with pytest.raises(InputError, match="possible"):
-        cm.map_basins(grounded, Grid(BladeLoss(0.4), (4,)))
-
-
-@pytest.mark.parametrize("size", [0.0, -0.1, math.nan, math.inf])
-def test_sizes_are_checked(size):
-    with pytest.raises(InputError, match="change"):
-        BladeLoss(size)
-
-
-@pytest.mark.jit_only
-def test_it_goes_where_every_disturbance_goes(tmp_path):
-    loss = BladeLoss.of(LIGHT, "0.067 mm")
-    assert Disturbance.from_description(loss.describe()) == loss
-    basin = cm.map_basins(LIGHT, Grid(loss, (24,)))
-    for phase, outcome in zip(basin.dataset["phase"].values, basin.outcomes, strict=True):
-        assert cm.simulate(*loss.apply(LIGHT, float(phase)), settle=True).outcome == outcome
-    assert 0.0 < basin.share_recovered.fraction < 1.0
-    basin.save(tmp_path / "loss.nc")
-    assert Basin.load(tmp_path / "loss.nc").plan == basin.plan
-    gains = cm.map_gains(LIGHT, Grid(loss, (24,)), ("stiffness", "damping"), shape=(2, 2))
-    assert gains.present_share.count == basin.share_recovered.count
-    for refused in (cm.study, cm.find_attractors):
-        with pytest.raises(InputError, match="leaves the machine as it is"):
-            refused(LIGHT, Sample(loss, 40, 3))
-
-
-@pytest.mark.jit_only
-def test_a_rotor_of_several_coordinates():
-    model = tilting().model
-    loss = BladeLoss(0.2 * model.value("rho"))
-    after, state = loss.apply(model, 0.7)
-    # Its unbalance is not that of all masses off centre by the same, as the change is: the frame does not turn.
-    np.testing.assert_allclose(state.position, model.system.rest, rtol=1e-12)
-    change = 0.2 * model.value("rho") * cmath.exp(1j * (0.7 + model.unbalance_phase))
-    np.testing.assert_allclose(
-        after.equations.forcing,
-        model.equations.forcing + change * model.equations.mass @ model.equations.translation,
-        rtol=1e-12,
-    )
-    assert cm.simulate(after, state, until=5.0).time == 5.0
-
-
-@pytest.mark.jit_only
-def test_what_is_lost_already_or_never_is_said():
-    harmless = cm.closed_forms.harmless_blade_loss(LIGHT)
-    never = smallest_unrecovered(LIGHT, BladeLoss(1.2 * harmless))
-    assert (never.size, never.all_back, never.drawn) == (None, pytest.approx(1.2 * harmless), 300)
-    # A rotor that just levitates is lost by a change of its unbalance that is far smaller than that.
-    heavy = cm.load("examples/keogh-cole.toml")
-    already = smallest_unrecovered(heavy, BladeLoss(0.02))
-    assert already.harmless < already.all_back < already.size < 0.05 * heavy.parameters.rho
 
 
 def test_a_rotor_that_weighs_something_whirls_about_its_sag_before_the_unbalance_changes():

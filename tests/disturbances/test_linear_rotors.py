@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import FixedFrame, random_rotor, single, tilting, touchdowns
+from linear_rotors import FixedFrame, random_rotor, single, tilting
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.base.outcome import InputError, Outcome
-from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, Sample, StateSlice
+from carom.disturbances import AnyState, ContactRelease, Grid, Sample, StateSlice
 from carom.disturbances.shocks import states_after_shocks
 from carom.models import jeffcott
 
@@ -145,19 +144,6 @@ def test_random_rotors_and_shocks():
     assert checked > 0
 
 
-@pytest.mark.jit_only
-def test_an_undamped_rotor_in_resonance():
-    rotor = tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2)))
-    rotor = replace(rotor, forcing=0.3 * rotor.forcing)
-    assert rotor.model.system.rest_radius < 1.0
-    duration = math.pi / np.abs(rotor.model.system.exponents.imag + 1.0).min()
-    place, speed, impacts = shaken(rotor, 0.05, duration, 0.7).after()
-    assert impacts == 0
-    positions, velocities, _, _ = states_after_shocks(rotor.model, np.array([0.05]), duration, np.array([0.7]))
-    assert np.allclose(positions[0], place, rtol=0, atol=1e-10)
-    assert np.allclose(velocities[0], speed, rtol=0, atol=1e-10)
-
-
 @pytest.mark.parametrize(
     "model",
     [
@@ -185,16 +171,3 @@ def test_displaced_rotors_touch_with_the_plane_that_moves_farthest(model, releas
     assert states.exists.all()
     cells = Grid(StateSlice(0.1), (5, 5)).starts(model)
     assert cells.exists.sum() == 21
-
-
-def test_a_rotor_whose_translation_moves_no_plane_cannot_be_displaced():
-    model = tilting().model.replace(translation=[0.7, 1.0], touchdowns=touchdowns([[1.0, -0.7]], [0.1], [0.5], [5.0]))
-    with pytest.raises(InputError, match=r"^translation = .*moves a contact plane"):
-        Grid(StateSlice(), (3, 3)).starts(model)
-
-
-@pytest.mark.jit_only
-def test_basins_of_shocks():
-    basin = carom.map_basins(single().model, Grid(BaseShock(3.0, 1.5), (6, 8)))
-    assert Outcome.LEVITATED in basin.outcomes
-    assert len(set(basin.outcomes.ravel().tolist())) > 1

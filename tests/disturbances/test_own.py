@@ -10,8 +10,8 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
-from carom.basins import Basin, GainMap, smallest_unrecovered
+from carom.base.outcome import InputError
+from carom.basins import Basin, smallest_unrecovered
 from carom.basins.document import basin_document
 from carom.disturbances import Coordinate, Disturbance, Grid, Sample, Starts, VelocityKick
 
@@ -101,31 +101,6 @@ def test_attractors_that_own_disturbances_reach(basin):
 
 
 @pytest.mark.jit_only
-def test_gain_maps_of_own_disturbances(tmp_path):
-    found = cm.map_gains(MACHINE, PLAN, ("speed", "damping"), shape=(2, 2), ranges=((150.0, 200.0), (500.0, 4000.0)))
-    machine = MACHINE.replace(speed=150.0, damping=4000.0)
-    there = Grid(Shove(1.2, (0.1 + 0.2j) * SCALES.velocity / machine.scales.velocity), (6, 8))
-
-    assert found.dataset["recovered"].values[0, 1] == cm.map_basins(machine, there).share_recovered.fraction
-    found.save(tmp_path / "gains.nc")
-    assert GainMap.load(tmp_path / "gains.nc").plan == PLAN
-
-
-@pytest.mark.jit_only
-def test_smallest_own_disturbance_that_is_lost():
-    found = smallest_unrecovered(MACHINE, Shove(1.0, 0j), directions=24, sizes=24)
-    rotor = cm.models.jeffcott(MACHINE)
-
-    assert (found.kind, found.harmless) == ("shove", 0.0)
-    at = [rotor.equilibrium + size * np.exp(1j * found.angle) for size in (found.recovered, found.size)]
-    ends = cm.settle(rotor, np.array(at), 0j).outcomes
-    assert ends[0] == Outcome.LEVITATED != ends[1] == found.outcome
-    document = basin_document(cm.map_basins(MACHINE, Grid(Shove(1.0, 0j), (3, 4))), found, 0.0)
-    assert document["smallest_unrecovered_shove"] == found.size
-    assert document["smallest_unrecovered_shove_si"] == found.size * SCALES.length
-
-
-@pytest.mark.jit_only
 def test_nothing_is_proven_of_a_kick_that_starts_elsewhere():
     @dataclass(frozen=True)
     class Elsewhere(VelocityKick):
@@ -138,15 +113,6 @@ def test_nothing_is_proven_of_a_kick_that_starts_elsewhere():
     assert (found.kind, found.harmless) == ("elsewhere", 0.0)
 
 
-@pytest.mark.jit_only
-def test_a_study_of_own_disturbances():
-    study = cm.study(MACHINE.replace(gamma=0.65, mu=0.0), Sample(Shove(0.3), 20, seed=1))
-
-    assert study.attractors.sample == Sample(Shove(0.3), 20, seed=1)
-    assert study.to_dict()["disturbances"]["count"] == 20
-    assert "20 given disturbances of the kind shove" in " ".join(fact.text for fact in study.facts)
-
-
 def test_a_kind_names_one_class():
     with pytest.raises(InputError, match="kind = kick: another name: VelocityKick"):
 
@@ -157,11 +123,6 @@ def test_a_kind_names_one_class():
 def test_what_cannot_be_saved_is_refused():
     with pytest.raises(InputError, match="axes = "):
         Shove(axes=({"x"},)).describe()
-
-
-def test_an_unknown_kind_says_what_to_do():
-    with pytest.raises(InputError, match="imported before"):
-        Disturbance.from_description({"kind": "nudge"})
 
 
 def test_a_coordinate_has_a_unit_that_exists():

@@ -52,20 +52,6 @@ def test_a_shock_begins_at_levitation_about_the_sag():
     assert abs(place - solved(rates, start, 0.06)) < 1e-10 * clearance
 
 
-def test_a_bearing_on_a_mount_is_shaken_too():
-    mount = ["touchdown_mount_mass=1", "touchdown_mount_stiffness=2e6", "touchdown_mount_damping=200"]
-    machine = cm.load(BALLS, mount)
-    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").apply(machine, DIRECTION), "13 ms")
-    position, _ = motion.at(motion.time)
-    moved = complex(position[1]) * cmath.rect(1.0, motion.begins + motion.time)
-
-    def rates(time, state):
-        return [state[1], -200.0 * state[1] - 2e6 * state[0] - base(time)]
-
-    clearance = machine.parameters.scales.length
-    assert abs(moved * clearance - solved(rates, [0j, 0j], 0.013)) < 1e-10 * clearance
-
-
 def test_a_blade_is_lost_at_levitation_about_the_sag():
     machine = cm.load(MACHINE)
     scales, phase = machine.parameters.scales, 0.9
@@ -82,19 +68,6 @@ def test_a_blade_is_lost_at_levitation_about_the_sag():
     assert after.value("rho") * scales.length == pytest.approx(
         abs(machine.machine.eccentricity + 12e-6 * cmath.exp(1j * phase))
     )
-
-
-@pytest.mark.jit_only
-def test_losses_of_a_blade_are_mapped():
-    machine = cm.load(MACHINE)
-    loss = BladeLoss.of(machine, "60 um")
-    basin = cm.map_basins(machine, cm.Grid(loss, (8,)), until=400.0)
-    phases = basin.dataset["phase"].values
-    for place in (0, 5):
-        instant = float(basin.dataset["instant"].values[place])
-        motion = cm.simulate(*loss.apply(machine, float(phases[place]), instant=instant), 400.0, settle=True)
-        assert basin.outcomes[place] == motion.outcome
-        assert basin.dataset["impacts"].values[place] == len(motion.contacts)
 
 
 def test_what_sags_to_the_wall_is_refused():

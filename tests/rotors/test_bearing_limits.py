@@ -10,7 +10,7 @@ from flexible_machines import symmetric
 from limited_reference import clipped, follow
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import InputError
 from carom.motions import State, energy_ledger
 from carom.parameters import Gravity
 from carom.rotors import PID, FlexibleRotor, MagneticBearing, ProportionalDamping
@@ -117,50 +117,8 @@ def test_a_limit_that_is_never_met_changes_nothing():
     assert limited.segment_amplitudes == pytest.approx(linear.segment_amplitudes, abs=1e-12)
 
 
-def test_a_dropped_rotor_has_no_limits_until_it_is_held_again():
-    model = machine(current_limit=1.0).with_modes(2).model
-    assert model.limits
-
-    motion = cm.simulate(model, cm.drop(regained_after="5 ms"), "15 ms")
-
-    assert [part.rotor.system.limits for part in motion.parts] == [0, 2]
-    assert motion.outcome is Outcome.TIME_REACHED
-
-
 def test_what_cannot_be_limited_is_refused():
     with pytest.raises(InputError, match=r"slew_rate_limit = 100.*: none without amplifier_bandwidth"):
         MagneticBearing(1, KI, KS, PID(P), slew_rate_limit=100.0)
     with pytest.raises(InputError, match="current_limit"):
         MagneticBearing(1, KI, KS, PID(P), current_limit="3 N")
-
-
-def test_another_speed_leaves_the_limits_as_they_are_in_si_units():
-    limits = {"current_limit": 1.2, "slew_rate_limit": 1500.0, "amplifier_bandwidth": BANDWIDTH}
-    made = machine(**limits)
-    faster = dataclasses.replace(made, speed=450.0).with_modes(2).limited
-
-    moved = made.with_modes(2).limited.replace(speed=450.0)
-
-    for name in ("limit_rows", "limit_columns", "limit_bounds", "limit_couplings"):
-        one, other = moved.system.arrays[name], faster.system.arrays[name]
-        assert one.shape == other.shape
-    for one, other in zip(moved.listed_limits, faster.listed_limits, strict=True):
-        assert one.displacement == pytest.approx(other.displacement, rel=1e-12)
-        assert one.velocity == pytest.approx(other.velocity, rel=1e-12)
-        assert one.accelerations == pytest.approx(other.accelerations, rel=1e-12)
-        assert one.rates == pytest.approx(other.rates, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    "changes", [{"proportional": 7000.0}, {"derivative_2": 14.0}, {"current_limit": 0.5}, {"amplifier_bandwidth": 1e4}]
-)
-def test_limits_follow_the_gains_and_bounds_that_are_set(changes):
-    made = machine(current_limit=1.2, slew_rate_limit=1500.0, amplifier_bandwidth=BANDWIDTH)
-    anew = made.replace(**changes).with_modes(2).limited
-
-    moved = made.with_modes(2).limited.replace(**changes)
-
-    for one, other in zip(moved.listed_limits, anew.listed_limits, strict=True):
-        assert one.bound == other.bound
-        for name in ("displacement", "velocity", "accelerations", "rates"):
-            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-12)

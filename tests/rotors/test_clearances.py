@@ -12,8 +12,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.closed_forms import ball_pressure
-from carom.models import Rigid, Touchdown, from_matrices, rotor_from
+from carom.models import Rigid, Touchdown, from_matrices
 from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
 from carom.parameters import Scales, TouchdownBearing
@@ -165,34 +164,6 @@ def test_clearances_are_parameters_of_the_machine():
     assert model.value("radius_ratio_2") == pytest.approx(4.8 / 0.3)
     same = model.replace(radius_ratio=30.0).finite_elements.machine
     assert [each.rotor_radius for each in same.touchdowns] == pytest.approx([6e-3, 9e-3])
-
-
-@pytest.mark.jit_only
-def test_balls_have_a_pressure_at_each_plane():
-    """That of the peak force in N there, levitating and falling; it is written and read with the model."""
-    balls = {"balls": 12, "ball_diameter": "6.35 mm", "race_diameter": "42 mm"}
-    wall = TouchdownBearing("hunt-crossley", stiffness="1e7 N/m", dissipation="1 s/m", **balls)
-    model = with_clearances(munich(touchdown=wall), (0.2e-3, 0.3e-3), 0.1e-3).with_modes(3).model
-    planes = cm.motions.drop_loads(cm.simulate(model, cm.drop(regained_after="8 ms"), "9 ms")).planes
-    for plane in planes:
-        si = plane.si()
-        assert si["pressure"] == pytest.approx(ball_pressure(wall, si["force"]), rel=1e-12)
-        assert si["pressure"] > 1e8
-    again = rotor_from(model.unforced.attributes())
-    assert [each.bearing.balls for each in again.equations.touchdowns] == [12, 12]
-
-
-def test_a_limit_of_the_pressure_needs_balls(tmp_path):
-    text = Path("examples/tum-flexible-rotor.toml").read_text(encoding="utf-8")
-    (tmp_path / "limited.toml").write_text(text + '[limits]\npressure = "3 GPa"\n', encoding="utf-8")
-    with pytest.raises(
-        InputError, match=r"^pressure = 3000000000.0: a limit needs balls in all tables \[\[touchdown\]\]$"
-    ):
-        cm.load(tmp_path / "limited.toml")
-    balls = 'balls = 12\nball_diameter = "6 mm"\nrace_diameter = "30 mm"\n'
-    given = text.replace("friction = 0.15\n", f"friction = 0.15\n{balls}") + '[limits]\npressure = "3 GPa"\n'
-    (tmp_path / "limited.toml").write_text(given, encoding="utf-8")
-    assert cm.load(tmp_path / "limited.toml").limits.pressure == 3e9
 
 
 @pytest.mark.jit_only

@@ -77,14 +77,6 @@ def test_the_error_told_is_that_of_the_forces():
     assert every.error == 0.0
 
 
-def test_a_reduction_is_as_small_as_its_accuracy_allows():
-    machine = munich(1.0)
-    reduced = machine.reduce(0.05)
-    assert reduced.error <= 0.05 < machine.with_modes(reduced.modes - 1).error
-    assert machine.reduce(1e-12).error == 0.0
-    assert "vectors" in repr(reduced)
-
-
 def test_a_steady_force_bends_the_reduced_rotor_as_all_modes_do():
     """At bearings, sensors and touchdown bearings no compliance is lost, however few modes are kept."""
     few, every = MACHINE.with_modes(2).equations, MACHINE.with_modes(1000).equations
@@ -143,50 +135,6 @@ def test_a_drop_from_the_centre_is_free_fall_and_then_a_mass_on_springs():
     assert errors[1] < 0.3 * errors[0]
 
 
-@pytest.mark.deep
-@pytest.mark.jit_only
-def test_a_drop_of_the_reduced_rig_is_that_of_all_its_modes():
-    """Times and peaks of the first contacts at both ends, within the error of the reduction; later ones differ as contacts amplify it."""
-    bearings = [MagneticBearing(node, 50.0, -1e5, PID(5000.0, 0.0, 5.0, 1e-4)) for node in (3, 11)]
-    machine, found = munich(1.0, bearings=bearings), []
-    for reduced in (machine.reduce(0.02), machine.with_modes(1000)):
-        motion = cm.simulate(reduced.model, cm.drop(), "8 ms")
-        planes = [motion.seen_at(plane).contacts for plane in (0, 1)]
-        found.append([[each.time[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
-    reduced, full = np.array(found)
-    assert reduced[:, 0] == pytest.approx(full[:, 0], rel=1e-3)
-    assert reduced[:, 1:] == pytest.approx(full[:, 1:], rel=0.02)
-
-
-@pytest.mark.deep
-@pytest.mark.jit_only
-def test_the_loss_of_a_blade_of_the_reduced_rig_is_that_of_all_its_modes():
-    """Time, force and impulse of the first contact at both ends; measured 0.7 % of the force, 0.1 % of the impulse."""
-    machine, found = cm.rotors.load_machine("examples/tum-flexible-rotor.toml"), []
-    for reduced in (machine.reduce(0.02), machine.with_modes(1000)):
-        scales = reduced.model.scales
-        loss = cm.disturbances.BladeLoss(800e-6 / scales.mass / scales.length)
-        motion = cm.simulate(*loss.apply(reduced.model, 0.3), "40 ms")
-        planes = [motion.seen_at(plane).contacts for plane in (0, 1)]
-        found.append([[each.time[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
-    reduced, full = np.array(found)
-    assert reduced[:, 0] == pytest.approx(full[:, 0], rel=1e-4)
-    assert reduced[:, 1:] == pytest.approx(full[:, 1:], rel=machine.reduce(0.02).error)
-
-
-@pytest.mark.jit_only
-def test_the_rig_levitates_and_is_dropped_by_the_verbs_of_every_rotor():
-    model = MACHINE.model
-    assert model.weight is not None
-    assert model.system.rest_radius < 0.5
-    kicked = cm.simulate(model, cm.kick("5 mm/s"), "50 ms")
-    assert not len(kicked.contacts)
-    loads = cm.motions.drop_loads(cm.simulate(model, cm.drop(), "50 ms"))
-    assert min(each.contacts for each in loads.planes) > 0
-    weight = MACHINE.rotor.mass * 9.81
-    assert weight < loads.planes[0].si()["force"] < 50.0 * weight
-
-
 @pytest.mark.jit_only
 def test_a_dropped_rotor_that_bends_comes_to_rest():
     """Its unbalance shakes it where it lies, in hundreds of steps a turn; it goes round nothing."""
@@ -213,11 +161,6 @@ def test_mounts_and_races_are_those_of_the_touchdown_bearing():
     own = stiffness[place, place].real * MACHINE.speed**2 / mass[place, place].real
     assert own == pytest.approx(2e6 / 0.3)
     assert linear.equations.planes[0, place] == pytest.approx(-math.sqrt(MACHINE.rotor.mass))
-
-
-def test_without_bearings_the_rotor_is_free():
-    model = munich(bearings=(), gravity=None).with_modes(4).model
-    assert np.abs(model.system.exponents + 1j).min() < 1e-6
 
 
 @pytest.mark.parametrize(

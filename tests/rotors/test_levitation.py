@@ -6,17 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from flexible_machines import SOFT, munich, replaced, symmetric
+from flexible_machines import munich, replaced, symmetric
 
 from carom.base.outcome import InputError
 from carom.rotors import (
-    PID,
-    FlexibleMachine,
-    FlexibleRotor,
     MagneticBearing,
-    ModalDamping,
-    Section,
-    TouchdownPlane,
     Unbalance,
     campbell,
     find_whirls,
@@ -68,17 +62,6 @@ def test_senses_and_damping_ratios():
     assert lowest["forward"] > lowest["backward"]
 
 
-def test_whirls_part_with_the_speed():
-    found = campbell(MACHINE, [1e-3, 300.0, 900.0], count=4)
-    standing, faster = np.sort(np.abs(found.frequencies[0])), found.frequencies[2]
-    assert standing[0] == pytest.approx(standing[1], rel=1e-6)
-    assert faster[faster > 0.0].min() > standing[0] > -faster[faster < 0.0].max()
-    assert found.levitates.all()
-    # The slowest four are not the same ones at all speeds.
-    assert found.damping_ratios.shape == (3, 5)
-    assert "Campbell" in repr(found)
-
-
 def test_a_column_is_one_whirl_over_all_speeds():
     """Its shape stays alike from speed to speed, where another whirl crosses its frequency too."""
     speeds = np.linspace(20.0, 900.0, 45)
@@ -94,24 +77,6 @@ def test_a_column_is_one_whirl_over_all_speeds():
     # Whirls cross: their order by frequency changes.
     order = np.argsort(np.abs(found.frequencies), axis=1)
     assert (order != order[0]).any()
-
-
-def test_speeds_may_come_in_any_order():
-    there, back = campbell(MACHINE, [100.0, 500.0, 900.0], count=6), campbell(MACHINE, [900.0, 500.0, 100.0], count=6)
-    assert np.array_equal(there.exponents, back.exponents[::-1])
-
-
-def test_a_shaft_with_few_whirls_has_all_of_them():
-    rotor = FlexibleRotor([Section(0.5, 0.02)], [], ModalDamping(0.01), 1.0)
-    machine = FlexibleMachine(rotor, 100.0, 2e-4, [], [TouchdownPlane(0, SOFT, 0.01, 0.1)])
-    # Two bending modes of one element, each in two senses, and a free top.
-    assert campbell(machine, [100.0, 200.0]).exponents.shape == (2, 5)
-
-
-def test_a_speed_at_which_a_whirl_grows_is_told():
-    """Internal damping is none of the model, but a delay makes the bending mode grow."""
-    late = [MagneticBearing(each.node, each.ki, each.ks, each.controller, delay="8 ms") for each in MACHINE.bearings]
-    assert not campbell(replaced(MACHINE, bearings=late), [300.0]).levitates.any()
 
 
 def test_unbalance_response_is_that_of_the_finite_elements():
@@ -202,10 +167,3 @@ def test_peaks_and_zones():
 def test_what_cannot_be_used_is_refused_in_one_line(make, says):
     with pytest.raises(InputError, match=says):
         make()
-
-
-def test_without_filter_and_integral_the_loop_has_no_states():
-    stiff = [MagneticBearing(each.node, each.ki, each.ks, PID(6000.0)) for each in MACHINE.bearings]
-    machine = replaced(MACHINE, bearings=stiff)
-    assert machine.whole.states == 2 * machine.whole.vectors
-    assert find_whirls(machine)[0].damping_ratio > 0.0

@@ -98,20 +98,6 @@ def test_controllers_of_all_kinds_are_the_same(load):
             assert np.abs(other - exponent).min() < 1e-9 * (1.0 + abs(exponent))
 
 
-def test_materials_and_dimensions_are_those_of_their_tables(load):
-    mass = load(SMALL).parameters.scales.mass
-    shaft = np.pi / 4.0 * (7850.0 * (0.02**2 * 0.1 + (0.02**2 - 0.01**2) * 0.4) + 4500.0 * 0.02**2 * 0.1)
-    assert mass == pytest.approx(shaft + 7850.0 * np.pi / 4.0 * (0.08**2 - 0.02**2) * 0.01, rel=1e-12)
-
-
-def test_settings_change_the_rotor_and_its_weight(load):
-    assert load(SMALL).gravity is None
-    case = load(SMALL, "gravity=1.62 m/s^2", "speed=6000 rpm", "accuracy=0.05")
-    assert case.gravity.acceleration == 1.62
-    assert case.parameters.scales.speed == pytest.approx(200.0 * np.pi)
-    assert len(case.parameters.equations.mass) > len(load(SMALL).parameters.equations.mass)
-
-
 def without(text, line):
     assert line in text
     return text.replace(line, "")

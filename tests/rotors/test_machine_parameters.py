@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import json
-import math
-import pickle
 from pathlib import Path
 
 import numpy as np
 import pytest
-from flexible_machines import munich, symmetric
+from flexible_machines import symmetric
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.models import LinearEquations, Rotor, rotor_from
-from carom.parameters import Gravity
+from carom.models import LinearEquations, Rotor
 from carom.rotors import PID, MagneticBearing, StateSpace
 
 EXAMPLE = Path("examples/tum-flexible-rotor.toml")
@@ -31,10 +27,6 @@ SETTINGS = (
 @pytest.fixture(scope="module")
 def case():
     return cm.load(EXAMPLE, ["accuracy=0.5"])
-
-
-def exponents(model):
-    return np.sort_complex(model.system.exponents)
 
 
 def test_settings_name_entries_of_all_parts_or_of_one():
@@ -100,15 +92,6 @@ def test_numbers_of_the_equations_are_told_to_the_machine(case):
     assert [each.surface_speed for each in turned.equations.touchdowns] == pytest.approx(
         [each.surface_speed for each in other.equations.touchdowns]
     )
-
-
-def test_names_and_units_are_told(case):
-    model = case.parameters
-    assert model.varied["proportional"].unit == "A/m"
-    assert model.varied["proportional_2"].words == "proportional gain, of magnetic bearing 2"
-    assert model.varied["touchdown_stiffness_1"].name == "touchdown_stiffness_1"
-    assert not [name for name in model.varied if name.startswith("wall_")]
-    assert "gravity" in cm.models.rotor_of(case).varied
 
 
 def test_several_controllers_have_what_all_have():
@@ -179,48 +162,3 @@ def test_what_cannot_be_set_gets_one_line(setting, says):
     with pytest.raises(InputError, match=says) as told:
         cm.load(EXAMPLE, [setting])
     assert "\n" not in str(told.value)
-
-
-def test_a_machine_comes_back_from_its_attributes(case):
-    bearings = [
-        MagneticBearing(1, 50.0, -1e5, PID(9000.0, 0.0, 10.0, 1e-4), delay=2e-5),
-        MagneticBearing(2, 50.0, -1e5, StateSpace([[-1e4]], [1e4], [-1e5], 1.09e5)),
-    ]
-    for model in (case.parameters, symmetric(bearings=bearings).with_modes(3).unchecked):
-        again = rotor_from(json.loads(json.dumps(model.attributes())))
-        assert again.finite_elements is not None
-        assert np.array_equal(again.equations.stiffness, model.equations.stiffness)
-        assert np.array_equal(again.equations.damping, model.equations.damping)
-        changes = {"ki_1": 51.0, "friction": 0.05}
-        assert np.allclose(
-            exponents(again.replace(**changes)), exponents(model.replace(**changes)), rtol=1e-9, atol=1e-9
-        )
-
-
-def test_a_model_goes_to_other_processes(case):
-    model = cm.models.rotor_of(case)
-    again = pickle.loads(pickle.dumps(model))
-    assert again.forces
-    assert np.array_equal(
-        again.replace(proportional=5100.0).system.exponents, model.replace(proportional=5100.0).system.exponents
-    )
-
-
-def test_weight_keeps_its_size_at_other_speeds():
-    machine = munich(gravity=Gravity(2.0)).with_modes(4)
-    moved = machine.model.replace(speed=200.0, clearance=1e-4)
-    made = machine.machine.replace(speed=200.0, clearance=1e-4).with_modes(4).model
-    assert moved.value("gravity") == pytest.approx(2.0, rel=1e-14)
-    assert moved.system.rest_radius == pytest.approx(made.system.rest_radius, rel=1e-11)
-
-
-def test_attributes_make_a_plain_rotor(case):
-    plain = case.parameters.replace(forcing=np.zeros(len(case.parameters.equations.forcing)))
-    assert plain.finite_elements is None
-    assert not plain.equations.forcing.any()
-
-
-def test_parts_are_replaced_as_they_are():
-    machine = munich()
-    assert dataclasses.replace(machine, gravity=None).value("gravity") == 0.0
-    assert machine.replace(gravity="1 m/s^2").gravity == Gravity(1.0, -0.5 * math.pi)

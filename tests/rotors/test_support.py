@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +11,9 @@ from scipy.linalg import eigvals
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.cli.app import main
 from carom.rotors import (
     Support,
     Unbalance,
-    campbell,
     find_whirls,
     sensitivity,
 )
@@ -186,32 +183,6 @@ def test_sensitivity_of_supports_that_are_nearly_alike_is_that_of_alike_ones():
     assert np.abs(nearly.values) == pytest.approx(np.abs(alike.values), rel=1e-8)
 
 
-def test_whirls_are_followed_over_the_speed():
-    speeds = np.linspace(50.0, 600.0, 12)
-    found = campbell(MACHINE, speeds.tolist(), count=8)
-    for speed, row in zip(speeds[::4].tolist(), found.exponents[::4], strict=True):
-        own = [each.exponent for each in find_whirls(MACHINE, speed, count=40)]
-        for exponent in row:
-            assert np.abs(np.array(own) - exponent).min() < 1e-7 * abs(exponent)
-    assert found.plot() is not None
-
-
-def test_more_states_are_told():
-    alike = replaced(MACHINE, supports=[])
-    assert MACHINE.with_modes(8).states == 2 * (alike.with_modes(8).states + 2)  # one vector more, for the seal
-
-
-def test_entries_are_parameters():
-    moved = MACHINE.replace(kxx="1e5 N/m", cyy_1=70.0)
-    assert (moved.supports[0].kxx, moved.supports[0].cyy) == (1e5, 70.0)
-    assert MACHINE.value("kxy") == 3e4
-    model = MACHINE.with_modes(6).linear
-    assert model.replace(kyy=6e4).finite_elements.machine.supports[0].kyy == 6e4
-    again = cm.models.rotor_from(model.attributes())
-    assert again.finite_elements.machine.supports == MACHINE.supports
-    assert again.system.arrays["mirror_columns"].tolist() == model.system.arrays["mirror_columns"].tolist()
-
-
 def test_a_support_that_drives_whirl_is_refused():
     with pytest.raises(InputError, match="grows"):
         _ = replaced(MACHINE, supports=[Support(7, 1e5, 1e5, 1e6, -1e6)]).with_modes(6).linear
@@ -236,14 +207,3 @@ def test_bad_supports_are_refused(changes, words):
 def test_what_rests_on_alike_directions_is_refused(verb):
     with pytest.raises(InputError, match="anisotropic bearings"):
         verb(MACHINE.with_modes(3).linear)
-
-
-def test_steady_motions_are_told_without_rubs(capsys, tmp_path):
-    path = tmp_path / "mine.toml"
-    text = Path("examples/tum-flexible-rotor.toml").read_text(encoding="utf-8")
-    path.write_text(f"{text}\n[[support]]\nnode = 7\nkxx = 2e4\nkyy = 5e3\ncxx = 20.0\ncyy = 20.0\n", encoding="utf-8")
-    assert cm.load(path).parameters.system.is_anisotropic
-    assert main(["orbits", str(path)]) == 0
-    told = " ".join(capsys.readouterr().out.split())
-    assert "levitation" in told
-    assert "Where bearings are anisotropic, rubs and whirls are not steady" in told

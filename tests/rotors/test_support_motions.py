@@ -11,7 +11,7 @@ from limited_reference import clipped, follow
 
 import carom as cm
 from carom.base.outcome import Outcome
-from carom.disturbances import BaseShock, BladeLoss
+from carom.disturbances import BladeLoss
 from carom.motions import State, energy_ledger
 from carom.parameters import Gravity
 from carom.rotors import PID, MagneticBearing, Support, Unbalance
@@ -125,17 +125,6 @@ def test_a_rotor_dropped_onto_one_support_falls_on(support):
     assert ends_of(motion, scales) / scales.length == pytest.approx(places / scales.length, abs=1e-6)
 
 
-def test_shocks_end_as_their_stages_do():
-    model = REDUCED.model
-    shock = BaseShock.of(model, "30 g", "2 ms")
-    for direction in (0.0, 1.0):
-        state = shock.release(model, direction)
-        stages, start = shock.apply(model, direction)
-        motion = cm.simulate(stages, start, shock.duration * (1.0 + 1e-12))
-        assert np.asarray(state.position) == pytest.approx(motion.parts[0].final.position, abs=1e-9)
-        assert np.asarray(state.velocity) == pytest.approx(motion.parts[0].final.velocity, abs=1e-8)
-
-
 @pytest.mark.parametrize("phase", [0.0, 1.1])
 def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_only_unbalance(phase):
     model = REDUCED.model
@@ -146,11 +135,3 @@ def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_on
     assert np.array([state.position, state.velocity]) == pytest.approx(start, abs=1e-12)
     assert changed.angle == pytest.approx(before.angle)
     assert changed.size * np.exp(1j * turned) == pytest.approx(before.size + 2.0 * before.size * np.exp(1j * phase))
-
-
-def test_disturbances_find_their_attractors():
-    basin = cm.map_basins(REDUCED.model, cm.Grid(cm.disturbances.VelocityKick(0.5), (2, 3)))
-    assert basin.share_recovered.total == 6
-    assert basin.share_recovered.count >= 1
-    found = cm.find_attractors(REDUCED.model, cm.attractors.DisturbanceSet(count=4, fastest=0.5))
-    assert "levitation" in [attractor.words for attractor in found] or found

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from studies import study_once
 
 from carom.attractors import find_attractors
 from carom.base.files import as_json
@@ -158,28 +156,3 @@ def test_disturbances_that_come_to_a_limit_are_counted_and_whether_they_come_bac
     assert "a control force of at most 1,000 N along each axis against a negative stiffness of 420,000 N/m" in text
     assert f"{sum(asked)} of 12 disturbances bring them to this limit" in text
     assert json.loads(as_json(demand.document()))["disturbances"]["at_limit"] == sum(asked)
-
-
-@pytest.mark.jit_only
-def test_what_must_be_survived_asks_for_a_multiple_of_the_largest_rate():
-    machine = Machine.from_parameters(QUIET).replace(**BEARING_NUMBERS, slew_rate_limit="40 kA/s")
-    result = dataclasses.replace(study_once(QUIET), case=Case("limited", QUIET, machine, Zones()))
-    demand = result.bearing_demand
-
-    assert demand.slew.most == 4e4
-    assert demand.is_exceeded is (demand.demand > 1.0)
-    assert "The current of one magnetic bearing changes by at most 40,000 A/s" in demand.words
-    assert json.loads(as_json(demand.document()))["slew_rate"] == {"limit_si": 4e4, "demand": demand.demand}
-
-
-@pytest.mark.deep
-def test_no_instant_of_fresh_motions_asks_for_more_than_the_largest_value_found():
-    rng = np.random.default_rng(20)
-    for _ in range(300):
-        numbers = {"gamma": rng.uniform(0.01, 1.5), "omega": 10 ** rng.uniform(-0.7, 1.0), "mu": rng.uniform(0.0, 0.4)}
-        case = rated("eccentricity=0.1 mm", *(f"{name}={value!r}" for name, value in numbers.items()))
-        start = State(rng.uniform(0, 0.9) * np.exp(1j * rng.uniform(0, 7)), complex(*rng.normal(0.0, 0.5, 2)))
-        motion = simulate(case, start, 40.0)
-        centre = centre_along(motion, np.sort(rng.uniform(0.0, motion.time, 50_000)))
-        limit = slew_limit_of(case)
-        assert limit.asked(*centre).max() <= largest_along(motion, limit) * (1 + 1e-3)

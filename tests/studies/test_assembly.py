@@ -1,6 +1,5 @@
 """A study as a whole: what it finds, and that its words promise nothing."""
 
-import dataclasses
 import json
 import math
 import re
@@ -10,9 +9,8 @@ import pytest
 from studies import study_once
 
 from carom.base.files import as_json
-from carom.base.outcome import InputError, Outcome
-from carom.parameters import Case, Machine, Parameters, Requirement, Zones
-from carom.studies import study
+from carom.base.outcome import Outcome
+from carom.parameters import Case, Machine, Parameters, Zones
 from carom.studies.coverage import NOT_COVERED
 from carom.studies.facts import about
 from carom.studies.summaries import motion_rows
@@ -75,28 +73,6 @@ def test_real_machine(real):
     }
     along_damping = next(entry for entry in real.recoveries if entry.along.name == "gamma")
     assert along_damping.spans[0].low.value * scales.damping == pytest.approx(RUB_FOLD, abs=1e-3)
-
-
-def test_subjects_of_any_kind_give_the_same():
-    machine = REAL.replace(damping="6000 N s/m", friction=0.0)
-    results = [study(subject).to_dict() for subject in (machine, Case("real", machine.parameters, machine, Zones()))]
-
-    for result in results:
-        assert result["drop"].pop("name") == result.pop("name")
-    assert results[0] == results[1]
-    with pytest.raises(InputError, match=r"machine = .*: a Machine, a Case"):
-        study("keogh-cole.toml")
-
-
-def test_si_and_dimensionless_give_the_same_motion(real):
-    same = Requirement(kick=real.required.kick)
-    bare = study(dataclasses.replace(REAL.parameters, scales=None), requirement=same)
-
-    assert [orbit.period for orbit in bare.orbits] == [orbit.period for orbit in real.orbits]
-    assert [(e.attractor, e.time) for e in bare.attractors.endings] == [
-        (e.attractor, e.time) for e in real.attractors.endings
-    ]
-    assert bare.ranges == real.ranges
 
 
 def test_all_comes_back_where_no_other_motion_can_hold_the_rotor(real):
@@ -194,17 +170,6 @@ def test_machine_on_the_boundary():
     assert result.verdict.level == "no-contact-free-motion"
 
 
-@pytest.mark.deep
-def test_undamped_machine_says_what_was_not_searched():
-    result = study_once(SOURCE.replace(gamma=0.0, rho=0.1))
-
-    assert not result.orbits.complete
-    assert "may be more" in finding(result, "Bouncing")
-    assert "vibrations do not decay" in finding(result, "Levitation")
-    assert result.recoveries[1].range_of("single-impact") is None
-    assert "was not searched" in finding(result, "What would change it")
-
-
 def test_tables_hold_every_motion(real):
     names = [row.name for row in motion_rows(real)]
 
@@ -296,37 +261,3 @@ def test_json_has_nothing_that_is_not_finite(real):
     (entry,) = [e for e in document["ranges"] if e["motion"] == "contact-free" and e["parameter"] == "gamma"]
     assert entry["spans"][0][1] is None
     assert strict(as_json({"a": [math.nan, -math.inf, complex(1.0, math.inf)]})) == {"a": [None, None, [1.0, None]]}
-
-
-def test_json_without_scales_has_no_si_values():
-    document = study_once(SOURCE).to_dict()
-
-    def keys(value):
-        if isinstance(value, dict):
-            yield from value
-            for entry in value.values():
-                yield from keys(entry)
-        elif isinstance(value, list):
-            for entry in value:
-                yield from keys(entry)
-
-    assert document["machine_si"] is None
-    assert document["scales_si"] is None
-    assert {key for key in keys(document) if key.endswith("_si")} == {"machine_si", "scales_si"}
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        pytest.param({"gamma": 1e3}, marks=pytest.mark.deep),
-        {"gamma": 1e3, "omega": 1e3},
-        pytest.param({"omega": 1e3}, marks=pytest.mark.deep),
-        pytest.param({"mu": 10.0}, marks=pytest.mark.deep),
-    ],
-)
-def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
-    # The damping searched must not leave the range that parameters may have.
-    result = study_once(SOURCE.replace(**changes))
-
-    assert all(check.value <= 1e3 for entry in result.recoveries for check in entry.checks)
-    assert result.levitates

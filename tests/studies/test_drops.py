@@ -75,20 +75,6 @@ def test_a_rigid_wall_has_impulses_in_place_of_forces():
     assert plane["loads"]["force_is_of_lasting_contact"]
 
 
-def test_whirl_that_goes_on():
-    found = dropped("dropped-rotor", at=cm.disturbances.whirl("0.2 mm", "-150 Hz"))
-    ((_, rows),) = found.tables
-    assert found.headline.startswith("Rolling backward whirl, since ")
-    assert dict(rows)["whirl at the end"] == "backward, 12,000 Hz (80 times the shaft); it goes on"
-
-
-def test_no_contact():
-    found = dropped("touchdown-balls", "2 ms")
-    ((_, rows),) = found.tables
-    assert dict(rows)["peak force"] == "none: it did not touch"
-    assert not any(check.exceeded for check in found.checks)
-
-
 def test_as_json(whirl):
     document = json.loads(as_json(whirl.document()))
     (plane,) = document["touchdown_bearings"]
@@ -102,14 +88,3 @@ def test_as_json(whirl):
     assert plane["whirl"]["direction"] == "backward"
     assert not plane["whirl"]["goes_on"]
     assert [entry["name"] for entry in plane["limits"]] == ["force", "heat", "depth", "pressure"]
-
-
-def test_several_planes_have_tables_of_their_own():
-    from linear_rotors import tilting
-
-    rotor = tilting().model
-    motion = cm.simulate(rotor, cm.kick(1.5), 20.0)
-    case = cm.parameters.Case("tilting", rotor, None, cm.parameters.Zones())
-    found = DropStudy(case, cm.disturbances.echo.Echo("kick", "Kick", {}), drop_loads(motion))
-    assert [title for title, _ in found.tables] == ["Touchdown bearing 1", "Touchdown bearing 2"]
-    assert dict(found.tables[0][1])["hardest impact"].startswith("impulse ")

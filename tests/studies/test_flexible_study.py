@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.rotors import Whirl, find_whirls, load_machine
-from carom.rotors.collocation import Collocation
+from carom.rotors import find_whirls, load_machine
 from carom.rotors.synchronous import synchronous_response
 from carom.studies.facts import about
 from carom.studies.findings import facts_of
@@ -116,15 +115,6 @@ def test_the_amplification_factor_is_that_of_the_damping_ratio():
         key=lambda each: abs(2.0 * math.pi * each.frequency - lowest.speed),
     )
     assert lowest.factor == pytest.approx(0.5 / whirl.damping_ratio, rel=0.1)
-
-
-@pytest.mark.parametrize(
-    ("sensor", "magnet", "opposed", "hardly"),
-    [(0.5, 0.4, False, False), (0.5, -0.4, True, False), (0.5j, 0.4j, False, False), (0.01, -0.5, False, True)],
-)
-def test_a_node_between_sensor_and_magnet(sensor, magnet, opposed, hardly):
-    found = Collocation(1, Whirl(1j, np.ones(2, complex), np.zeros(2, complex)), sensor, magnet)
-    assert (found.opposed, found.hardly) == (opposed, hardly)
 
 
 def test_of_motions_without_contact_the_orbit_is_told_not_the_start():

@@ -9,7 +9,7 @@ import pytest
 import carom as cm
 from carom.models import rotor_of
 from carom.motions import drop_loads
-from carom.parameters import Case, LoadLimits, Required, Shock, Zones
+from carom.parameters import LoadLimits, Required, Shock
 from carom.studies import check_loads
 from carom.studies.full_size import all_round, at_full_size
 
@@ -91,13 +91,3 @@ def test_the_worst_at_full_size_is_compared_with_the_limits():
     assert shocks.checks[0].exceeded
     assert [entry["name"] for entry in shocks.document()["limits"]] == list(ALL.given)
     assert at_full_size(rotor, Required(1e-3, None, None), ALL)[0].checks[0].value == 0.0
-
-
-@pytest.mark.jit_only
-def test_a_study_says_it():
-    calm = MACHINE.parameters.replace(gamma=0.65, mu=0.0)
-    case = Case("calm", calm, None, Zones(), LoadLimits(force="1 N", impulse="1 kN s"))
-    found = cm.study(case, cm.disturbances.Sample(cm.disturbances.VelocityKick(1.5), 20))
-    said = [fact.text for fact in found.facts if fact.topic == "Touchdown loads"]
-    assert [f"Kick, {check.words}." for check in found.full_size[0].checks] == said[1:]
-    assert said[1].endswith("limit 1,000 N s: kept.")

@@ -20,7 +20,6 @@ from carom.proofs.evidence import Evidence
 from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
-from carom.report import report_page, write_report
 from carom.studies import study
 from carom.studies.document import study_document
 from carom.studies.proven import is_proven, proven_words
@@ -177,12 +176,3 @@ def test_study_proves_the_kicks_that_must_be_survived():
     assert found.proof is not None
     without = study(DAMPED.replace(rho=0.9), proofs=True, requirement=Requirement(kick=0.5), proof_time=20.0)
     assert without.survives is without.kicks is None
-
-
-@pytest.mark.jit_only
-def test_report_shows_what_is_proven(half, tmp_path):
-    page = write_report(half, str(tmp_path / "out")).read_text(encoding="utf-8")
-    assert "What is proven of kicks" in page
-    assert "25\\xa0% of the kicks" in page.replace("\xa0", "\\xa0")
-    assert (tmp_path / "out" / "figures" / "proven-kicks.svg").exists()
-    assert "proven of kicks" not in report_page(replace(half, kicks=None), [])

@@ -7,7 +7,6 @@ import pytest
 from compilation import sized
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from machines import random_parameters
 
 from carom.base.outcome import Outcome
 from carom.closed_forms.equilibria import find_equilibria
@@ -18,7 +17,7 @@ from carom.models import Edge, Span, axis, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import orbits_within_reach
-from carom.parameters import Machine, Parameters
+from carom.parameters import Parameters
 from carom.studies.ranges import MotionRange, motion_ranges
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -99,28 +98,6 @@ def test_thresholds_of_the_source_machine():
     assert (rub.exists, rub.edge.kind) == ("below", "rub-fold")
 
 
-def test_rub_pushes_at_its_fold_and_not_beyond_the_point_where_the_fold_meets_the_circle():
-    # At the fold N = κ − ρμ/√(1+μ²), so the kind of the end changes at κ = ρμ/√(1+μ²).
-    kappa = 3 / 7 * 0.15 / math.hypot(1.0, 0.15)
-    for factor, kind in ((1.1, "rub-fold"), (0.9, "boundary-equilibrium")):
-        parameters = SOURCE.replace(omega=math.sqrt(1.0 - factor * kappa))
-        (threshold,) = steady_range(parameters, "rub", "gamma").thresholds
-        assert threshold.edge.kind == kind
-        below = parameters.replace(gamma=threshold.edge.value * (1.0 - 1e-6))
-        forces = [entry.normal_force for entry in find_equilibria(jeffcott(below))[1:] if entry.status == "admissible"]
-        assert len(forces) == (2 if kind == "rub-fold" else 1)
-
-
-@settings(max_examples=60)
-@given(parameters=planar)
-def test_where_a_rub_exists_a_stable_one_does(parameters):
-    found = [entry for entry in find_equilibria(jeffcott(parameters))[1:] if entry.status == "admissible"]
-
-    forces = [entry.normal_force for entry in found]
-    assume(all(force > 1e-9 for force in forces) and (len(forces) < 2 or abs(forces[0] - forces[1]) > 1e-6))
-    assert any(entry.stable for entry in found) == bool(found)
-
-
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
@@ -149,27 +126,10 @@ def test_without_friction_nothing_rolls_and_without_unbalance_nothing_rubs(gain)
     assert steady_range(SOURCE.replace(rho=0.0), "contact-free", gain).spans == (Span(Edge(0.0), Edge(math.inf)),)
 
 
-def test_search_ends_are_no_thresholds():
-    edge = Edge(2.0, "fold", 1.5)
-    found = MotionRange("single-impact", "gamma", (Span(Edge(0.1), edge),), Span(Edge(0.1), Edge(8.0)))
-
-    assert [(entry.edge, entry.exists) for entry in found.thresholds] == [(edge, "below")]
-    assert found.exists_at(2.0)
-    assert not found.exists_at(2.1)
-
-
 # ------------------------------------------------------------------------------------------------ orbits
 
 
 README = load("examples/keogh-cole.toml").machine
-SPINDLE = Machine(
-    mass=3.2, damping=350.0, stiffness=4e5, eccentricity=0.9947e-6, clearance=0.25e-3, rotor_radius=15e-3,
-    speed="24000 rpm", unbalance_phase=0.0, friction=0.2, restitution=0.7,
-)  # fmt: skip
-COMPRESSOR = Machine(
-    mass=4000.0, damping=2.8e5, stiffness=1.2e8, eccentricity=3.98e-6, clearance=0.3e-3, rotor_radius=0.15,
-    speed="6000 rpm", unbalance_phase=0.0, friction=0.2, restitution=0.7,
-)  # fmt: skip
 
 
 def orbit_ranges(parameters, gain, progress=None):
@@ -207,14 +167,6 @@ def test_no_orbit_of_the_readme_machine_above_the_stiffness_at_which_levitation_
     assert (end.edge.kind, end.exists) == ("non-smooth-hopf", "below")
 
 
-@pytest.mark.parametrize("machine", [SPINDLE, COMPRESSOR], ids=["spindle", "compressor"])
-@pytest.mark.parametrize("gain", ["gamma", "omega"])
-def test_machines_whose_roots_are_all_virtual_have_no_orbit_at_any_gain(machine, gain):
-    for found in orbit_ranges(machine.parameters, gain):
-        assert found.spans == ()
-        assert found.thresholds == ()
-
-
 def test_fold_and_period_doubling_of_the_source_machine():
     found, stable = orbit_ranges(SOURCE, "gamma")
 
@@ -228,57 +180,12 @@ def test_fold_and_period_doubling_of_the_source_machine():
     assert end.edge.value == pytest.approx(fold.edge.value, rel=1e-14)
 
 
-def test_folds_along_both_gains_are_the_same_curve():
-    parameters = SOURCE.replace(gamma=0.1779)
-    folds = [end for end in orbit_ranges(parameters, "omega")[0].thresholds if end.edge.kind == "fold"]
-
-    assert len(folds) >= 1
-    for fold in folds:
-        same = orbit_ranges(parameters.replace(omega=fold.edge.value), "gamma")[0].thresholds
-        # Along omega the fold is nearly a fold of the curve itself: its place is softer than its damping.
-        assert min(abs(end.edge.value - 0.1779) for end in same) < 1e-12
-
-
 def test_ranges_agree_with_the_certified_orbits():
     random = np.random.default_rng(3)
     machines = [SOURCE, SOURCE.replace(gamma=0.1779), SOURCE.replace(omega=0.4, gamma=0.3), SOURCE.replace(d=1.0)]
     for parameters in machines[: sized(4, 1, 4)]:
         for gain, low, high in (("gamma", 0.02, 1.0), ("omega", 0.5 * parameters.omega, 2.0 * parameters.omega)):
             check(parameters, gain, np.exp(random.uniform(math.log(low), math.log(high), sized(10, 2, 40))))
-
-
-@pytest.mark.deep
-@pytest.mark.jit_only
-def test_ranges_of_random_machines_agree_with_the_certified_orbits():
-    random = np.random.default_rng(11)
-    for _ in range(100):
-        parameters = random_parameters(random, gamma=float(10 ** random.uniform(-1.5, 0.0)))
-        for gain in ("gamma", "omega"):
-            ranges = orbit_ranges(parameters, gain)
-            if ranges:
-                low, high = ranges[0].searched.low.value, ranges[0].searched.high.value
-                check(parameters, gain, np.exp(random.uniform(math.log(low), math.log(high), 30)))
-
-
-@pytest.mark.parametrize("gain", ["gamma", "omega"])
-def test_a_balanced_rotor_has_no_orbit_along_either_gain(gain):
-    """``F₁`` does not know the unbalance and has roots all the same; no orbit belongs to them."""
-    balanced = orbit_ranges(SOURCE.replace(rho=0.0), gain)
-    assert [found.spans for found in balanced] == [(), ()]
-    assert [found.motion for found in balanced] == ["single-impact", "stable-single-impact"]
-
-
-@pytest.mark.parametrize("gamma", [0.0, -0.1, 1e-5])
-def test_no_search_along_stiffness_without_damping_or_with_too_many_orbits(gamma):
-    assert orbit_ranges(SOURCE.replace(gamma=gamma), "omega") == ()
-
-
-def test_progress_grows_to_one():
-    shares = []
-    orbit_ranges(SOURCE, "gamma", lambda report: shares.append(report.share))
-
-    assert shares == sorted(shares)
-    assert shares[-1] == 1.0
 
 
 # ------------------------------------------------------------------------------------------------ any parameter
@@ -310,13 +217,3 @@ def test_ends_along_any_parameter_say_what_happens_there():
         there = rotor.replace(speed=edge.value)
         assert (edge.kind, abs(there.equilibrium)) == ("boundary-equilibrium", pytest.approx(1.0, rel=1e-12))
     assert len(found["contact-free"].thresholds) == 2
-
-
-def test_a_physical_parameter_has_the_ranges_of_its_dimensionless_one():
-    rotor = jeffcott(README.parameters)
-    for own, physical in zip(
-        *(motion_ranges(rotor, axis(rotor, name)) for name in ("omega", "stiffness")), strict=True
-    ):
-        assert (physical.parameter, physical.motion) == ("stiffness", own.motion)
-        values = [edge.value**2 * README.scales.stiffness for span in own.spans for edge in span]
-        assert [edge.value for span in physical.spans for edge in span] == pytest.approx(values, rel=1e-14)

@@ -7,12 +7,11 @@ from linear_rotors import touchdowns
 import carom as cm
 from carom.base.outcome import InputError
 from carom.closed_forms import harmless_kick
-from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
+from carom.disturbances import AnyState, Sample, VelocityKick
 from carom.models import from_matrices, jeffcott
 from carom.motions import settle
 from carom.parameters import Parameters
 from carom.studies import check_recovery, find_recovery
-from carom.studies.trials import in_all
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 SPEED = 1.3
@@ -74,25 +73,6 @@ def test_every_check_has_a_sample_of_its_own_and_all_of_it(along_damping):
         assert check.recovers
 
 
-def test_the_same_seed_gives_the_same_range(along_damping):
-    again = find_recovery(SOURCE, "gamma", tried(), within=(0.1, 4.0), seed=3, threads=1)
-    assert again.spans == along_damping.spans
-    assert [(check.value, check.returned) for check in again.checks] == [
-        (check.value, check.returned) for check in along_damping.checks
-    ]
-
-
-def test_shocks_and_losses_of_a_blade_are_followed_too():
-    kinds = [Sample(BaseShock(0.5, 2.0), 100), Sample(BladeLoss(0.2), 100)]
-    check = check_recovery(SOURCE.replace(gamma=0.6), kinds, seed=1)
-    assert check.recovers
-    assert check.tried == 392
-    # After so large a change the rotor cannot levitate, whatever its phase.
-    lost = check_recovery(SOURCE.replace(gamma=0.6), [Sample(BladeLoss(3.0), 100)], seed=1)
-    assert lost.drawn.count == 0
-    assert lost.example.model.kind == "blade-loss"
-
-
 def test_any_parameter_of_any_model():
     rotor = from_matrices(
         mass=[[1.0]],
@@ -142,17 +122,6 @@ def test_what_is_required_decides_not_whether_a_rub_could_hold_the_rotor():
     # No farther than the damping may be changed.
     (searched,) = found.searched
     assert searched.high.value == pytest.approx(2.0 * SOURCE.gamma)
-
-
-def test_where_nothing_levitates_nothing_recovers():
-    found = find_recovery(SOURCE, "gamma", tried(50), within=(0.02, 0.06))
-    assert found.spans == ()
-    assert all(check.example.motion is None for check in found.checks)
-
-
-def test_samples_keep_their_proportions():
-    kinds = in_all([Sample(VelocityKick(1.0), 600), Sample(AnyState(1.0), 400)], 10_000)
-    assert [sample.count for sample in kinds] == [6000, 4000]
 
 
 @pytest.mark.parametrize(

@@ -1,16 +1,13 @@
 """Studies of machines that weigh something."""
 
-import json
 import math
 
 import numpy as np
 import pytest
 
 import carom as cm
-from carom.base.files import as_json
 from carom.base.outcome import InputError
 from carom.closed_forms.sag import Levitation
-from carom.report.figures import pictures
 from carom.studies.facts import about
 
 pytestmark = pytest.mark.jit_only
@@ -63,12 +60,3 @@ def test_a_harmless_kick_never_touches(found):
         motion = cm.simulate(cm.load(HEAVY), cm.kick(0.9999 * harmless, f"{angle} deg"))
         assert not len(motion.contacts)
         assert not motion.lasting_contacts
-
-
-def test_its_document_and_figures(found):
-    document = json.loads(as_json(found.to_dict()))
-    (held,) = document["equilibria"]
-    assert held["kind"] == "contact-free"
-    assert complex(*held["sag"]) == pytest.approx(found.equilibria[0].sag)
-    names = [picture.name for picture in pictures(found)]
-    assert "overview" not in names

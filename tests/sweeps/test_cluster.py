@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from sweep_tasks import Deadly, Drawn, basins_plan, plan_of, stored_bytes
+from sweep_tasks import Drawn, basins_plan, plan_of, stored_bytes
 
 from carom.base.outcome import CaromError, InputError
 from carom.sweeps import run_sweep
@@ -108,40 +108,6 @@ def test_worker_killed_during_the_run_costs_nothing(cluster, tmp_path):
     cluster.wait_for(2)
 
 
-def test_few_chunks_are_with_the_scheduler_at_a_time(cluster, tmp_path):
-    plan, seen = plan_of(Drawn(), count=60, chunk=1), []
-    with distributed.Client(scheduler_file=str(cluster.file), set_as_default=False) as client:
-
-        def look(report):
-            if round(report.share * plan.points) % 20 == 0:
-                seen.append(client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)))
-
-        run_sweep(plan, tmp_path / "s.zarr", scheduler=client, progress=look)
-        after = client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks))
-
-    assert len(seen) == 3
-    assert max(seen) <= 8
-    assert after <= 4
-
-
-def test_chunk_that_kills_every_worker_is_told_as_failed(tmp_path):
-    """Workers with a nanny come again; after some losses the scheduler gives the chunk up."""
-    import dask
-
-    plan = plan_of(Deadly(above=0.95), chunk=5)
-    with (
-        dask.config.set({"distributed.scheduler.allowed-failures": 0, "distributed.admin.log-length": None}),
-        distributed.LocalCluster(
-            n_workers=1, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=60
-        ) as local,
-        distributed.Client(local, set_as_default=False) as client,
-    ):
-        tally = run_sweep(plan, tmp_path / "s.zarr", scheduler=client)
-
-    assert (tally.done, tally.failed) == (5, 5)
-    assert "too many workers were lost" in (tmp_path / "s.zarr" / "records" / "0000001.json").read_text()
-
-
 def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path, capfd):
     plan = plan_of(Drawn(seconds_taken=0.05), count=40, chunk=1)
     own = Cluster(tmp_path)
@@ -171,33 +137,3 @@ def test_scheduler_that_cannot_be_reached_is_named(address, tmp_path, monkeypatc
 
     with pytest.raises(InputError, match=f"^--scheduler = {address}: must be the address of a Dask scheduler"):
         run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler=address)
-
-
-def test_worker_of_another_version_is_refused(cluster, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.sweeps.versions.version", lambda name: "9.9")
-
-    with pytest.raises(CaromError, match=r"worker on .* has carom .*, this is 9\.9; install"):
-        run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler=str(cluster.file))
-
-
-def test_worker_that_knows_other_code_is_one_line(cluster, tmp_path):
-    class Unknown(Drawn):
-        """A task whose module the workers have, without this class."""
-
-    Unknown.__module__, Unknown.__qualname__ = "sweep_tasks", "Unknown"
-    import sweep_tasks
-
-    sweep_tasks.Unknown = Unknown
-    try:
-        with pytest.raises(CaromError, match=r"a worker cannot load carom .*Unknown") as caught:
-            run_sweep(plan_of(Unknown()), tmp_path / "s.zarr", scheduler=str(cluster.file))
-    finally:
-        del sweep_tasks.Unknown
-
-    assert "\n" not in str(caught.value)
-
-
-def test_absent_packages_are_named(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(InputError, match=r"needs dask.distributed; .*carom\[cluster\]"):
-        run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler="tcp://127.0.0.1:1")

@@ -4,7 +4,6 @@ import os
 import random
 import shutil
 
-import numpy as np
 import pytest
 from compilation import sized
 from damage import KINDS, damage, misplace
@@ -54,59 +53,12 @@ def test_damaged_chunk_is_computed_again(whole, store, name, kind):
     assert run(store).damaged == ()
 
 
-@pytest.mark.parametrize("kind", ["empty", "cut", "flip", "deleted"])
-def test_chunk_without_its_status_is_computed_again(whole, store, kind):
-    damage(store / "status/c/2", random.Random(1), kind)
-
-    assert run(store).computed == 3
-    assert stored_bytes(store) == stored_bytes(whole)
-
-
-@pytest.mark.parametrize("data", [bytes(4), b"\xff" * 8])
-def test_what_agrees_with_its_end_but_is_too_short_is_no_chunk(whole, store, data):
-    (store / "value/c/1").write_bytes(data)
-    assert run(store).damaged == (1,)
-    assert stored_bytes(store) == stored_bytes(whole)
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "wrong"),
-    [
-        ("value/c/1", "value/c/2", {1, 2}),
-        ("value/c/1", "draw/c/1", {1}),
-        ("status/c/0", "status/c/3", {0, 3}),
-        ("records/0000001.json", "records/0000002.json", {1, 2}),
-    ],
-)
-def test_exchanged_files_are_noticed(whole, store, first, second, wrong):
-    one, other = (store / first).read_bytes(), (store / second).read_bytes()
-    (store / first).write_bytes(other)
-    (store / second).write_bytes(one)
-    assert set(run(store).damaged) == wrong
-    assert stored_bytes(store) == stored_bytes(whole)
-
-
-def test_chunk_under_the_name_of_another_is_noticed(whole, store):
-    """All its files, the record too: they agree with each other, but not with their place."""
-    for name in ("value/c/{}", "draw/c/{}", "status/c/{}", "records/000000{}.json"):
-        shutil.copy(store / name.format(0), store / name.format(1))
-    assert run(store).damaged == (1,)
-    assert stored_bytes(store) == stored_bytes(whole)
-
-
 def test_chunk_of_another_plan_is_noticed(whole, store, tmp_path):
     run(tmp_path / "other.zarr", plan_of(Failing(above=0.85), count=10, chunk=3, seed=6))
     for name in ("value/c/1", "draw/c/1", "status/c/1", "records/0000001.json"):
         shutil.copy(tmp_path / "other.zarr" / name, store / name)
     assert run(store).damaged == (1,)
     assert stored_bytes(store) == stored_bytes(whole)
-
-
-def test_chunks_that_wait_are_not_missing(store):
-    (store / "status/c/1").unlink()
-    (store / "value/c/1").unlink()
-
-    assert np.isnan(open_sweep(store).value[3:6]).all()
 
 
 def test_other_readers_of_zarr_notice_too(store):
@@ -133,53 +85,6 @@ def test_chunk_with_a_broken_record_is_computed_again(whole, store, text):
     tally = run(store)
     assert (tally.damaged, tally.failed) == ((3,), 2)
     assert stored_bytes(store) == stored_bytes(whole)
-
-
-@pytest.mark.parametrize(
-    "name", ["status/c/x", "status/c/99", "status/c/007", "value/c/99", "records/notes.json", "mine"]
-)
-def test_folders_that_are_not_in_the_way_do_no_harm(store, name):
-    (store / name).mkdir()
-    (store / "status/c/٣").touch()
-
-    assert run(store).damaged == ()
-    assert open_sweep(store).status.values.tolist() == [1] * 8 + [2] * 2
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("value/c/1", "Is a directory"),
-        ("status/c/1", "Is a directory"),
-        ("records/0000003.json", "Is a directory"),
-        ("zarr.json", "Is a directory"),
-    ],
-)
-@pytest.mark.skipif(os.name != "posix", reason="words of POSIX systems")
-def test_folders_in_the_way_are_one_line(store, name, words):
-    (store / name).unlink()
-    (store / name).mkdir()
-    with pytest.raises(InputError, match=rf"^--out = .*cannot be read or written \({words}: .*{name}\)"):
-        run(store)
-
-
-@pytest.mark.parametrize("name", [".parts", "records", ".lock"])
-def test_what_stands_in_the_way_of_writing_is_one_line(store, name):
-    place = store / name
-    shutil.rmtree(place) if place.is_dir() else place.unlink()
-    place.touch() if name != ".lock" else place.mkdir()
-    (store / "status/c/0").unlink()
-    with pytest.raises(InputError, match=r"^--out = "):
-        run(store)
-
-
-def test_folder_among_unfinished_files_is_one_line(store):
-    (store / ".parts" / "mine").mkdir()
-    (store / "status/c/0").unlink()
-    with pytest.raises(InputError, match=r"^--out = .*\.parts/mine"):
-        run(store)
-    (store / ".parts" / "mine").rmdir()
-    assert run(store).computed == 3  # nothing is left locked
 
 
 @pytest.mark.parametrize("seed", range(sized(20, 20, 2500)))

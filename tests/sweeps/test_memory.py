@@ -3,14 +3,13 @@
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 import xarray
-from sweep_tasks import Drop, Failing, plan_of, stored_bytes
+from sweep_tasks import Drop, stored_bytes
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.disturbances import Grid, KickPlane, Sample, VelocityKick
+from carom.disturbances import Sample, VelocityKick
 from carom.sweeps import GridAxis, StudyTask, load_sweep, open_sweep, plan_sweep, run_sweep
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
@@ -76,37 +75,6 @@ def test_own_disturbances_on_processes_and_in_memory(tmp_path, machine):
     assert data["recovered"].values[2] == back.mean()
 
 
-@pytest.mark.jit_only
-def test_a_grid_is_the_same_at_each_point_and_a_sample_is_not(machine):
-    kicks = Grid(KickPlane(0.3), (5, 6))
-    data = run_sweep(plan_sweep(machine, AXES[1:], kicks)).dataset
-
-    for place, damping in enumerate(data["damping"].values):
-        share = cm.map_basins(machine.parameters.replace(damping=damping), kicks).share_recovered
-        assert data["recovered"].values[place] == share.fraction == data["recovered_low"].values[place]
-    plan = plan_sweep(machine, AXES[1:], Sample(KickPlane(0.3), 30))
-    rotors = [cm.models.jeffcott(plan.case_at((place,)).parameters) for place in (0, 1)]
-    first, second = (plan.task.plan(rotor.scales, plan.seed_of((n,))).starts(rotor) for n, rotor in enumerate(rotors))
-    assert (first.velocities != second.velocities).all()
-
-
-def test_failures_are_kept_in_memory():
-    tally = run_sweep(plan_of(Failing(above=0.45), chunk=5))
-
-    assert (tally.done, tally.failed) == (4, 6)
-    assert tally.failures[0]["values"] == {"gamma": 0.5}
-    np.testing.assert_array_equal(tally.dataset["status"], [1] * 4 + [2] * 6)
-
-
-def test_sizes_keep_si_or_their_number(tmp_path, machine):
-    scales = machine.parameters.scales
-    half = cm.parameters.Scales(scales.mass, scales.clearance, scales.speed / 2.0)
-    (tmp_path / "sweep.toml").write_text(FILE.format(work=KICKS.replace('"0.1 m/s"', "0.2")))
-
-    assert plan_sweep(machine, AXES, Sample(VelocityKick(0.2), 3)).task.model(half).fastest == pytest.approx(0.4)
-    assert load_sweep(tmp_path / "sweep.toml").task.model(half).fastest == 0.2
-
-
 @pytest.mark.parametrize(
     ("axes", "more", "words"),
     [
@@ -120,11 +88,6 @@ def test_sizes_keep_si_or_their_number(tmp_path, machine):
 def test_what_cannot_be_planned(machine, axes, more, words):
     with pytest.raises(InputError, match=words):
         plan_sweep(machine, axes, StudyTask(), **more)
-
-
-def test_what_is_dimensionless_has_no_physical_axes(source_paper):
-    with pytest.raises(InputError, match=r"axes\.speed = .*dimensionless"):
-        plan_sweep(source_paper, AXES, StudyTask())
 
 
 @pytest.mark.parametrize(

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import bending, tilting
+from linear_rotors import tilting
 
 import carom as cm
 from carom.base.outcome import InputError
 from carom.disturbances import Grid, VelocityKick
-from carom.models import axis
 from carom.parameters import Scales
 from carom.sweeps import GridAxis, open_sweep, plan_sweep, run_sweep
 
@@ -34,24 +32,6 @@ def test_a_linear_rotor_is_swept_over_its_parameters(tmp_path):
             assert found.recovered.values[i, j] == expected.share_recovered.fraction
     assert found.equals(kept)
     assert (found.smallest_unrecovered_kick.fillna(0.8) <= 0.8).all()
-
-
-@pytest.mark.jit_only
-def test_one_plane_of_several_is_varied():
-    rotor = bending().model
-    along = axis(rotor, "mu_2")
-    plan = plan_sweep(rotor, [GridAxis.of(along, [0.05, 0.2])], KICKS)
-    assert [
-        [each.friction for each in machine.equations.touchdowns] for machine in (plan.case_at((0,)), plan.case_at((1,)))
-    ] == [
-        [rotor.equations.touchdowns[0].friction, 0.05],
-        [rotor.equations.touchdowns[0].friction, 0.2],
-    ]
-    data = run_sweep(plan).dataset
-    assert data["mu_2"].attrs["long_name"] == "coefficient of friction at touchdown bearing 2"
-    labels = cm.plots.sweep_map(data, "recovered").axes[0].get_xlabel()
-    assert labels.startswith("coefficient of friction at touchdown bearing 2")
-    assert np.isfinite(data.recovered.values).all()
 
 
 def test_what_cannot_be_swept():

@@ -8,7 +8,6 @@ import pytest
 from sweep_tasks import Drawn, Failing, basins_plan, plan_of
 
 from carom.basins import share_of_kicks
-from carom.models import jeffcott
 from carom.sweeps.chunk import compute_chunk, failed_chunk
 from carom.sweeps.plan import cut
 from carom.sweeps.studies import StudyTask
@@ -99,37 +98,3 @@ def test_si_variables_are_there_with_scales(keogh_cole):
     assert found["levitation_radius_si"] == found["levitation_radius"] * 0.7e-3
     assert names["levitation_radius_si"].attributes["units"] == "m"
     assert names["zone"].attributes["flag_meanings"] == "A B C D"
-
-
-@pytest.mark.jit_only
-def test_basins_count_every_possible_start():
-    from carom.base.outcome import Outcome
-
-    plan = basins_plan(starts=40)
-    found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))
-    place = plan.task.dimensions[0].values.index(Outcome.LEVITATED)
-
-    assert found["counts"].sum() == found["possible"] == 40
-    assert found["recovered"] == found["counts"][place] / 40
-    assert found["recovered_low"] < found["recovered"] <= found["recovered_high"]
-
-
-@pytest.mark.jit_only
-def test_the_smallest_kick_that_is_lost_and_its_direction():
-    from carom import settle
-    from carom.base.outcome import Outcome
-
-    plan = basins_plan(starts=40, damping=(0.1, 0.2))
-    starts = plan.task.plan(None, plan.seed_of((0, 0))).starts(_rotor(plan))
-    outcomes = settle(_rotor(plan), starts.positions, starts.velocities).outcomes
-    gone = starts.velocities[~np.isin(outcomes, (Outcome.LEVITATED, Outcome.GRAZING))]
-    smallest = gone[np.abs(gone).argmin()]
-    found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))
-    assert found["smallest_unrecovered_kick"] == abs(smallest)
-    assert found["smallest_unrecovered_kick_angle"] == np.angle(smallest)
-    assert "smallest_unrecovered_kick_si" not in found
-
-
-def _rotor(plan):
-
-    return jeffcott(plan.case_at((0, 0)).parameters)

@@ -1,23 +1,18 @@
 """The same bytes whoever computes, and whatever ends the sweep in the middle."""
 
 import os
-import re
 import signal
 import subprocess
 import sys
-import threading
 import time
-import warnings
-from itertools import count
 from pathlib import Path
 
 import numpy as np
 import pytest
-from sweep_tasks import Deadly, Drawn, Failing, Warned, basins_plan, plan_of, stored_bytes
+from sweep_tasks import Deadly, Drawn, basins_plan, plan_of, stored_bytes
 
-from carom.base.outcome import CaromError, CaromWarning, InputError
+from carom.base.outcome import InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
-from carom.sweeps.local import AHEAD, on_processes, on_threads
 
 SWEEP = """
 machine = "machine.toml"
@@ -96,25 +91,6 @@ def test_killed_sweep_goes_on_to_the_same_bytes(tmp_path):
     assert {file: file.stat().st_mtime_ns for file in kept} == kept
 
 
-@posix
-@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")
-def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
-    code = "import sweep_tasks as s; from carom.sweeps import run_sweep; plan = s.plan_of(s.Drawn(600.0), 2, 1);"
-    code += f"run_sweep(plan, {str(tmp_path / 's.zarr')!r}, workers=2)"
-    process = subprocess.Popen([sys.executable, "-c", code], env=_environment())
-    workers = []
-    while process.poll() is None and len(workers) < 4:  # two are trackers of resources
-        time.sleep(0.05)
-        workers = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-    time.sleep(1.0)
-    process.kill()
-    process.wait()
-    while any(Path(f"/proc/{worker}").exists() for worker in workers):
-        time.sleep(0.05)
-
-    assert len(workers) == 4
-
-
 @pytest.mark.parametrize("moment", [0.0, 0.05, 0.3])
 @posix
 def test_interrupt_says_how_to_go_on(tmp_path, moment):
@@ -166,15 +142,6 @@ print(tally.done, tally.failed, open_sweep("s.zarr").value.values.round(3).tolis
 
 
 @posix
-def test_lost_process_is_replaced_and_its_chunk_tried_again(tmp_path):
-    plan = plan_of(Deadly(above=0.55, trace=str(tmp_path / "trace")))
-    tally = run_sweep(plan, tmp_path / "s.zarr", workers=2)
-
-    assert (tmp_path / "trace").exists()
-    assert (tally.done, tally.failed) == (10, 0)
-
-
-@posix
 def test_chunk_that_kills_every_process_fails_and_the_others_go_on(tmp_path):
     plan = plan_of(Deadly(above=0.95))
     tally = run_sweep(plan, tmp_path / "s.zarr", workers=2)
@@ -206,61 +173,6 @@ def test_worker_killed_from_outside_costs_nothing(tmp_path):
     assert not multiprocessing.active_children()
 
 
-@pytest.mark.parametrize("compute", [on_threads, on_processes])
-def test_chunks_are_taken_from_the_plan_as_they_are_needed(compute):
-    taken = []
-
-    def endless():
-        for number in count():
-            taken.append(number)
-            yield number % 5
-
-    chunks = compute(plan_of(Drawn()), endless(), 2)
-    for received in range(1, 12):
-        next(chunks)
-        assert len(taken) <= received + 2 * (2 * AHEAD)  # given to the workers, and received but not yet asked for
-    chunks.close()
-
-
-def test_process_that_cannot_start_is_an_error(monkeypatch):
-    monkeypatch.setattr("carom.sweeps.local._end_with", lambda pipe: os._exit(3))
-
-    with pytest.raises(CaromError, match="worker processes end before they begin"):
-        list(on_processes(plan_of(Drawn()), iter(range(5)), 1))
-
-
-def test_what_all_workers_warn_of_is_said_once(tmp_path):
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("default")
-        tally = run_sweep(plan_of(Warned()), tmp_path / "s.zarr", workers=2)
-
-    assert tally.done == 10
-    assert [(warning.category, str(warning.message)) for warning in told] == [(CaromWarning, "the disk is full")]
-
-
-def test_progress_tells_how_far_and_how_fast(tmp_path):
-    told = []
-    plan = plan_of(Failing(above=0.75), chunk=5)
-    last = run_sweep(plan, tmp_path / "s.zarr", workers=1, threads=True, progress=told.append)
-
-    assert [report.share for report in told] == [0.5, 1.0]
-    assert re.fullmatch(r"5 of 10 points, .+ points/s, .+ left", told[0].step)
-    assert told[1].step.endswith(" left, 3 failed")
-    assert last.left == pytest.approx(0.0)
-    assert (last.computed, last.points) == (10, 10)
-
-
-def test_threads_run_at_the_same_time(tmp_path):
-    meet = threading.Barrier(2, timeout=60)
-
-    class Meeting(Drawn):
-        def evaluate(self, case, seed):
-            meet.wait()
-            return super().evaluate(case, seed)
-
-    assert run_sweep(plan_of(Meeting(), count=8), tmp_path / "s.zarr", workers=2, threads=True).done == 8
-
-
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -271,19 +183,3 @@ def test_threads_run_at_the_same_time(tmp_path):
 def test_options_that_do_not_go(tmp_path, options, words):
     with pytest.raises(InputError, match=words):
         run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", **options)
-
-
-@pytest.mark.jit_only
-def test_workers_that_start_at_once_share_an_empty_cache_of_kernels(tmp_path):
-    """Two processes that compile the same kernels into one directory at the same time."""
-    code = "import carom, sweep_tasks; rotor = carom.models.jeffcott(sweep_tasks.DAMPED);"
-    code += "print(rotor.system.fly(rotor.system.amplitudes(0.1j, 0.2), [1.0, 2.0]).tolist())"
-    environment = {**_environment(), "CAROM_CACHE_DIR": str(tmp_path)}
-    started = [
-        subprocess.Popen([sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, text=True)
-        for _ in range(2)
-    ]
-    answers = [process.communicate()[0] for process in started]
-
-    assert answers[0] == answers[1] != ""
-    assert list((tmp_path / "kernels").glob("*/carom.core.*"))

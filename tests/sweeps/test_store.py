@@ -4,10 +4,7 @@ import dataclasses
 import errno
 import json
 import os
-import shutil
-import subprocess
 from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,13 +24,6 @@ def fill(path, numbers, plan=PLAN):
         for number in numbers:
             store.write(compute_chunk(plan, number))
     return SweepStore(path, plan)
-
-
-def test_chunks_are_there_as_soon_as_they_are_written(tmp_path):
-    store = fill(tmp_path / "s.zarr", [3, 0, 4])
-
-    assert list(store.waiting()) == [1, 2]
-    assert (store.done, store.failed) == (5, 0)  # the last chunk has one point
 
 
 def test_xarray_opens_what_is_there(tmp_path):
@@ -66,14 +56,6 @@ def test_every_value_lands_in_its_place(tmp_path):
         found = plan.task.evaluate(plan.case_at(point), plan.seed_of(point))
         np.testing.assert_array_equal(data.counts[point], found["counts"])
         assert data.recovered[point] == found["recovered"]
-
-
-def test_other_readers_of_zarr_see_numbers_too(tmp_path):
-    import zarr
-
-    fill(tmp_path / "s.zarr", range(5))
-
-    np.testing.assert_array_equal(zarr.open_group(tmp_path / "s.zarr", mode="r")["value"][:], PLAN.axes[0].values)
 
 
 @pytest.mark.parametrize(
@@ -116,10 +98,6 @@ def test_place_with_something_else_is_left_alone(tmp_path):
     with pytest.raises(InputError, match="must be a directory that a sweep was written to"):
         open_sweep(tmp_path / "there")
     assert (tmp_path / "there" / "thesis.tex").read_text() == "words"
-
-
-def test_empty_directory_becomes_a_store(tmp_path):
-    assert list(SweepStore(tmp_path, PLAN).waiting()) == [0, 1, 2, 3, 4]
 
 
 @pytest.mark.skipif(os.name != "posix", reason="locks of POSIX systems")
@@ -189,49 +167,6 @@ def test_full_disk_is_one_line_and_loses_nothing(tmp_path, monkeypatch, call):
     assert_nothing_lost(path, PLAN, kept)
 
 
-@pytest.fixture
-def small_disk(tmp_path):
-    """A file system of 256 KiB."""
-    place = tmp_path / "disk"
-    place.mkdir()
-    done = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", str(place)], capture_output=True, check=False
-    ) if shutil.which("mount") else None  # fmt: skip
-    if done is None or done.returncode:
-        pytest.skip("only root may mount a small disk")
-    yield place
-    subprocess.run(["umount", str(place)], check=True)
-
-
-def test_disk_that_is_really_full(small_disk):
-    plan = plan_of(Drawn(), count=100, chunk=1)
-    path, kept = small_disk / "s.zarr", {}
-    with pytest.raises(InputError, match="No space left on device"):
-        run_sweep(plan, path, workers=1, threads=True, progress=lambda tally: kept.update(stored_bytes(path)))
-
-    for name, data in kept.items():
-        assert (path / name).read_bytes() == data
-    finished = [int(file.name) for file in (path / "status" / "c").iterdir()]
-    assert len(finished) > 10
-    values = open_sweep(path).value.values
-    np.testing.assert_array_equal(values[finished], plan.axes[0].values[finished])
-    subprocess.run(["mount", "-o", "remount,size=4m", str(small_disk)], check=True)
-    assert run_sweep(plan, path, workers=1, threads=True).done == 100
-
-
-def test_disk_that_is_really_read_only(small_disk):
-    path = small_disk / "s.zarr"
-    fill(path, [0])
-    before = stored_bytes(path)
-    subprocess.run(["mount", "-o", "remount,ro", str(small_disk)], check=True)
-
-    with pytest.raises(InputError, match=r"^--out = .*Read-only file system"):
-        run_sweep(PLAN, path, workers=1, threads=True)
-    with pytest.raises(InputError, match=r"^--out = .*Read-only file system"):
-        run_sweep(PLAN, small_disk / "new.zarr", workers=1, threads=True)
-    assert stored_bytes(path) == before
-
-
 def test_finished_store_needs_no_writing(tmp_path, monkeypatch):
     fill(tmp_path / "s.zarr", range(5))
 
@@ -266,9 +201,3 @@ def test_failures_are_written_down_and_can_be_tried_again(tmp_path):
     assert (tally.done, tally.failed, tally.computed) == (10, 0, 4)
     fresh = run_sweep(plan, tmp_path / "fresh.zarr", workers=1, threads=True)
     assert stored_bytes(path) == stored_bytes(fresh.store)
-
-
-def test_files_are_made_in_the_store_only(tmp_path):
-    fill(tmp_path / "s.zarr", range(5))
-
-    assert [file.name for file in Path(tmp_path).iterdir()] == ["s.zarr"]

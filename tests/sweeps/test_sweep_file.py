@@ -3,13 +3,11 @@
 import json
 import subprocess
 import sys
-import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-import carom
 from carom.base.outcome import InputError
 from carom.disturbances import MODELS
 from carom.loading import load
@@ -91,11 +89,6 @@ def test_axes_and_settings_in_other_terms_are_the_machines_of_the_same_settings(
     assert other.digest != before
 
 
-def test_an_axis_and_a_setting_of_one_number_are_both_named(write):
-    with pytest.raises(InputError, match="damping_ratio = set: sets damping, which is set too"):
-        load_sweep(write(), ["damping_ratio=0.1"])
-
-
 def test_sizes_with_units_stay_and_plain_ones_scale(write):
     with_unit = load_sweep(write())
     plain = load_sweep(write(do=GOOD["do"].replace('"0.1 m/s"', "0.5")))
@@ -104,22 +97,6 @@ def test_sizes_with_units_stay_and_plain_ones_scale(write):
     speeds = [with_unit.task.model(scale).fastest * scale.velocity for scale in scales]
     np.testing.assert_allclose(speeds, 0.1, rtol=1e-15)
     assert [plain.task.model(scale).fastest for scale in scales] == [0.5, 0.5]
-
-
-def test_shock_is_read_in_standard_gravities(write):
-    do = '[basins]\nstarts = 10\ndisturbance = {kind = "shock", peak = "20 g", duration = "11 ms"}'
-    plan = load_sweep(write(do=do))
-    scales = plan.case.parameters.scales
-
-    read, meant = plan.task.model(scales), carom.BaseShock.of(plan.case, "20 g", "11 ms")
-    # Both multiply and divide doubles, not in the same order.
-    np.testing.assert_allclose([read.peak, read.duration], [meant.peak, meant.duration], rtol=1e-15)
-
-
-def test_the_example_names_the_kinds_of_disturbances():
-    (line,) = [line for line in (EXAMPLES / "sweep-gains.toml").read_text().splitlines() if line.startswith("kind = ")]
-    kind, others = line.removeprefix("kind = ").split("# or ")
-    assert [kind.strip(' "'), *others.split(", ")] == list(MODELS)
 
 
 @pytest.mark.parametrize("name", ["sweep-contact.toml", "sweep-gains.toml", "sweep-speed.toml"])
@@ -228,28 +205,6 @@ def test_errors_of_the_machine_file_and_of_settings_are_among_them(write):
     assert [error.field for error in caught.value.errors] == ["mass", "gama", "sweep file"]
 
 
-def test_a_number_without_a_unit_means_the_same_in_quotes_and_without(write):
-    """A parameter of the machine in SI units, a size in units of the equations."""
-    do = '[basins]\nstarts = 10\ndisturbance = {{kind = "kick", fastest = {}}}'
-    speed = "[axes.speed]\nvalues = [{}]"
-    quoted = load_sweep(write(do=do.format('"0.5"'), speed=speed.format('"150"')))
-    plain = load_sweep(write(do=do.format("0.5"), speed=speed.format("150")))
-
-    assert quoted.describe() == plain.describe()
-    assert quoted.axes[1].given == (150.0,)
-    assert quoted.task.model(quoted.case.parameters.scales).fastest == 0.5
-    with pytest.raises(InputError, match=r"axes\.speed\.values = 1 m: .* \(a number without a unit is in rad/s\)"):
-        load_sweep(write(speed=speed.format('"1 m"')))
-    with pytest.raises(InputError, match=r"fastest = 1 m: .* \(a number without a unit is in c_r Omega\)"):
-        load_sweep(write(do=do.format('"1 m"')))
-
-
-def test_an_axis_may_be_followed_downwards(write):
-    plan = load_sweep(write(damping='[axes.damping]\nfrom = "4000 N s/m"\nto = 1000\ncount = 4'))
-
-    np.testing.assert_array_equal(plan.axes[0].values, [4000.0, 3000.0, 2000.0, 1000.0])
-
-
 @pytest.mark.parametrize(
     ("text", "words"), [("", "it is empty"), ("machine = ", "must be valid TOML"), (None, "there is no such file")]
 )
@@ -264,22 +219,6 @@ def test_file_that_is_none(tmp_path, text, words):
 def test_physical_axis_needs_a_machine(write):
     with pytest.raises(InputError, match=r"axes\.damping.*dimensionless"):
         load_sweep(write(top='machine = "numbers.toml"', speed=""))
-
-
-def test_hundred_million_starts_are_planned_without_a_list_of_them(write):
-    axis = "[axes.{}]\nfrom = 0.1\nto = 0.9\ncount = 1000"
-    changes = {"damping": axis.format("gamma"), "speed": axis.format("mu"), "do": GOOD["do"].replace("10", "100")}
-    load_sweep(write())  # what is loaded once is not counted
-    path = write(**changes)
-    tracemalloc.start()
-    plan = load_sweep(path)
-    first = plan.region(0), plan.seed_of((0, 0)), next(plan.points_of(plan.chunks - 1))
-    _, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-
-    assert plan.points * plan.task.starts == 10**8
-    assert first
-    assert peak < 2**20
 
 
 def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_path):
@@ -311,13 +250,6 @@ def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_pa
     done = subprocess.run([sys.executable, "-c", code, *files], capture_output=True, text=True, check=False)
 
     assert (done.stdout.splitlines(), done.stderr) == (["8"] * len(files) + ["[]"], "")
-
-
-def test_too_many_chunks_are_refused(write):
-    axis = "[axes.{}]\nfrom = 0.1\nto = 0.9\ncount = 2000"
-    changes = {"damping": axis.format("gamma"), "speed": axis.format("mu")}
-    with pytest.raises(InputError, match="chunk = 1: gives 4000000 chunks, at most 1000000 are allowed; 4 or more"):
-        load_sweep(write(top=GOOD["top"] + "\nchunk = 1", **changes))
 
 
 def test_more_points_than_any_computer_follows_are_refused_at_once(write):

@@ -3,13 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import carom as cm
 from carom.base.outcome import InputError
 from carom.parameters import Gravity, TouchdownBearing
-from carom.sweeps import GridAxis, StudyTask, load_sweep, plan_sweep
+from carom.sweeps import GridAxis, load_sweep, plan_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SOFT = """
@@ -59,41 +58,6 @@ def test_another_bearing_gravity_or_drive_is_another_plan(machine):
     ]
     digests = [plan_sweep(other, [axis], KICKS).digest for other in others]
     assert len(set(digests)) == len(others)
-
-
-@pytest.mark.jit_only
-def test_kicks_and_studies_of_a_bearing_that_gives_way(machine, tmp_path):
-    fast = cm.disturbances.Sample(cm.disturbances.VelocityKick(0.9), 20, seed=2)
-    cm.run_sweep(plan_sweep(machine, [STIFFNESS], fast), tmp_path / "kicks", workers=1, progress=False)
-    with cm.open_sweep(tmp_path / "kicks") as found:
-        assert found["possible"].values.tolist() == [20, 20]
-        assert (found["status"] == 1).all()
-    task = StudyTask(disturbances=12)
-    cm.run_sweep(plan_sweep(machine, [STIFFNESS], task), tmp_path / "studies", workers=1, progress=False)
-    with cm.open_sweep(tmp_path / "studies") as found:
-        assert (found["status"] == 1).all()
-        rubs = [
-            sum(
-                rub.status == "admissible"
-                for rub in cm.find_equilibria(machine.replace(touchdown_stiffness=each)).members[1:]
-            )
-            for each in (1e7, 1e8)
-        ]
-        assert found["rubs"].values.tolist() == rubs
-        assert np.isnan(found["runaway_speed"]).all()  # known for rigid walls alone
-
-
-@pytest.mark.jit_only
-def test_a_study_under_weight_has_levitation_about_the_sag(machine, tmp_path):
-    weights = GridAxis.of("gravity", [1.0, 2.0])
-    cm.run_sweep(
-        plan_sweep(machine, [weights], StudyTask(disturbances=8)), tmp_path / "heavy", workers=1, progress=False
-    )
-    with cm.open_sweep(tmp_path / "heavy") as found:
-        assert (found["status"] == 1).all()
-        held = [cm.closed_forms.levitation(machine.replace(gravity=each)).reach for each in (1.0, 2.0)]
-        assert found["levitation_radius"].values == pytest.approx(held, rel=1e-12)
-        assert found["rubs"].values.tolist() == [0, 0]
 
 
 def test_what_cannot_be_varied_is_refused(machine, tmp_path):
