@@ -13,7 +13,7 @@ import carom as cm
 from carom.base.outcome import InputError
 from carom.disturbances import BladeLoss
 
-MACHINE, BALLS = "examples/dropped-rotor.toml", "examples/touchdown-balls.toml"
+MACHINE = "examples/dropped-rotor.toml"
 MASS, DAMPING, STIFFNESS, SPEED = 5.0, 900.0, 5e5, 300.0 * math.pi
 PEAK, LASTS, DIRECTION = 0.3 * 9.80665, 0.011, 0.7
 
