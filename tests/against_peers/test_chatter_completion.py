@@ -1,12 +1,7 @@
 """What completing a chatter costs: against every bounce in 70 digits, by a prediction, and in the package's own loop."""
 
-import json
-import os
-import subprocess
-import sys
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 import mpmath as mp
 import numpy as np
@@ -114,28 +109,3 @@ def test_compiled_loop_ends_where_every_bounce_does(chatter):
     position, velocity = chatter.state(last)
     assert abs(trajectory.final.position - position) < allowed
     assert abs(trajectory.final.velocity - velocity) < 2.0 * allowed
-
-
-@pytest.mark.parametrize("chatter", [SLIPPING[0.3], SLIPPING[0.9], STICKING[0.3]], ids=["slip", "slow", "stick"])
-def test_loop_with_other_heights_completes_as_derived(chatter):
-    """The package's own source, run without compiler: its error at every height is the predicted one."""
-    case = {
-        "machine": chatter.parameters.as_dict(),
-        "position": [chatter.start.position.real, chatter.start.position.imag],
-        "velocity": [chatter.start.velocity.real, chatter.start.velocity.imag],
-        "until": chatter.until,
-        "heights": HEIGHTS,
-    }
-    command = [sys.executable, Path(__file__).parent / "varied_chatter.py", json.dumps(case)]
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
-    finished = subprocess.run(command, check=True, capture_output=True, text=True, env=environment)
-    exact, _ = chatter.state(chatter.rebounds[-1])
-    for final, rebound in zip(json.loads(finished.stdout), chatter.rebounds[:-1], strict=True):
-        position, velocity = complex(*final[:2]), complex(*final[2:])
-        expected_position, expected_velocity = chatter.state(rebound)
-        assert abs(position - expected_position) < ROUNDING
-        assert abs(velocity - expected_velocity) < ROUNDING
-        if rebound.sticks == (chatter in STICKING.values()):
-            predicted = abs(float(chatter.rotor.predicted_error(rebound)))
-            # Of the leading order, from which the earliest completion of all differs by 6.4 %, and each later one by less.
-            assert abs(position - exact) == pytest.approx(predicted, rel=0.07, abs=ROUNDING)

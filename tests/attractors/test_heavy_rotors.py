@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from heavy_rotors import LANDING, PARTING, RIGID, SIX, heavy, of_two_coordinates
+from heavy_rotors import PARTING, RIGID, SIX, heavy, of_two_coordinates
 from scipy.optimize import brentq
 
 import carom as cm
@@ -101,29 +101,6 @@ def test_motions_are_followed_further_under_weight_that_points_as_it_does_there(
         whole = cm.simulate(SIX, cm.State(starts[0][place], starts[1][place]), 12.0).final
         assert further.positions[place] == pytest.approx(whole.position, abs=1e-11)
         assert further.state(place).time == 12.0
-
-
-def test_starts_of_an_ensemble_are_taken_at_their_times():
-    orbit = settled_motion(cm.simulate(SIX, cm.State(0.2 + 0.1j, 1.0), settle=True)).orbit
-    begin = orbit.departure
-    ends = cm.settle(SIX, [begin.position], [begin.velocity], begins=[begin.time], until=orbit.period, patience=0)
-    assert ends.state(0).time == pytest.approx(begin.time + orbit.period)
-    same = cm.simulate(SIX, begin, orbit.period).final
-    assert ends.positions[0] == pytest.approx(same.position, abs=1e-12)
-    # So are single starts whose ends are named.
-    (ending,) = find_attractors(SIX, [begin], known=False).endings
-    assert ending.start.state.time == begin.time
-    assert ending.attractor.multiplicity == 6
-
-
-def test_the_least_number_of_impacts_is_not_that_of_alike_bounces_of_a_chatter():
-    motion = cm.simulate(LANDING, cm.State(0.2 + 0.1j, 1.0), settle=True)
-    assert motion.multiplicity == 20
-    # From any of its impacts on, also from those late in the chatter.
-    for event in np.flatnonzero(motion.is_impact)[-20:].tolist():
-        position, velocity = LANDING.system.state(motion.arrivals[event])
-        start = cm.State(complex(position), complex(velocity), time=float(motion.segment_starts[event + 1]))
-        assert cm.simulate(LANDING, start, settle=True).multiplicity == 20
 
 
 def test_whirl_that_never_repeats_takes_no_whole_turns():

@@ -6,14 +6,13 @@ import pytest
 import carom
 from carom.attractors import find_attractors, following
 from carom.attractors.survival import Survival
-from carom.base.outcome import CaromError, InputError, Outcome
+from carom.base.outcome import CaromError, Outcome
 from carom.base.progress import Reporter
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts, kick
+from carom.disturbances import Starts, kick
 from carom.models import jeffcott
 from carom.motions import settling
 from carom.motions.ensembles import Endings
-from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits, orbits_within_reach
 from carom.parameters import Parameters
@@ -54,13 +53,6 @@ def test_all_attractors_of_the_source_machine(found):
     assert found["synchronous rub"].largest_force == pytest.approx(rub.normal_force, rel=1e-8)
     assert found["rolling backward whirl"].whirl == "backward"
     assert found["levitation"].whirl == found["synchronous rub"].whirl == "forward"
-
-
-@pytest.mark.jit_only
-def test_motions_go_on_from_the_states_given(found):
-    for member in found:
-        motion = simulate(found.rotor, member.state, 1e5, settle=True)
-        assert (motion.outcome, motion.multiplicity) == (member.name.outcome, member.name.multiplicity)
 
 
 @pytest.mark.jit_only
@@ -138,71 +130,6 @@ def test_two_impacts_a_period_beyond_the_period_doubling():
 
 
 @pytest.mark.jit_only
-@pytest.mark.parametrize("gamma", [0.05, 0.1, 0.15])
-def test_every_start_ends_as_it_does_alone(gamma):
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=24, seed=3)
-
-    for ending in found.endings:
-        alone = simulate(found.rotor, ending.start.state, settle=True)
-        impulses = alone.contacts.normal_impulse
-        assert (ending.attractor.outcome, ending.impacts) == (alone.outcome, len(impulses))
-        # Together they are proven to levitate at the end of a block of flight, which lasts at most 3/Omega.
-        assert ending.time <= alone.time + 3.001
-        assert ending.hardest_impulse == pytest.approx(impulses.max(initial=0.0), rel=1e-9)
-
-
-@pytest.mark.jit_only
-def test_representative_is_the_gentlest_kick(found):
-    kicks = [e.start.speed for e in found.ending_on("B1,d") if e.start.kind == "kick"]
-
-    assert found["B1,d"].representative.kind == "kick"
-    assert found["B1,d"].representative.speed == min(kicks)
-    assert found.smallest_unrecovered_kick == min(
-        e.start.speed for e in found.endings if e.start.kind == "kick" and e.attractor != "levitation"
-    )
-
-
-@pytest.mark.jit_only
-def test_known_motion_is_found_though_no_disturbance_reaches_it():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.4)))
-
-    assert found["rolling backward whirl"].count == 0
-    assert found["rolling backward whirl"].known == 2
-    assert found["rolling backward whirl"].representative.kind == "whirl"
-    assert found["levitation"].share_of_disturbances == 1.0
-    assert found.smallest_unrecovered_kick is None
-
-
-@pytest.mark.jit_only
-def test_given_starts_replace_the_sample():
-    found = find_attractors(jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
-
-    assert [ending.start.kind for ending in found.endings] == ["kick", "start"]
-    assert found.endings[0].recovered
-    assert found.fastest == pytest.approx(1.9)  # in the room the second moves at |1j + 0.9j|
-
-
-@pytest.mark.jit_only
-@pytest.mark.parametrize("plan", [Grid(BaseShock(2.5, 0.9), (6, 8)), Sample(KickPlane(0.4), 60, seed=2)])
-def test_any_plan_ends_as_its_basins_do(plan):
-    rotor = jeffcott(SOURCE.replace(gamma=0.15, rho=0.3))
-    found, basin = find_attractors(rotor, plan, known=False), carom.map_basins(rotor, plan)
-
-    assert [ending.attractor for ending in found.endings] == [
-        basin.motions[place] for place in basin.dataset["motion"].values[basin.exists]
-    ]
-    assert [ending.touched for ending in found.endings] == basin.touched[basin.exists].tolist()
-    assert [ending.time for ending in found.endings] == basin.dataset["time"].values[basin.exists].tolist()
-    kicks = {ending.start.kind for ending in found.endings} == {"kick"}
-    assert kicks == isinstance(plan.model, KickPlane)
-
-
-def test_kicks_out_of_no_levitation_are_an_error():
-    with pytest.raises(InputError, match="one that is possible"):
-        find_attractors(jeffcott(SOURCE.replace(gamma=0.05)), Sample(KickPlane(0.4), 10))
-
-
-@pytest.mark.jit_only
 def test_where_orbits_cannot_be_listed_disturbances_are_followed_all_the_same():
     """Without damping, at a resonance of flight and shaft, the closed form has no list; there are no starts next to orbits then."""
     undamped = SOURCE.replace(gamma=0.0, omega=2 / 3)
@@ -221,12 +148,6 @@ def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     assert last.name == "unresolved: time-reached"
     assert (last.count, last.settled, last.touches) == (2, False, False)
     assert found.members[0].name == "levitation"
-
-
-@pytest.mark.jit_only
-def test_start_outside_the_wall_is_an_error():
-    with pytest.raises(InputError, match="inside the wall"):
-        find_attractors(jeffcott(SOURCE), [State(1.5 + 0j)], known=False)
 
 
 # ------------------------------------------------------------------------------------------------ growing patience
@@ -272,30 +193,9 @@ def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
 FOREVER = 10**9
 
 
-def test_few_irregular_motions_are_all_followed_to_the_end(monkeypatch):
-    names, impacts = fates(monkeypatch, [FOREVER] * 3 + [500])
-
-    assert names == ["irregular"] * 3 + ["periodic"]
-    assert impacts == [20_000] * 3 + [500]
-
-
-def test_none_is_taken_for_another(monkeypatch):
-    names, impacts = fates(monkeypatch, [9000] + [FOREVER] * 20 + [5000] * 10)
-
-    assert names == ["periodic"] + ["irregular"] * 20 + ["periodic"] * 10
-    assert impacts == [9000] + [20_000] * 20 + [5000] * 10
-
-
 def test_what_would_take_too_long_is_not_followed_to_its_end(monkeypatch):
     monkeypatch.setattr(following, "AFFORDABLE", 3999)
     names, impacts = fates(monkeypatch, [FOREVER] * 2, survival=DIES)
 
     assert names == ["irregular"] * 2
     assert impacts == [20_000] * 2
-
-
-def test_patience_below_the_first_look_is_kept(monkeypatch):
-    names, impacts = fates(monkeypatch, [FOREVER, 50], patience=100)
-
-    assert names == ["irregular", "periodic"]
-    assert impacts == [100, 50]

@@ -100,17 +100,6 @@ def test_motions_that_stay_low_on_the_wall_for_longer_than_a_chatter_have_left(m
     assert looks[5:7] == [200, 100]  # low at the third, fourth, fifth and sixth look
 
 
-def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
-    def settle(rotor, positions, velocities, *, patience, begins=0.0, threads=None):
-        count = len(positions)
-        return ensemble(np.zeros(count, int), np.full(count, Outcome.GRAZING))
-
-    monkeypatch.setattr(module, "settle", settle)
-    found = measure_survival(None, np.ones(1, complex), np.ones(1, complex), impacts=20_000)
-    assert (found.motions, found.died, found.half_life) == (0, 0, None)
-    assert found.interval == (0.0, math.inf)
-
-
 @pytest.mark.jit_only
 def test_motions_of_an_ensemble_are_followed_to_where_they_end():
     rotor = jeffcott(PAPER.replace(gamma=0.08))

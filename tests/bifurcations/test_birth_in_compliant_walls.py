@@ -180,9 +180,3 @@ def test_without_stiffness_at_the_edge_levitation_goes_on_smoothly_until_it_fold
     assert below == pytest.approx([depth, depth], rel=0.03)
     assert np.mean(below) == pytest.approx(depth, rel=1e-3)
     assert not above
-
-
-def test_without_dissipation_only_the_longer_orbit_is_born():
-    (elastic,) = cm.bifurcations.boundary_equilibria(jeffcott(PAPER.replace(d=1.0)))[0].orbits
-    assert elastic.name == "B1,b"
-    assert elastic.period > 3.0

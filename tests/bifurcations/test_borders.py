@@ -7,7 +7,7 @@ from functools import cache, reduce
 import numpy as np
 import pytest
 
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import Outcome
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.neighbours import BORDERS
 from carom.models import jeffcott
@@ -93,13 +93,6 @@ def test_slip_stop_of_a_single_impact_orbit_is_that_of_the_closed_form():
     orbit = find_orbits(PAPER.replace(radius_ratio=1.0))["B1,d"]
     (known,) = [each for each in continue_orbit(orbit, "radius_ratio", (0.5, 1.2)).special if each.kind == "slip-stop"]
     assert stopped().value == pytest.approx(known.value, abs=1e-11)
-
-
-def test_no_orbit_is_constructed_beyond_other_points():
-    with pytest.raises(InputError, match="special point"):
-        switch(located("fold", 0.08267))
-    with pytest.raises(InputError, match="another flight"):
-        BORDERS["vanishing-impact"](find_orbits(PAPER)["B1,d"])
 
 
 # ------------------------------------------------------------------------- special points of three impacts

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import Outcome
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
@@ -12,7 +12,7 @@ from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits
-from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -127,39 +127,3 @@ def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
     assert rub.normal_force < 1e-3
     assert (bouncing.outcome, bouncing.multiplicity) == (Outcome.BOUNCING, 1)
     assert bouncing.contacts.radial_speed[-1] == pytest.approx(1e-3 * stable[0].speed_rate, rel=2e-2)
-
-
-def test_machine_that_levitates_with_any_damping_has_no_boundary():
-    assert boundary_equilibria(jeffcott(SOURCE.replace(omega=2.0))) == ()
-    assert boundary_equilibria(jeffcott(SOURCE.replace(gamma=0.5)), "omega") == ()
-
-
-def test_soft_bearing_has_one_boundary_along_stiffness():
-    (boundary,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=1.2)), "omega")
-
-    assert boundary.levitates == "above"
-
-
-def test_undamped_rotor_is_classified_without_its_orbits():
-    boundaries = boundary_equilibria(jeffcott(SOURCE.replace(gamma=0.0)), "omega")
-
-    assert [boundary.kind for boundary in boundaries] == ["non-smooth fold", "persistence"]
-    assert not any(boundary.orbits or boundary.complete for boundary in boundaries)
-
-
-@pytest.mark.parametrize("gain", ["gamma", "omega"])
-def test_largest_unbalance_allowed_is_classified_too(gain):
-    """A gap away from the boundary, where small orbits are looked up, the unbalance must not leave its range."""
-    highest = DIMENSIONLESS_FIELDS["rho"].highest
-    (boundary,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=highest)), gain)
-    (lower,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=0.999 * highest)), gain)
-
-    assert (boundary.kind, boundary.levitates) == ("persistence", "above")
-    assert boundary.value == pytest.approx(lower.value, rel=2e-3)
-    assert boundary.force_rate == pytest.approx(lower.force_rate, rel=5e-3)
-    assert [orbit.name for orbit in boundary.orbits] == [orbit.name for orbit in lower.orbits]
-
-
-def test_unknown_gain_is_named():
-    with pytest.raises(InputError, match="gain = rho: one of: gamma, omega"):
-        boundary_equilibria(jeffcott(SOURCE), "rho")

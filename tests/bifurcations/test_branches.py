@@ -8,15 +8,12 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import find_orbits, simulate
-from carom.base.outcome import InputError
-from carom.bifurcations import OrbitBranch, conditions, continue_orbit
-from carom.bifurcations.word_equations import Family
+from carom.bifurcations import OrbitBranch, continue_orbit
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
 from carom.models import jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
-from carom.parameters import Parameters
 
 
 @pytest.fixture(scope="module")
@@ -120,17 +117,6 @@ def test_non_smooth_hopf_where_the_orbit_shrinks_into_the_equilibrium(lower):
             assert point.radial_speed == pytest.approx(0.0, abs=1e-11)
 
 
-def test_radius_gains_extrema(upper):
-    (gamma,) = value(upper, "radius-extremum")
-
-    def extrema(at):
-        orbit = find_orbits(jeffcott(PAPER.replace(gamma=at)))["B1,d"]
-        radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 20001)[1:-1]))
-        return int((np.diff(np.sign(np.diff(radius))) != 0).sum())
-
-    assert (extrema(gamma - 1e-4), extrema(gamma + 1e-4)) == (3, 1)
-
-
 def test_coalescence_of_two_speeds_at_negative_damping():
     orbit = find_orbits(jeffcott(PAPER))["B1,a"]
     branch = continue_orbit(orbit, "gamma", (-0.6, 0.17), Steps(largest=0.1, sharpest_turn=0.3, most_points=150))
@@ -192,62 +178,3 @@ def test_random_machines_end_with_a_stated_reason():
             assert ((interval[0] <= branch.values) & (branch.values <= interval[1])).all()
             assert np.isfinite(branch.period).all()
     assert followed > sized(8, 3, 30)
-
-
-def test_inputs_that_cannot_be_used(upper):
-    orbit = find_orbits(jeffcott(PAPER))["B1,d"]
-    with pytest.raises(InputError, match="interval that holds"):
-        continue_orbit(orbit, "gamma", (0.2, 0.3))
-    with pytest.raises(InputError, match="unknown name"):
-        continue_orbit(orbit, "dampening", (0.2, 0.3))
-
-
-def test_a_branch_ends_where_the_radial_speed_grows_without_bound():
-    """Above ω = 1.4 the speed of ``B1,b`` grows as ``a₁₂`` vanishes; the branch is not followed into the hundreds."""
-    branch = continue_orbit(find_orbits(PAPER)["B1,b"], "omega", (0.7, 1.9))
-    assert branch.stops == ("parameter limit", "radial speed without bound")
-    assert np.abs(branch.radial_speed).max() == pytest.approx(30.0, rel=1e-3)
-    assert 1.40 < branch.values[-1] < 1.42
-
-
-def test_steps_that_grow_with_the_radial_speed_miss_no_bifurcation(monkeypatch):
-    random, growing = np.random.default_rng(43), Family.reach
-    points = missed = 0
-    saved = 0.0
-    for _ in range(sized(10, 2, 150)):
-        parameters = random_parameters(random)
-        parameter = str(random.choice(["gamma", "omega", "rho", "mu"]))
-        present = getattr(parameters, parameter)
-        for orbit in [orbit for orbit in find_orbits(parameters, 20.0) if orbit.slip > 0][:2]:
-            found = []
-            for factor in (growing, lambda self, unknowns: 1.0):
-                monkeypatch.setattr(Family, "reach", factor)
-                found.append(continue_orbit(orbit, parameter, (0.5 * present, 2.0 * present + 0.1)))
-            grown, even = found
-            saved += len(even) - len(grown)
-            # Where a motion gains extrema of its radius is found less precisely, and says nothing about stability.
-            for point in (point for point in even.special if point.kind != "radius-extremum"):
-                points += 1
-                missed += not any(
-                    other.kind == point.kind and other.value == pytest.approx(point.value, rel=1e-7)
-                    for other in grown.special
-                )
-    assert points >= sized(10, 0, 200)
-    assert missed == 0
-    assert saved > 0 or points == 0
-
-
-def test_a_correction_that_leads_far_away_is_a_step_too_long():
-    """On the way the damping becomes so negative that a flight grows beyond all numbers."""
-    machine = Parameters(
-        gamma=0.11302957641682167,
-        omega=0.143937084810717,
-        rho=0.30304522696354413,
-        phi=-2.7709998705001544,
-        mu=0.11895243360274448,
-        d=0.1810090732337133,
-        radius_ratio=50.168766826571535,
-    )
-    branch = continue_orbit(find_orbits(machine)["B1,d"], "gamma", (0.0452, 0.3391))
-    assert branch.stops == ("parameter limit", "parameter limit")
-    assert np.abs([conditions.conditions_at(*orbit[1:])[:2] for orbit in branch.closed]).max() < 1e-10

@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import find_bifurcations, find_orbits
-from carom.base.outcome import InputError
+from carom import find_orbits
 from carom.bifurcations import KINDS, Bifurcation, Curve, Plane, continue_curve, continue_orbit
-from carom.bifurcations.passing import passes
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import jeffcott
-from carom.parameters import Machine, Numbers, Scales
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 
@@ -122,56 +119,3 @@ def test_every_pair_of_parameters():
         )
     flat = continue_curve(fold, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)))
     assert np.ptp(flat.points[:, 0]) < 1e-12
-
-
-def test_every_point_of_a_diagram_can_be_handed_over():
-    diagram = find_bifurcations(PAPER, "gamma", (0.02, 0.4))
-    for point in diagram.points:
-        if point.kind == "radius-extremum":
-            with pytest.raises(InputError, match="one of: fold"):
-                continue_curve(point, PLANE)
-            continue
-        curve = continue_curve(point, PLANE)
-        assert curve.kind == point.kind
-        place = np.array([point.value, PAPER.omega])
-        assert np.linalg.norm((curve.points - place) / PLANE.widths, axis=1).min() < 0.1
-        assert passes(curve, point)
-
-
-def test_ranges_with_units():
-    machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
-    orbit = find_orbits(machine)["B1,d"]
-    texts = continue_orbit(orbit, "damping", ("300 N s/m", "2 kN s/m"))
-    numbers = continue_orbit(orbit, "damping", (300.0, 2000.0))
-    assert [(point.kind, point.value) for point in texts.special] == [
-        (point.kind, point.value) for point in numbers.special
-    ]
-    assert find_bifurcations(machine, "speed", ("1700 rpm", "1800 rpm")).interval[1] == pytest.approx(60.0 * np.pi)
-    (doubling,) = [point for point in texts.special if point.kind == "period-doubling"]
-    plane = Plane("damping", "stiffness", ("300 N s/m", "2 kN s/m"), ("0.9 MN/m", "1.1 MN/m"))
-    assert (plane.first_range, plane.second_range) == ((300.0, 2000.0), (0.9e6, 1.1e6))
-    assert continue_curve(doubling, plane).admissible.any()
-    for given in (("300 kg", 2000.0), ("much", 2000.0)):
-        with pytest.raises(InputError, match="damping"):
-            continue_orbit(orbit, "damping", given)
-    with pytest.raises(InputError, match="ascending order"):
-        find_bifurcations(machine, "damping", ("2 kN s/m", "300 N s/m"))
-
-
-def test_inputs_that_cannot_be_used():
-    with pytest.raises(InputError, match="two different parameters"):
-        Plane("gamma", "gamma", (0.0, 1.0), (0.0, 1.0))
-    with pytest.raises(InputError, match="two finite values in ascending order"):
-        Plane("gamma", "omega", (0.3, 0.1), (0.5, 1.0))
-    with pytest.raises(InputError, match="one of: fold"):
-        continue_curve(Bifurcation.near("hopf", PAPER), PLANE)
-    with pytest.raises(InputError, match="forward slip"):
-        continue_curve(Bifurcation("fold", Numbers.of(PAPER)._replace(mu=-0.15), 1.6, 0.5, "R1,b"), PLANE)
-    with pytest.raises(InputError, match="one of an orbit"):
-        _ = Bifurcation.near("rub-fold", PAPER).orbit
-    with pytest.raises(InputError, match="a point of the plane"):
-        continue_curve(Bifurcation.near("boundary-equilibrium", PAPER.replace(omega=0.5)), PLANE)
-    with pytest.raises(InputError, match="period and radial speed"):
-        continue_curve(Bifurcation.near("fold", PAPER), PLANE)
-    with pytest.raises(InputError, match="mass, clearance and speed"):
-        continue_curve(Bifurcation.near("rub-fold", PAPER), Plane("speed", "omega", (100.0, 200.0), (0.6, 1.0)))

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
-
 import numpy as np
 import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import find_equilibria, find_orbits
-from carom.base.outcome import InputError
 from carom.bifurcations import Plane, find_bifurcations, map_regions, motions_at
-from carom.bifurcations.curves import STEPS
 from carom.models import jeffcott
-from carom.parameters import PARAMETERS, Machine, Scales
 
 
 @pytest.fixture(scope="module")
@@ -49,12 +44,6 @@ def test_every_branch_is_followed_once(diagram):
                 if np.abs(branch.period - orbit.period).min() < 0.1 and value <= branch.values.max()
             ]
             assert passing
-
-
-@pytest.mark.parametrize("edge", [0.1, 0.178])
-def test_branches_that_begin_on_the_edge_are_followed_once(edge):
-    found = find_bifurcations(PAPER, "gamma", (edge, 0.3))
-    assert len(found.orbits) == 2
 
 
 def test_equilibrium_branches(diagram):
@@ -134,85 +123,3 @@ def test_map_of_the_source_papers_plane():
     for region in found.regions:
         gamma, omega = region.point
         assert motions_at(PAPER.replace(gamma=gamma, omega=omega)) == region.motions
-
-
-PAIRS = (
-    ("gamma", "omega"),
-    ("mu", "d"),
-    ("rho", "gamma"),
-    ("speed", "damping"),
-    ("speed", "stiffness"),
-    ("damping", "stiffness"),
-    ("eccentricity", "clearance"),
-    ("friction", "restitution"),
-    ("speed", "eccentricity"),
-    ("mass", "friction"),
-)
-REASONS = {
-    "edge of the plane",
-    "closed loop",
-    "resonance-1:1",
-    "resonance-1:2",
-    "grazing meets the impact",
-    "period vanishes",
-    "radial speed without bound",
-}
-
-
-def around(machine, name: str) -> tuple[float, float]:
-    present = machine.value(name)
-    highest = PARAMETERS[name].highest
-    return (0.0, 1.0) if name in ("d", "restitution") else (0.5 * present, min(2.0 * present + 1e-6, highest))
-
-
-def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
-    """Random machines, ten pairs of parameters: no exception, no jump, every end explained."""
-    random = np.random.default_rng(77)
-    ends: Counter[str] = Counter()
-    for trial in range(sized(3, 3, 50)):
-        drawn = random_parameters(random)
-        machine = Machine.from_parameters(drawn, Scales(20.0, 0.3e-3, 250.0)).parameters
-        first, second = PAIRS[trial % len(PAIRS)]
-        plane = Plane(first, second, around(machine, first), around(machine, second))
-        found = map_regions(machine, plane, grid=2)
-        assert found.lost == ()
-        widths = np.ptp([plane.first_range, plane.second_range], axis=1)
-        for curve in found.curves:
-            ends.update(curve.stops)
-            assert set(curve.stops) <= REASONS
-            assert np.isfinite(curve.points).all()
-            inside = [plane.holds(*point) for point in curve.points[1:-1]]
-            assert all(inside)
-            # The stated step is 0.1 of the start's values, or of a tenth of the widths where these are larger.
-            sizes = np.maximum(np.abs(curve.points).max(axis=0), 0.1 * widths)
-            assert np.linalg.norm(np.diff(curve.points, axis=0) / sizes, axis=1).max() <= 1.05 * STEPS.largest
-    assert ends["edge of the plane"] > sized(10, 1, 50)
-
-
-def test_inputs_that_cannot_be_used():
-    with pytest.raises(InputError, match="two finite values in ascending order"):
-        find_bifurcations(PAPER, "gamma", (0.3, 0.1))
-    with pytest.raises(InputError, match="d = "):
-        find_bifurcations(PAPER, "d", (0.5, 1.5))
-    with pytest.raises(InputError, match="mass, clearance and speed"):
-        find_bifurcations(PAPER, "speed", (100.0, 200.0))
-
-
-def test_regions_in_words():
-    motions = motions_at(PAPER)
-    assert motions.region == "R4 (stable orbit, rub)"
-    assert motions.words == (
-        "levitation, stable synchronous rub, B1,d stable and B1,a/b/c unstable, rolling backward whirl"
-    )
-    assert "levitation virtual" in motions_at(PAPER.replace(omega=0.9)).words
-    without_friction = motions_at(PAPER.replace(mu=0.0))
-    assert not without_friction.rolling
-    assert "no lasting rolling" in without_friction.words
-
-
-def test_points_of_thin_regions_lie_inside():
-    plane = Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.05))
-    found = map_regions(PAPER, plane, grid=sized(8, 8, 16))
-    assert found.everywhere == ("rolling backward whirl",)
-    for region in found.regions:
-        assert motions_at(plane.at(PAPER, *region.point)) == region.motions

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from carom.base.files import as_json
-from carom.base.outcome import InputError
 from carom.bifurcations import Diagram, find_bifurcations
 from carom.bifurcations.documents import diagram_document
 from carom.models import jeffcott
@@ -96,14 +95,3 @@ def test_points_have_a_word_and_the_number_of_impacts():
     assert "P2,1" in repr(diagram())
     figure = diagram().plot()
     assert all(axes.lines for axes in figure.axes if axes.get_ylabel())
-
-
-def test_without_impacts_there_are_none():
-    plain = find_bifurcations(PAPER, "gamma", (0.0824, 0.0836))
-    assert plain.several == ()
-    assert plain.search is diagram_document(plain)["search"] is None
-    assert [point.value for point in plain.points] == [
-        point.value for point in diagram().points if not point.name.startswith("P")
-    ]
-    with pytest.raises(InputError, match="impacts"):
-        find_bifurcations(PAPER, "gamma", (0.0824, 0.0836), impacts=0)

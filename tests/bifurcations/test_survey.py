@@ -6,29 +6,13 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import map_regions
 from carom.base.outcome import CaromError
 from carom.bifurcations import Motions, Plane, RegionMap, motions_at
 from carom.bifurcations import survey as module
-from carom.bifurcations.cells import regions_between
 from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.survey import Survey
-from carom.parameters import Machine, Parameters, Scales
+from carom.parameters import Parameters
 
-KEOGH = Machine.from_parameters(PAPER.replace(gamma=1400.0 / 9210.0), Scales(50.0, 0.7e-3, 184.2)).parameters
-SPINDLE_SPEED = 24000.0 * np.pi / 30.0
-SPINDLE = Machine.from_parameters(
-    Parameters(
-        gamma=350.0 / (3.2 * SPINDLE_SPEED),
-        omega=float(np.sqrt(4e5 / 3.2)) / SPINDLE_SPEED,
-        rho=0.9947e-6 / 0.25e-3,
-        phi=0.0,
-        mu=0.2,
-        d=0.7,
-        radius_ratio=60.0,
-    ),
-    Scales(3.2, 0.25e-3, SPINDLE_SPEED),
-).parameters
 OF_ORBITS = {"fold", "speed-fold", "grazing", "slip-stop", "contact-onset", "non-smooth-hopf"}
 CHANGES = {
     "contact_free": {"boundary-equilibrium"},
@@ -39,13 +23,6 @@ CHANGES = {
 }
 CLOSE = 3e-4
 """Distance from a curve, in widths of the plane; its points are so dense that straight lines between them keep within 5e-5."""
-
-
-def around(base: Parameters, first: str, second: str, up_to: float = np.inf) -> Plane:
-    """The plane that the command draws by default."""
-    return Plane(
-        first, second, *((0.25 * v, min(2.5 * v, up_to)) for v in (base.value(name) for name in (first, second)))
-    )
 
 
 def line_changes(base: Parameters, plane: Plane, random: np.random.Generator, samples: int):
@@ -115,29 +92,6 @@ def test_every_change_along_lines_lies_on_a_curve(corner):
     assert not missed
 
 
-PLANES = {
-    "source paper": (PAPER, around(PAPER, "gamma", "omega")),
-    "Keogh and Cole": (KEOGH, around(KEOGH, "speed", "damping")),
-    "spindle": (SPINDLE, around(SPINDLE, "gamma", "omega")),
-    "spindle in SI units": (SPINDLE, around(SPINDLE, "speed", "damping")),
-    "friction and restitution": (PAPER, around(PAPER, "mu", "d", 1.0)),
-    "unbalance and damping": (PAPER, around(PAPER, "rho", "gamma")),
-}
-
-
-@pytest.mark.deep
-def test_every_change_along_sixty_lines_of_each_plane_lies_on_a_curve():
-    """At most one change in 200 may be unexplained, listed ones included."""
-    total, missed = 0, []
-    for name, (base, plane) in PLANES.items():
-        found = map_regions(base, plane)
-        count, bad = tried(base, plane, found, 60, 120)
-        total += count
-        missed += [(name, *entry) for entry in bad] + [(name, change) for change in found.unexplained]
-    assert total > 400
-    assert len(missed) <= total / 200, missed
-
-
 def surveyed(base: Parameters, plane: Plane, cells: int) -> tuple[Survey, list[list[PlanePoint]]]:
     """All curves from differences of neighbouring points, without any from diagrams."""
     survey = Survey(base, plane, [])
@@ -168,18 +122,3 @@ def test_what_cannot_be_followed_is_listed(monkeypatch):
         assert change.reason == "rub-fold: not today"
         gamma, omega = change.point
         assert gamma + PAPER.mu * (1.0 - omega**2) == pytest.approx(PAPER.rho * np.hypot(1.0, PAPER.mu), abs=1e-8)
-
-
-def test_regions_thinner_than_a_cell_are_listed():
-    """Motions met between the points of the grid, in the middle of no cell."""
-    plane = Plane("gamma", "omega", (0.05, 0.4), (0.76, 0.9))
-    _, points = surveyed(PAPER, plane, 2)
-    at = (0.09, 0.7605)
-    motions = motions_at(plane.at(PAPER, *at))
-    cells = [column[1:-1] for column in points[1:-1]]
-    assert motions not in [point.motions for column in cells for point in column]
-    regions = regions_between(PAPER, plane, cells, {motions: at})
-    (thin,) = [region for region in regions if region.motions == motions]
-    assert thin.share == 0.0
-    assert motions_at(plane.at(PAPER, *thin.point)) == motions
-    assert sum(region.share for region in regions) == pytest.approx(1.0)

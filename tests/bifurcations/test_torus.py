@@ -98,15 +98,3 @@ def test_curve_ends_in_a_resonance_or_at_the_edge(curve):
                 # Two multipliers that meet at −1 are a square root apart from what rounding makes of the place.
                 assert np.abs(near.multipliers.values - leader).min() < (1e-3 if kind == "1:2" else 1e-7)
     assert any("1:4" in point.kind for point in curve.codimension2)
-
-
-@pytest.mark.parametrize(("name", "limits"), [("mu", (0.05, 0.3)), ("d", (0.85, 1.0)), ("rho", (0.1, 0.3))])
-def test_curve_in_other_parameters(torus, name, limits):
-    plane = Plane("gamma", name, (0.01, 0.2), limits)
-    found = continue_curve(torus, plane)
-    x, y = found.points[len(found.points) // 2]
-    near = min(
-        find_orbits(jeffcott(SOFT.replace(gamma=x, **{name: y}))),
-        key=lambda orbit: abs(orbit.multipliers.spectral_radius - 1.0),
-    )
-    assert near.multipliers.spectral_radius == pytest.approx(1.0, abs=1e-8)

@@ -5,10 +5,9 @@ import pytest
 from compilation import sized
 
 from carom.bifurcations import orbit_windows
-from carom.bifurcations.conditions import corrected, orbit_solutions
 from carom.models import jeffcott
 from carom.orbits.single_impact import orbits_within_reach
-from carom.parameters import Numbers, Parameters
+from carom.parameters import Parameters
 
 WITHOUT_REBOUND = Parameters(
     gamma=0.42, omega=0.5708421012463507, rho=0.28690883112681587, phi=-1.52, mu=1.0174969331844883, d=0.0, radius_ratio=47.6
@@ -43,23 +42,6 @@ def test_an_orbit_that_is_there_at_all_values_has_one_window(parameters, paramet
     assert [(window.low.value, window.high.value) for window in found.stable] == (whole if stable else [])
 
 
-FRICTIONLESS = Parameters(
-    gamma=0.03020923950417709, omega=0.9404657249642504, rho=0.7734908583275019, phi=-1.0033226312180616, mu=0.0,
-    d=0.3839168443314725, radius_ratio=32.59303174253395,
-)  # fmt: skip
-"""Next to a boundary equilibrium at ω = 0.47654936, where any period solves the equations of an orbit at rest on the wall."""
-
-
-def test_orbits_shrink_into_the_equilibrium_on_the_wall():
-    values = [0.5 * FRICTIONLESS.omega, 0.49325746]
-
-    found = orbit_windows(FRICTIONLESS, "omega", values)
-
-    (window,) = found.possible
-    assert (window.low.kind, window.high.kind) == ("", "non-smooth-hopf")
-    assert window.high.value == pytest.approx(0.47654935583509495, rel=1e-12)  # |U*| = 1
-
-
 @pytest.mark.parametrize("seed", range(sized(3, 1, 40)))
 def test_windows_of_frictionless_machines_end_inside_the_range(seed):
     random = np.random.default_rng(seed)
@@ -90,11 +72,3 @@ def test_a_period_that_vanishes_is_found_by_the_closed_form():
 
     (end,) = {end for window in found.possible for end in (window.low, window.high) if end.kind == "vanishing-period"}
     assert end.value == pytest.approx(2.0 * parameters.mu, rel=1e-7)
-
-
-def test_newtons_method_says_where_it_finds_no_orbit():
-    numbers = Numbers.of(FRICTIONLESS)
-    assert corrected(numbers, 1e-3, 0.0) is None
-    solution = orbit_solutions(CLOSE_SPEEDS, 40.0)[0]
-    near = corrected(solution.numbers, 1.001 * solution.period, 1.001 * solution.radial_speed)
-    assert near == pytest.approx((solution.period, solution.radial_speed), rel=1e-10)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import mpmath
 import numpy as np
 import pytest
 
-from carom.base.outcome import CaromError, InputError
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.conditions import TESTS, conditions_at
-from carom.bifurcations.word_equations import Family
 from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -70,19 +67,6 @@ def test_shooting_passes_where_orbits_of_one_impact_shrink_to_a_point_on_the_wal
         assert find_orbits(PAPER.replace(gamma=p))["B1,b"].radial_speed == pytest.approx(speed, abs=1e-9)
 
 
-def test_a_branch_tells_its_orbits_at_a_value():
-    found = single()
-    (start,) = found.starts_at(0.09)
-    known = find_orbits(PAPER.replace(gamma=0.09))["B1,d"]
-    assert start.nodes == pytest.approx(known.nodes, abs=1e-10)
-    assert start.durations == pytest.approx(known.durations, abs=1e-10)
-    assert (found.name, found.impacts, str(found.word), found.parameter) == ("B1,d", 1, "impact+", "gamma")
-    for values in (found.period, found.radial_speed, found.angular_speed, found.admissible, found.stable):
-        assert values.shape == (len(found),)
-    assert found.radial_speeds.shape == (len(found), 1)
-    assert found.multipliers.shape == (len(found), 3)
-
-
 def test_what_the_closed_form_tells_of_a_branch_is_what_shooting_tells_of_its_orbits():
     branch = single()
     for i, orbit in enumerate(branch.orbits):
@@ -93,13 +77,6 @@ def test_what_the_closed_form_tells_of_a_branch_is_what_shooting_tells_of_its_or
         assert np.sort(np.abs(branch.multipliers[i])) == pytest.approx(
             np.sort(np.abs(orbit.multipliers.values)), abs=1e-9
         )
-
-
-def test_a_branch_goes_on_to_the_other_orbit_of_a_fold():
-    branch = continue_orbit(find_orbits(PAPER.replace(gamma=0.17))["B1,d"], "gamma", (0.165, 0.19))
-    assert branch.values[0] == pytest.approx(0.165, abs=1e-12)
-    assert branch.values[-1] == pytest.approx(0.165, abs=1e-12)
-    assert {branch.names[0], branch.names[-1]} == {"B1,c", "B1,d"}
 
 
 def test_the_doubled_branch_begins_at_the_period_doubling():
@@ -194,31 +171,6 @@ def test_orbits_next_to_a_fold_close():
         assert found.period == pytest.approx(fold.orbit.period, abs=1e-5)  # the square root of the shift
 
 
-def test_the_next_period_doubling_of_the_doubled_branch():
-    """It is on the virtual part; the branch of four impacts that is born there ends at the same damping."""
-    point = located("period-doubling", 0.08556)
-    assert not point.orbit.admissible
-    assert np.abs(point.orbit.multipliers.values + 1.0).min() < 1e-7
-    branch = switch(point, (point.value - 3e-4, point.value + 3e-4))
-    assert len(branch.word) == 4
-    (end,) = [p for p in branch.special if p.kind == "period-halving"]
-    assert end.value == pytest.approx(point.value, abs=1e-11)
-
-
-def test_a_doubled_branch_whose_equations_are_singular_is_not_found(monkeypatch):
-    (point,) = [point for point in single().special if point.kind == "period-doubling"]
-    monkeypatch.setattr(Family, "jacobian", lambda self, u, p: np.zeros((len(u), len(u) + 1)))
-    with pytest.raises(CaromError, match="no orbit of twice the period was found"):
-        switch(point, (0.078, 0.09))
-
-
-def test_no_branch_begins_at_a_fold():
-    with pytest.raises(InputError, match="period doubling"):
-        switch(located("fold", 0.08267))
-    with pytest.raises(InputError, match="interval"):
-        continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.2, 0.3))
-
-
 def test_extrema_of_the_radius_where_friction_stops_the_slip():
     """The number of extrema changes at the special point and nowhere else; the formula for forward slip had none there."""
     machine = PAPER.replace(gamma=0.25, omega=0.55, rho=0.576, phi=0.0, mu=1.7, d=0.9, radius_ratio=0.91)
@@ -244,16 +196,3 @@ def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():
     assert turning
     for values in turning:
         assert np.abs(np.abs(values) - 1.0).min() < 1e-7
-
-
-def test_an_orbit_of_very_many_unknowns_is_refused():
-    """Each step would invert a matrix of thousands of rows."""
-    orbit = find_orbits(PAPER)["B1,d"]
-    many = replace(
-        orbit,
-        word=orbit.word.repeated(400),
-        nodes=np.tile(orbit.nodes, (400, 1)),
-        durations=np.tile(orbit.durations, 400),
-    )
-    with pytest.raises(InputError, match=r"^orbit = 400 segments with 5 unknowns each: at most 1500 unknowns"):
-        continue_orbit(many, "gamma", (0.05, 0.2))

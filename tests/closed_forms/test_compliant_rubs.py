@@ -7,12 +7,8 @@ import pytest
 from yielding_rotors import Yielding, packed, two_planes
 
 import carom as cm
-from carom.base.outcome import Outcome, Phase
-from carom.closed_forms.power_sums import positive_roots
-from carom.closed_forms.rub_stability import sliding_rates
-from carom.closed_forms.statics import depths
-from carom.models import HuntCrossley, KelvinVoigt, Rigid, from_matrices
-from carom.models.touchdown import Touchdown
+from carom.base.outcome import Outcome
+from carom.models import HuntCrossley, KelvinVoigt
 
 LAWS = [
     KelvinVoigt(100.0, 5.0),
@@ -81,19 +77,6 @@ def test_a_repelling_rub_is_left():
     assert motion.outcome is not Outcome.FORWARD_RUB or abs(motion.final.velocity) > 1e-3
 
 
-def test_a_stiff_wall_comes_near_to_the_rigid_one():
-    paper = Yielding(KelvinVoigt(1e8, 1e3), omega=0.9)
-    stiff = next(rub for rub in cm.find_equilibria(paper.model)[1:] if rub.stable)
-    wall = [Touchdown([1.0], Rigid(0.5), paper.mu, paper.surface_speed)]
-    forcing = [paper.rho * np.exp(1j * paper.phi)]
-    rigid_model = from_matrices(
-        mass=[[1.0]], damping=[[paper.gamma]], stiffness=[[paper.omega**2]], forcing=forcing, touchdowns=wall
-    )
-    rigid = next(rub for rub in cm.find_equilibria(rigid_model)[1:] if rub.stable)
-    assert stiff.position == pytest.approx(rigid.position, abs=1e-7)
-    assert alike(rigid.eigenvalues, stiff.eigenvalues, 1e-6)
-
-
 def test_rubs_at_two_planes_balance_the_forces_on_the_coordinates():
     laws = KelvinVoigt(300.0, 4.0), HuntCrossley(500.0, 0.2, 1.0)
     model = two_planes(*laws)
@@ -122,33 +105,6 @@ def test_rubs_at_two_planes_balance_the_forces_on_the_coordinates():
         assert alike(rub.eigenvalues, np.linalg.eigvals(jacobian(rates, state)), 1e-7)
 
 
-def test_a_rigid_wall_beside_one_that_gives_way_is_the_limit_of_a_stiff_one():
-    soft = HuntCrossley(500.0, 0.2, 1.0)
-
-    def rub_of(*laws):
-        found = cm.find_equilibria(two_planes(*laws))
-        return max((rub for rub in found[1:] if len(rub.planes) == 2), key=lambda rub: rub.normal_forces.min())
-
-    rigid, stiff = rub_of(Rigid(0.3), soft), rub_of(KelvinVoigt(1e9, 1e5), soft)
-    assert len(rigid.eigenvalues) == 6
-    assert rigid.places == pytest.approx(stiff.places, abs=1e-7)
-    assert alike(rigid.eigenvalues, stiff.eigenvalues, 1e-4)
-
-
-def test_several_planes_with_a_curved_wall_are_not_claimed():
-    found = cm.find_equilibria(two_planes(KelvinVoigt(300.0, 4.0), HuntCrossley(500.0, 0.2, 1.5)))
-    assert not found.complete
-    assert "not searched" in found.argument
-    assert all(len(rub.planes) == 1 for rub in found[1:])
-
-
-def test_depths_follow_from_forces():
-    model = two_planes(HuntCrossley(500.0, 0.2, 1.5), Rigid(0.4))
-    mass = model.system.arrays.masses[0]
-    assert depths(model.system, (0, 1), np.array([500.0 * 0.1**1.5 / mass, 2.0])) == pytest.approx([0.1, 0.0])
-    assert depths(model.system, (0,), np.array([-1.0]))[0] < 0.0
-
-
 def test_all_rubs_of_a_curved_wall_are_found():
     """``|1 + δ + h'δ^{3/2}|² = |y*|²`` is a polynomial of degree six in ``√δ``, and has up to three roots here."""
     numbers = set()
@@ -164,20 +120,3 @@ def test_all_rubs_of_a_curved_wall_are_found():
                 assert sorted(found) == pytest.approx(sorted(expected), rel=1e-8)
                 numbers.add(len(found))
     assert len(numbers) >= 3
-
-
-def test_positive_roots_of_sums_of_powers():
-    assert positive_roots([(0.0, -2.0), (1.0, 1.0)]) == pytest.approx([2.0])
-    assert positive_roots([(0.0, 1.0), (0.5, -3.0), (1.0, 2.0)]) == pytest.approx([0.25, 1.0])
-    assert positive_roots([(0.0, 1.0), (2.0, 1.0)]) == []
-    assert positive_roots([(1.5, 1.0)]) == []
-    assert positive_roots([(1.0, 2.0), (0.0, -2.0), (1.0, -1.0)]) == pytest.approx([2.0])
-    roots = [0.3, 0.7, 1.1, 4.0]
-    powers = zip((4.0, 3.0, 2.0, 1.0, 0.0), np.poly(roots), strict=True)
-    assert positive_roots(powers) == pytest.approx(roots)
-
-
-def test_sliding_rates_of_a_plane_that_is_not_in_contact_are_those_of_flight():
-    model = Yielding(LAWS[0]).model
-    free = sliding_rates(model.system, np.zeros(2, complex), np.array([Phase.FLIGHT]))
-    assert alike(free, np.concatenate([model.system.exponents, model.system.exponents.conj()]), 1e-12)

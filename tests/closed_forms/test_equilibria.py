@@ -50,16 +50,6 @@ def test_contact_free_status_changes_at_the_boundary_damping(distance):
     assert found(PAPER.replace(gamma=BOUNDARY_DAMPING * (1.0 - distance)))[0].status == "virtual"
 
 
-def test_on_the_boundary():
-    assert found(PAPER.replace(gamma=BOUNDARY_DAMPING))[0].status == "boundary"
-    assert found(PAPER.replace(omega=1.0, gamma=PAPER.rho))[0].status == "boundary"
-
-
-def test_without_damping_the_contact_free_equilibrium_is_not_stable():
-    assert not found(PAPER.replace(gamma=0.0))[0].stable
-    assert not found(PAPER.replace(gamma=-0.1))[0].stable
-
-
 # ------------------------------------------------------------------------------------------------------- rubs
 
 
@@ -189,38 +179,6 @@ def test_a_simulated_rotor_stays_at_its_stable_rub():
 # ----------------------------------------------------------------------------------------------------- corners
 
 
-@pytest.mark.parametrize(
-    "gamma", [1.52, 1.52 * (1 + 1e-9), 1.52 * (1 - 1e-9), 4.0], ids=["critical", "above", "below", "over"]
-)
-def test_critical_and_strong_damping(gamma):
-    """A heavy unbalance keeps its rubs there."""
-    parameters = PAPER.replace(gamma=gamma, rho=6.0)
-    contact_free, rubs = found(parameters)
-    assert contact_free.stable
-    assert len(rubs) == 2
-    angles = [np.exp(1j * (x + parameters.phi)) for x in rub_angles(parameters)]
-    for rub in rubs:
-        assert min(abs(rub.position - angle) for angle in angles) < 1e-12
-        x = np.angle(rub.position * np.exp(-1j * parameters.phi))
-        stiffness = parameters.rho * (math.cos(x) - parameters.mu * math.sin(x))
-        np.testing.assert_allclose(np.poly(rub.eigenvalues), [1.0, gamma + 2.0 * parameters.mu, stiffness], atol=1e-11)
-
-
-def test_a_balanced_rotor_rests_in_the_middle_and_has_no_rub():
-    contact_free, rubs = found(PAPER.replace(rho=0.0))
-    assert contact_free.position == 0.0
-    assert contact_free.status == "admissible"
-    assert rubs == ()
-
-
-@pytest.mark.parametrize("omega", [0.76, 1.2])
-@pytest.mark.parametrize("gamma", [0.0, 0.1])
-@pytest.mark.parametrize("phi", [0.0, 0.21, -3.0])
-def test_the_middle_has_no_sign(omega, gamma, phi):
-    position = found(PAPER.replace(rho=0.0, omega=omega, gamma=gamma, phi=phi))[0].position
-    assert [math.copysign(1.0, part) for part in (position.real, position.imag)] == [1.0, 1.0]
-
-
 @pytest.mark.parametrize("omega", [0.76, 1.2])
 @pytest.mark.parametrize(("gamma", "mu"), [(0.0, 0.0), (0.0, 0.15), (0.1, 0.0)])
 def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
@@ -233,35 +191,3 @@ def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
             motion = simulate(jeffcott(parameters), State(place), 50.0)
             assert motion.final.position == pytest.approx(place, abs=1e-13)
             assert motion.forces(np.array([25.0]))[0] == pytest.approx(1.0 - omega**2, abs=1e-13)
-
-
-@pytest.mark.parametrize("rho", [1e-300, 1e-200, 1e-17])
-def test_the_least_unbalance_singles_out_two_places(rho):
-    """Without damping and friction a rub lies where the unbalance points, ``sin x = 0``, however small it is."""
-    _, rubs = found(PAPER.replace(rho=rho, gamma=0.0, mu=0.0))
-    assert len(rubs) == 2
-    for rub in rubs:
-        assert math.sin(rub.angle - PAPER.phi) == pytest.approx(0.0, abs=1e-12)
-        assert rub.normal_force == pytest.approx(1.0 - PAPER.omega**2, abs=1e-12)
-        assert not rub.stable
-
-
-def test_without_damping_and_friction_no_rub_attracts():
-    """Along the wall it is a pendulum: exponents ``±i√ρ`` and ``±√ρ``, whatever rounding makes of their real parts."""
-    random = np.random.default_rng(22)
-    for _ in range(200):
-        parameters = random_parameters(random, gamma=0.0, mu=0.0)
-        for rub in found(parameters)[1]:
-            assert not rub.stable
-            assert not rub.attracts_sliding
-            np.testing.assert_allclose(np.abs(rub.eigenvalues), math.sqrt(parameters.rho), rtol=1e-6, atol=1e-12)
-
-
-def test_a_hardly_unbalanced_rub_lies_on_the_wall():
-    """The direction comes out of a small difference; the radius must not."""
-    parameters = PAPER.replace(rho=1e-8, mu=0.0, gamma=3e-9)
-    _, rubs = found(parameters)
-    assert len(rubs) == 2
-    for rub in rubs:
-        assert rub.radius == pytest.approx(1.0, abs=1e-15)
-        assert math.sin(rub.angle - parameters.phi) == pytest.approx(-0.3, abs=1e-6)

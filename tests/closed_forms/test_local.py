@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import itertools
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,7 +12,6 @@ from machines import PAPER, flight_matrix
 from scipy.linalg import expm
 
 from carom import find_orbits
-from carom.base.outcome import InputError
 from carom.closed_forms.local import ContactSystem, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.layout import rotor_record
@@ -69,19 +67,6 @@ def test_criticality_is_the_side_on_which_the_exact_orbits_live():
         assert (len(found[-1e-5]), len(found[1e-5])) == (0, 1)
 
 
-def test_scaling_of_the_wall_and_turning_of_the_force():
-    system = ContactSystem.of_rotor(BOUNDARY)
-    rate = -1j * system.equilibrium / system.stiffness
-    one = non_smooth_hopf(system, rate)
-    turn = 2.5 * cmath.exp(0.7j)
-    other = non_smooth_hopf(replace(system, force=system.force * turn, wall=2.5), rate * turn)
-    for first, second in zip(one.cycles, other.cycles, strict=True):
-        assert second.period == pytest.approx(first.period, rel=1e-12)
-        assert second.radial_slope == pytest.approx(2.5 * first.radial_slope, rel=1e-10)
-        assert second.angular_slope == pytest.approx(first.angular_slope, rel=1e-10)
-        assert second.angle_slope == pytest.approx(first.angle_slope, rel=1e-10)
-
-
 def test_exponents_of_general_systems():
     random = np.random.default_rng(3)
     for _ in range(200):
@@ -91,11 +76,6 @@ def test_exponents_of_general_systems():
         assert lower.real <= upper.real
         assert lower + upper == pytest.approx(-damping, rel=1e-12, abs=1e-14 * abs(stiffness) ** 0.5)
         assert lower * upper == pytest.approx(stiffness, rel=1e-12)
-
-
-def test_equilibrium_must_be_on_the_wall():
-    with pytest.raises(InputError, match="on the wall"):
-        non_smooth_hopf(ContactSystem.of_rotor(PAPER), 1.0)
 
 
 def test_determinant_of_the_planar_rotor():

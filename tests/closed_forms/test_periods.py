@@ -10,11 +10,10 @@ from flint import acb, arb, ctx
 from machines import PAPER, exact_return, flight_matrix, random_parameters
 from scipy.linalg import expm
 
-from carom.base.outcome import CaromError, InputError
+from carom.base.outcome import CaromError
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.periods import curvature_bound
 from carom.models import jeffcott
-from carom.orbits import period_condition
 from carom.parameters import Parameters
 
 CRITICAL = 2.0 * 0.76
@@ -89,21 +88,6 @@ def test_slope_is_the_derivative(gamma):
         assert abs(condition.slope(np.array([period]))[0] - exact) <= tolerance
 
 
-def test_value_of_any_shape():
-    condition = condition_of(PAPER)
-    periods = np.linspace(0.1, 9.0, 12)
-    table = condition.value(periods.reshape(3, 4))
-    assert table.shape == (3, 4)
-    np.testing.assert_array_equal(table.ravel(), condition.value(periods))
-    assert condition.value(np.asarray(0.76)).shape == ()
-    np.testing.assert_array_equal(period_condition(jeffcott(PAPER), periods), condition.value(periods))
-
-
-def test_backward_slip_turns_the_friction_round():
-    condition = condition_of(PAPER, slip=-1)
-    np.testing.assert_allclose(condition.factor, np.conj(slip_factor(PAPER)), rtol=1e-15)
-
-
 def test_starts_at_half_of_what_restitution_leaves():
     """``F₁(0) = (1 − d)/2`` and ``F₁'(0) = (1 + d)(γ − 2μ)/12``, from ``g̃(z) = −1/2 − z/12 + …``."""
     random = np.random.default_rng(2)
@@ -144,24 +128,6 @@ def test_curvature_never_exceeds_its_bound():
         sharpest = max(sharpest, (curvatures.max(axis=0) / bounds).max())
     # The bound is of use: somewhere it is within a factor of ten.
     assert sharpest > 0.1
-
-
-def test_curvature_of_growing_modes_never_exceeds_its_bound_and_dies_out():
-    random = np.random.default_rng(8)
-    for _ in range(60):
-        parameters = random_parameters(random)
-        parameters = parameters.replace(gamma=-max(parameters.gamma, 0.05))
-        condition = condition_of(parameters)
-        middles = random.uniform(0.05, 60.0, 5)
-        half_widths = middles * 10 ** random.uniform(-4, -0.1, 5)
-        each = zip(middles, half_widths, strict=True)
-        bounds = [curvature_bound(condition.modes, condition.factor, middle, half) for middle, half in each]
-        inside = np.abs(middles + half_widths * np.linspace(-1, 1, 21)[:, None])
-        curvatures = np.abs(exact_curvature(parameters, inside.ravel())).reshape(inside.shape)
-        # The inverse of 1 − e^{AT} is as large as 1/T.
-        assert (curvatures <= bounds + 1e-12 / inside.min() ** 3).all()
-    paper = condition_of(PAPER.replace(gamma=-0.6))
-    assert curvature_bound(paper.modes, paper.factor, 80.0, 0.1) < 1e-8
 
 
 def test_nothing_lies_beyond_the_longest_period():
@@ -344,32 +310,6 @@ def test_roots_come_and_go_in_pairs_at_a_fold(changes, gamma, period):
                 np.testing.assert_allclose(close, float(time), atol=1e-7)
 
 
-def test_a_double_root_is_found_twice():
-    damping, time = fold(PAPER, 0.178, 1.64)
-    roots = condition_of(PAPER.replace(gamma=float(damping))).roots().periods
-    np.testing.assert_allclose(roots, [float(time)] * 2, atol=1e-7)
-
-
-def test_lossless_impacts_put_a_root_at_zero_that_is_not_counted():
-    """With ``d = 1`` there is ``F₁(0) = 0``, left downward exactly if ``γ < 2μ``."""
-    falling, rising = (condition_of(PAPER.replace(d=1.0, gamma=gamma)).roots() for gamma in (0.1, 0.31))
-    assert falling.starts_below
-    assert len(falling.periods) == 1
-    assert not rising.starts_below
-    assert len(rising.periods) == 0
-
-
-def test_nearly_lossless_impacts_have_a_root_next_to_zero():
-    """From ``F₁ ≈ (1 − d)/2 + (1 + d)(γ − 2μ)T/12`` the first root is at ``T ≈ 6(1 − d)/((1 + d)(2μ − γ))``."""
-    for loss in (1e-3, 1e-6, 1e-10):
-        parameters = PAPER.replace(d=1.0 - loss)
-        roots = condition_of(parameters).roots()
-        expected = 6.0 * (1.0 - parameters.d) / ((1.0 + parameters.d) * (2.0 * parameters.mu - parameters.gamma))
-        assert not roots.starts_below
-        assert len(roots.periods) == 2
-        assert roots.periods[0] == pytest.approx(expected, rel=loss + 1e-5)
-
-
 # ------------------------------------------------------------------------------------------- limits and refusals
 
 
@@ -385,46 +325,6 @@ def test_without_damping_roots_between_poles_are_found():
     np.testing.assert_allclose(roots.periods, periods[expected], atol=1e-4)
 
 
-def test_negative_damping_needs_a_longest_period():
-    condition = condition_of(PAPER.replace(gamma=-0.2))
-    with pytest.raises(InputError, match=r"gamma = -0\.2: above 0, or longest_period"):
-        condition.roots()
-    roots = condition.roots(20.0)
-    assert not roots.proven
-    assert len(roots.periods) == sign_changes(PAPER.replace(gamma=-0.2), 20.0)
-
-
-def test_where_all_modes_grow_and_nothing_rebounds_roots_are_found_as_far_as_they_can_be_told():
-    """``F₁`` fades like ``e^{−δT}``; without the 1 that cancels it is ``−Re(q a₂₂(−T))`` of the modes run backward."""
-    growing = PAPER.replace(gamma=-0.65, omega=0.95, mu=0.08, d=0.0)
-    condition = condition_of(growing)
-    roots = condition.roots(condition.longest_told())
-    times = np.linspace(0.0, condition.longest_told(), 200_001)[1:]
-    backward = PeriodCondition(condition.modes * [-1.0, 1.0, 1.0], condition.factor)
-    # Run backward the residue of a driven pair stays, and a₂₂ changes its sign with λ.
-    signs = backward.value(times) - 1.0 > 0.0
-    assert len(roots.periods) == np.count_nonzero(signs[1:] != signs[:-1]) > 20
-    with pytest.raises(CaromError, match="cannot be told apart; give a shorter longest_period"):
-        condition.roots(1.1 * condition.longest_told())
-    assert condition_of(growing.replace(d=0.5)).longest_told() == np.inf
-
-
-@pytest.mark.parametrize("longest", [0.0, -1.0, np.nan, np.inf])
-def test_longest_period_must_be_a_positive_number(longest):
-    with pytest.raises(InputError, match="longest_period"):
-        condition_of(PAPER).roots(longest)
-
-
-def test_a_shorter_search_finds_the_roots_up_to_its_end():
-    condition = condition_of(PAPER.replace(gamma=0.03))
-    everything = condition.roots()
-    some = condition.roots(10.0)
-    assert not some.proven
-    np.testing.assert_allclose(some.periods, everything.periods[everything.periods < 10.0], rtol=1e-13)
-    assert 0 < len(some.periods) < len(everything.periods)
-    assert condition.roots(100.0 * everything.longest_period).proven
-
-
 def test_hopeless_searches_are_refused():
     with pytest.raises(CaromError, match="too many to search; give a shorter longest_period"):
         condition_of(PAPER.replace(gamma=1e-9)).roots()
@@ -435,12 +335,3 @@ def test_a_search_that_resonance_makes_endless_is_refused_in_bounded_work(d):
     """Without damping and friction ``F₁`` is ``(1 − d)/2`` throughout, though its parts have poles."""
     with pytest.raises(CaromError, match="too near resonance; give a shorter longest_period"):
         condition_of(PAPER.replace(gamma=0.0, mu=0.0, d=d)).roots(593.0)
-
-
-def test_condition_of_the_planar_rotor_is_that_of_its_system():
-    random = np.random.default_rng(8)
-    for parameters in [PAPER.replace(d=1.0), *(random_parameters(random) for _ in range(20))]:
-        for slip in (1, -1):
-            short, general = PeriodCondition.planar(parameters, slip), condition_of(parameters, slip)
-            assert short.modes.tolist() == general.modes.tolist()
-            assert short.factor == general.factor

@@ -7,12 +7,10 @@ import math
 import numpy as np
 import pytest
 from linear_rotors import tilting
-from machines import PAPER
 
 import carom as cm
-from carom.base.outcome import InputError
 from carom.closed_forms import levitation
-from carom.models import Force, jeffcott, rotor_of
+from carom.models import Force, rotor_of
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
 TILTING = tilting().model.under(Force(-1j, np.array([0.02 - 0.1j, 0.05])))
@@ -52,31 +50,6 @@ def test_a_kick_of_no_size_stays_on_it(rotor):
     )
     assert reached == pytest.approx(held.reach, abs=1e-6)
     assert rotor.system.rest_radius == pytest.approx(held.reach, rel=1e-14)
-
-
-def test_without_weight_it_is_the_contact_free_equilibrium():
-    held, (free, *_) = levitation(PAPER), cm.find_equilibria(PAPER)
-    assert held.sag == 0.0
-    assert held.whirl == free.position
-    assert (held.reach, held.stable) == (pytest.approx(free.radius), free.stable)
-
-
-def test_a_bearing_whose_centre_is_where_the_rotor_sags_holds_it_in_the_middle():
-    bearing = cm.parameters.TouchdownBearing(
-        law="kelvin-voigt", stiffness=1e8, damping=3e3, offset=5.0 * 9.81 / 5e5, offset_direction=-0.5 * math.pi
-    )
-    held = levitation(jeffcott(jeffcott(HEAVY.parameters).parameters, bearing).under_gravity(HEAVY.gravity))
-    assert held.sags == pytest.approx([0.0], abs=1e-15)
-    assert held.reach == pytest.approx(abs(levitation(HEAVY).whirl), rel=1e-12)
-    # Both forces act through modes of their own, which cancel each other.
-    assert held.rotor.system.rest_radius == pytest.approx(held.reach, rel=1e-12)
-
-
-def test_a_rotor_that_nothing_holds_has_no_levitation():
-    with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
-        levitation(rotor_of(HEAVY).without_levitation())
-    with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame"):
-        levitation(jeffcott(PAPER).under(Force(0.3j, np.array([0.1]))))
 
 
 def test_the_weight_that_levitation_holds_is_that_at_which_it_reaches_the_wall():

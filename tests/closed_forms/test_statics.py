@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import random_rotor, single, tilting, touchdowns
+from linear_rotors import random_rotor, touchdowns
 from machines import random_parameters
 from scipy.optimize import root
 
@@ -105,23 +105,6 @@ def test_the_planar_rotor_by_its_matrices_has_the_same():
             assert general.normal_force == pytest.approx(planar.normal_force, rel=1e-12, abs=1e-12 * (1 + one.omega**2))
 
 
-def test_a_balanced_rotor_and_planes_that_touch_together_list_no_rub():
-    balanced = find_equilibria(tilting(forcing=np.zeros(2)).model)
-    assert len(balanced) == 1
-    assert balanced.complete
-    twice = find_equilibria(tilting(arms=(0.8, 0.8), stiffness=0.4 * np.eye(2), damping=0.1 * np.eye(2)).model)
-    assert {at.planes for at in twice} <= {(), (0,), (1,)}
-    assert {at.status for at in twice if at.planes} <= {"boundary", "virtual"}
-
-
-def test_it_says_that_three_planes_at_once_are_only_searched():
-    two, three = (find_equilibria(random_rotor(7, n=2, planes=count)) for count in (2, 3))
-    assert two.complete
-    assert "degree eight" in two.argument
-    assert not three.complete
-    assert "there may be others" in three.argument
-
-
 @pytest.mark.jit_only
 def test_motions_come_to_rest_in_a_stable_rub_and_in_no_other():
     """Starts anywhere and next to each admissible rub."""
@@ -155,11 +138,3 @@ def test_motions_come_to_rest_in_a_stable_rub_and_in_no_other():
             repelled += not back
     assert min(ended.values()) > 0
     assert repelled > 0
-
-
-def test_a_rotor_of_one_coordinate_has_plain_numbers():
-    at = find_equilibria(single().model)[0]
-    assert isinstance(at.position, complex)
-    assert at.places == pytest.approx([1.25 * at.position, 1.2 * at.position])
-    assert at.plane == 0
-    assert at.radius == pytest.approx(1.25 * abs(at.position))

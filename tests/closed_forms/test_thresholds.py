@@ -13,7 +13,6 @@ from machines import PAPER, path, rest_position
 from scipy.integrate import solve_ivp
 
 from carom.base.outcome import InputError
-from carom.bifurcations.motions import motions_at
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.harmless import harmless_kick, harmless_shock
 from carom.closed_forms.thresholds import (
@@ -32,10 +31,9 @@ from carom.closed_forms.thresholds import (
 )
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import jeffcott
-from carom.parameters import Numbers, Parameters, Scales
+from carom.parameters import Numbers, Parameters
 
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3)
-SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 
 degenerate = (
     st.fixed_dictionaries(
@@ -81,34 +79,6 @@ def test_levitation_is_inside_the_wall_where_its_condition_is_negative(parameter
     assert status == ("admissible" if wall_condition(parameters) < 0.0 else "virtual")
 
 
-def test_at_an_undamped_resonance_levitation_is_infinite_unless_the_rotor_is_balanced():
-    at = Numbers.of(PAPER)._replace(gamma=0.0, omega=1.0)
-
-    assert wall_condition(at) == math.inf
-    assert wall_condition(at._replace(rho=0.0)) == -1.0
-
-
-@pytest.mark.parametrize(
-    ("changes", "gain", "expected"),
-    [
-        # The circle is touched at γ = 0, or at ω² = 1 ± ρ with one of the two beyond ω = 0.
-        ({"omega": 0.5, "rho": 0.75}, "gamma", [(0.0, math.inf)]),
-        ({"gamma": 0.5, "rho": 0.5}, "omega", [(0.0, math.inf)]),
-        ({"gamma": 0.0, "rho": 1.0}, "omega", [(math.sqrt(2.0), math.inf)]),
-        ({"gamma": 0.0, "rho": 0.0}, "omega", [(0.0, math.inf)]),
-    ],
-)
-def test_tangent_and_empty_ranges_of_levitation(changes, gain, expected):
-    found = ranges_of("contact-free", PAPER.replace(**changes), gain)
-
-    assert [(low.value, high.value) for low, high in found] == expected
-
-
-def test_unknown_gain():
-    with pytest.raises(InputError, match="gamma, omega"):
-        ranges_of("rub", PAPER, "mu")
-
-
 # ------------------------------------------------------------------------------------------------ synchronous rub
 
 
@@ -152,15 +122,6 @@ def test_rubs_next_to_the_fold_on_both_sides_of_where_it_touches_the_circle(mu, 
     assert any(low.value <= machine.omega <= high.value for low, high in found) == (ahead > 0.0)
 
 
-@pytest.mark.parametrize("gamma", [-0.4, -0.31, -0.29, -0.05, 0.05])
-def test_motions_of_a_machine_with_negative_damping(gamma):
-    """Friction damps the rub down to γ = −2μ."""
-    machine = PAPER.replace(gamma=gamma)
-
-    assert motions_at(machine).rub == (gamma > -0.3)
-    assert motions_at(machine).rub == any(rub.stable for rub in find_equilibria(machine)[1:])
-
-
 def test_fold_in_high_precision():
     """The largest of ``−ρ(sin x + μ cos x) − μκ`` over all angles."""
     for mu in (0.0, 1e-9, 0.15, 4.0):
@@ -169,33 +130,6 @@ def test_fold_in_high_precision():
             worst = mpmath.findroot(lambda x, mu=mu: mpmath.cos(x) - mu * mpmath.sin(x), -math.atan2(1.0, -mu))
             expected = -rho * (mpmath.sin(worst) + mu * mpmath.cos(worst)) - mu * (1 - omega**2)
         assert rub_limit(PAPER.replace(mu=mu)) == pytest.approx(float(expected), rel=2e-15, abs=4e-16 * (1.0 + mu))
-
-
-@settings(max_examples=150, deadline=None)
-@given(
-    omega=st.floats(0.2, 1.8),
-    rho=st.floats(0.01, 2.0),
-    mu=st.floats(0.0, 0.8),
-    share=st.floats(0.001, 2.0),
-)
-def test_stable_rub_exists_exactly_below_its_limit(omega, rho, mu, share):
-    parameters = Parameters(gamma=1.0, omega=omega, rho=rho, phi=0.0, mu=mu, d=0.5, radius_ratio=10.0)
-    limit = rub_limit(jeffcott(parameters))
-    assume(abs(share - 1.0) > 1e-6)
-    gamma = share * limit if limit > 0.0 else share
-    assume(abs(omega - 1.0) + gamma > 1e-6)
-
-    rubs = find_equilibria(jeffcott(parameters.replace(gamma=gamma)))[1:]
-
-    assert any(rub.stable for rub in rubs) == (gamma < limit)
-    assert any(rub.status == "admissible" for rub in rubs) == (gamma < limit)
-
-
-def test_rub_limit_of_the_source_machine():
-    limit = rub_limit(jeffcott(PAPER))
-
-    assert limit == pytest.approx(0.3700060, abs=5e-8)
-    assert limit * SCALES.damping == pytest.approx(3407.756, abs=1e-3)
 
 
 def at_fold(random, side):
@@ -318,18 +252,6 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
         assert np.abs(flown).max() <= 1.0
         farthest = max(farthest, float(np.abs(flown - rest).max()))
     assert farthest == pytest.approx(1.0 - abs(rest), rel=1e-5)
-
-
-def test_critical_damping_is_the_limit_of_both_sides():
-    speeds = [
-        harmless_kick(jeffcott(PAPER.replace(rho=0.1, gamma=2.0 * 0.76 * factor))) for factor in (1 - 1e-7, 1, 1 + 1e-7)
-    ]
-    assert speeds == pytest.approx([speeds[1]] * 3, rel=1e-6)
-
-
-@pytest.mark.parametrize("changes", [{"gamma": -0.01, "rho": 0.1}, {"gamma": 0.05}])
-def test_nothing_is_harmless_without_damped_levitation(changes):
-    assert harmless_kick(jeffcott(PAPER.replace(**changes))) == 0.0
 
 
 @pytest.mark.parametrize("duration", [0.02, 0.7, 4.0])

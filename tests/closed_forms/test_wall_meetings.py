@@ -8,7 +8,7 @@ from boundary_rotors import touching
 from yielding_rotors import Yielding
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import Outcome
 from carom.base.roots import bracketed_root
 from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, small_cycles
 from carom.models import HuntCrossley, KelvinVoigt, Rigid
@@ -157,12 +157,3 @@ def test_a_curved_wall_is_not_felt():
     assert (meeting.kind, meeting.rub_stable, meeting.cycles) == ("persistence", True, ())
     beyond = find_equilibria(planar(HuntCrossley(1e4, 0.1, 1.5), gap=1e-8))
     assert any(each.kind == "rub" and each.stable for each in beyond)
-
-
-def test_what_has_no_such_point_is_refused():
-    with pytest.raises(InputError, match=r"^plane = 2: a contact plane of the rotor, from 0 to 1"):
-        small_cycles(touching(RIGID, 1), 2)
-    with pytest.raises(InputError, match=r"^plane = 0: one that is off its centre at rest"):
-        small_cycles(PAPER.replace(rho=0.0))
-    with pytest.raises(InputError, match=r"^machine = a rotor under gravity|^machine = "):
-        small_cycles(cm.load("examples/dropped-rotor.toml"))

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import random
-import subprocess
-import sys
 import warnings
-from pathlib import Path
 
 import numba
 import pytest
 from compilation import COMPILED, sized
-from damage import damage, restore, spoilt
+from damage import spoilt
 from numba.core import types
 from numba.core.registry import cpu_target
 
@@ -22,7 +18,6 @@ from carom.core.compiling.cache import KernelCache
 
 pytestmark = [pytest.mark.jit_only, pytest.mark.skipif(not COMPILED, reason="the compiler is off")]
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "source-paper.toml"
 ONE_NUMBER = (types.float64,)
 
 
@@ -134,67 +129,4 @@ def test_it_is_told_of_once(tmp_path):
     assert len(told) == 1
 
 
-def test_flush_forgets_this_kernel_alone(kept):
-    stray = kept.with_name("other.kernel.0123")
-    stray.touch()
-    KernelCache(cubed, kept.parent).flush()
-    assert list(kept.parent.iterdir()) == [stray]
-    KernelCache(cubed, None).flush()
-
-
-def test_a_disabled_cache_is_not_used(kept):
-    kernel = fresh(kept.parent)
-    kernel._cache.disable()
-    assert (kernel(3.0), hits(kernel)) == (27.0, 0)
-    kernel._cache.enable()
-    assert (kernel(3 + 0j), len(list(kept.parent.iterdir()))) == (27.0, 2)
-
-
 # ------------------------------------------------------------------------------------------------------- as a program
-
-
-def orbits(cache):
-    """Run a small command: exit code, standard output, error output."""
-    done = subprocess.run(
-        [sys.executable, "-m", "carom", "orbits", str(EXAMPLE)],
-        env={**os.environ, "CAROM_CACHE_DIR": str(cache)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return done.returncode, done.stdout, done.stderr
-
-
-@pytest.mark.deep
-def test_commands_heal_a_damaged_cache_without_a_word(tmp_path):
-    code, right, err = orbits(tmp_path)
-    assert (code, err) == (0, "")
-    files = [file for file in tmp_path.rglob("*") if file.is_file()]
-    chance = random.Random(11)
-    for _ in range(100):
-        before = {file: file.read_bytes() for file in chance.sample(files, chance.choice([1, 1, 1, 2, 5]))}
-        for file in before:
-            damage(file, chance)
-        code, out, err = orbits(tmp_path)
-        assert (code, out) == (0, right)
-        # A folder in the place of a file cannot be replaced.
-        assert err == "" or (err.startswith("carom: compiled kernels cannot be kept") and any(map(Path.is_dir, before)))
-        for file, data in before.items():
-            restore(file, data)
-
-
-NOWHERE = f"""
-import pathlib, sys
-def refuse(*_, **__):
-    raise PermissionError("read-only file system")
-pathlib.Path.mkdir = refuse
-from carom.cli import main
-sys.exit(main(["orbits", {str(EXAMPLE)!r}]))
-"""
-
-
-@pytest.mark.deep
-def test_commands_say_once_that_nothing_can_be_kept():
-    done = subprocess.run([sys.executable, "-c", NOWHERE], capture_output=True, text=True, check=False)
-    assert (done.returncode, "B1,d" in done.stdout, done.stderr.count("\n")) == (0, True, 1)
-    assert done.stderr.startswith("carom: compiled kernels cannot be kept on the disk")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -117,14 +116,6 @@ def test_circle_from_any_start(start):
     assert branch.stops == ("closed loop", "closed loop")
     assert gaps(branch).sum() == pytest.approx(2 * np.pi, rel=1e-3)
     assert np.ptp(branch.parameters) == pytest.approx(2.0, rel=1e-3)
-
-
-@pytest.mark.parametrize("largest", [0.02, 0.1])
-def test_neighbours_are_no_further_apart_than_the_largest_step(largest):
-    for residual, start in ((circle, (1.0, 0.0)), (cubic, (-1.3, 1.3**3 - 1.3))):
-        branch = continue_branch(residual, np.array([start[0]]), start[1], (-2, 2), steps=Steps(largest=largest))
-        assert gaps(branch).max() <= 1.05 * largest
-        assert gaps(branch).max() > 0.5 * largest
 
 
 @pytest.mark.parametrize("beginning", [0.12, 0.29, 0.299999])
@@ -242,15 +233,6 @@ def test_another_branch_that_crosses_is_avoided():
     assert branch.unknowns[:, 0] == pytest.approx(20.0 * values + 300.0 * values**2, abs=1e-9)
 
 
-def test_equations_that_end():
-    def residual(u, p):
-        return np.array([u[0] - (np.sqrt(0.3 - p) if p <= 0.3 else np.nan)])
-
-    branch = continue_branch(residual, np.array([np.sqrt(0.3)]), 0.0, (-1.0, 1.0))
-    assert branch.stops == ("parameter limit", "end of domain")
-    assert branch.parameters[-1] == pytest.approx(0.3, abs=1e-4)
-
-
 def test_most_points_and_step_too_small():
     few = continue_branch(circle, np.array([1.0]), 0.0, (-2, 2), steps=Steps(most_points=5))
     assert few.stops == ("most points", "most points")
@@ -278,26 +260,6 @@ def test_jumps_and_missing_values_are_no_zeros():
     assert branch.special == ()
 
 
-def test_first_step_has_the_stated_length():
-    """The point on the circle after a step ``h`` lies on the line normal to the tangent: ``u = √(1 − h²)``."""
-    for length in (0.04, 0.02, 0.01):
-        branch = continue_branch(circle, np.array([1.0]), 0.0, (-2, 2), steps=Steps(first=length, most_points=2))
-        assert branch.parameters[-1] == pytest.approx(length, abs=1e-13)
-        assert branch.unknowns[-1, 0] == pytest.approx(np.sqrt(1.0 - length**2), abs=1e-12)
-
-
-def test_calls_of_the_residual_are_counted():
-    calls = 0
-
-    def residual(u, p):
-        nonlocal calls
-        calls += 1
-        return circle(u, p)
-
-    branch = continue_branch(residual, np.array([1.0]), 0.0, (-2, 2))
-    assert calls < 12 * len(branch)
-
-
 @pytest.mark.parametrize("interval", [(1.0, -1.0), (0.5, 1.0), (0.0, 0.0)])
 def test_interval_must_hold_the_start(interval):
     with pytest.raises(InputError, match="interval"):
@@ -309,12 +271,6 @@ def test_start_far_from_any_solution():
         continue_branch(lambda u, p: np.array([u[0] ** 2 + 1.0 + p]), np.array([0.4]), 0.0, (-0.5, 0.5))
     with pytest.raises(CaromError, match="no solution near the start"):
         continue_branch(lambda u, p: np.array([np.nan]), np.array([0.4]), 0.0, (-0.5, 0.5))
-
-
-def test_places_grow_along_the_branch():
-    branch = continue_branch(cubic, np.array([0.0]), 0.0, (-2, 2), watches=[Watch("zero", lambda u, p: u[0] - 0.9)])
-    assert [point.kind for point in branch.special] in (["fold", "fold", "zero"], ["zero", "fold", "fold"])
-    assert all(first.place < second.place for first, second in pairwise(branch.special))
 
 
 def test_a_limit_that_cannot_be_located_is_not_stepped_over():

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from compilation import sized
 from machines import PAPER
 
 from carom.attractors import find_attractors
@@ -209,41 +208,3 @@ def test_an_orbit_with_rub_closes_too():
     motion = simulate(rotor, State(0.3, 0.5 + 1.0j), 1e5, settle=True)
     assert motion.outcome is Outcome.MIXED
     assert_closes(rotor, motion.final.position, motion.final.velocity, motion.multiplicity)
-
-
-@pytest.mark.deep
-@pytest.mark.jit_only
-@pytest.mark.parametrize("seed", range(4))
-def test_all_that_end_on_an_orbit_agree_how_many_impacts_it_has(seed):
-    random = np.random.default_rng(seed)
-    machines = 0
-    while machines < sized(50, 1):
-        rotor = jeffcott(_drawn_machine(random))
-        positions, velocities = drawn_starts(random, 24)
-        ends = settle(rotor, positions, velocities)
-        several = np.flatnonzero(np.isin(ends.outcomes, REPEATING) & (ends.multiplicities > 1))
-        if not len(several):
-            continue
-        machines += 1
-        told = [(ends.multiplicities[i], ends.positions[i], ends.velocities[i]) for i in several]
-        for i in several[:6]:
-            alone = simulate(rotor, State(positions[i], velocities[i]), 2e5, settle=True)
-            if alone.outcome in REPEATING and alone.multiplicity > 1:
-                told.append((alone.multiplicity, alone.final.position, alone.final.velocity))
-        orbits = [assert_closes(rotor, position, velocity, impacts) for impacts, position, velocity in told]
-        for first in orbits:
-            for second in orbits:
-                apart = np.abs(first.positions[0] - second.positions) + np.abs(first.velocities[0] - second.velocities)
-                assert apart.min() > 1e-6 or len(first.positions) == len(second.positions)
-
-
-def _drawn_machine(random):
-    return Parameters(
-        gamma=float(10 ** random.uniform(-2.0, 0.0)),
-        omega=float(random.uniform(0.3, 3.0)),
-        rho=float(random.uniform(0.05, 1.2)),
-        phi=float(random.uniform(-3.0, 3.0)),
-        mu=float(random.choice([0.0, random.uniform(0.0, 0.5)])),
-        d=float(random.uniform(0.3, 0.99)),
-        radius_ratio=float(10 ** random.uniform(0.2, 2.0)),
-    )

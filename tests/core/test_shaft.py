@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from turning_reference import SLIDES, Turning
 
-from carom.core.advance import advance
 from carom.core.contact_series import rub_series
-from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.flow import acceleration, displacement, velocity
-from carom.core.layout import rub_workspace, workspace
+from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, lasts
-from carom.core.records import copy_of
 from carom.core.rub import next_phase, press, rest_on_wall, wall_push
 from carom.core.shaft import change_speed, enter_flight, leave_flight, lever_of_shaft, surface_excess
 from carom.core.taylor import series_step, sum_series
-from carom.models import KelvinVoigt, Rigid, Shaft, Touchdown, from_matrices
+from carom.models import Rigid, Shaft, Touchdown, from_matrices
 
 SIGNS = {FORWARD_SLIP: 1, BACKWARD_SLIP: -1, ROLLING: 0}
 
@@ -166,30 +160,3 @@ def test_what_keeps_a_plane_on_its_wall_and_its_rate():
     reference, y = reference_at(amplitudes)
     assert reference.slip(0, y) == pytest.approx(0.0, abs=1e-14)
     assert next_phase(SYSTEM.arrays, np.array([FLIGHT, AWAY]), 0, amplitudes, work) in SIGNS
-
-
-@pytest.mark.deep
-def test_a_motion_strikes_slides_and_is_in_contact_with_a_wall_that_gives_way():
-    """Short enough for kernels that are not compiled."""
-    soft = ROTOR.replace(
-        touchdowns=[dataclasses.replace(each, law=KelvinVoigt(50.0, 1.0)) for each in ROTOR.equations.touchdowns[:1]]
-    )
-    for rotor, until in ((ROTOR, 2.5), (soft, 1.6)):
-        system, planes = rotor.system, len(rotor.equations.touchdowns)
-        state, contact = system.amplitudes(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j])), np.full(planes, AWAY)
-        reference = Turning(rotor)
-        y = reference.follow(reference.start(*system.state(state)), until)
-        tools = memory(system.modes, patience=9), workspace(system.modes), rub_workspace(system.modes, planes)
-        log = EventLog.empty(50, system.modes, planes)
-        advance(*system.own_records(), state, until, contact, log, *tools)
-        position, _, speed, *_ = reference.seen_in_the_frame(until, y)
-        assert reference.impacts + reference.contacts > 0
-        assert system.state(state)[0] == pytest.approx(position, abs=1e-11)
-        assert system.shaft_turn(state)[0] == pytest.approx(speed, abs=1e-11)
-
-
-def test_a_copy_of_a_record_is_its_own():
-    copied = copy_of(SYSTEM.arrays)
-    copied["rows"][0, 0] += 1.0
-    assert copied["rows"][0, 0] != SYSTEM.arrays["rows"][0, 0]
-    assert copied["columns"].tolist() == SYSTEM.arrays["columns"].tolist()

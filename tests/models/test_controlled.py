@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from linear_rotors import tilting, touchdowns
+from linear_rotors import touchdowns
 from scipy.linalg import expm
 
-import carom as cm
 from carom.base.outcome import InputError
-from carom.models import from_matrices, rotor_from
+from carom.models import from_matrices
 from carom.models.weight import levitation_of
 from carom.parameters import Gravity, Scales
 
@@ -98,13 +97,6 @@ def test_flights_are_those_of_first_order_equations(levitates, heavy):
         assert np.allclose((velocity + 1j * position)[:2] * turn, expected[6:], rtol=0, atol=1e-11)
 
 
-def test_rates_of_coordinates_without_mass_in_a_state_are_not_used():
-    system, random = controlled().system, np.random.default_rng(1)
-    position, velocity = random.normal(size=(2, 6))
-    other = np.where(np.arange(6) < 2, velocity, 100.0)
-    assert np.array_equal(system.amplitudes(position, velocity), system.amplitudes(position, other))
-
-
 def test_an_integrator_that_takes_long_takes_the_whole_sag_away():
     """Its mode is nearly in resonance with the weight, which stands still, but it fades: it has settled before the motion begins."""
     rotor = controlled().under_gravity(Gravity())
@@ -127,24 +119,6 @@ def test_without_levitation_nothing_holds_it_and_its_controller_stands_by_itself
     assert by_size(free.system.exponents + 1j) == pytest.approx(np.array([0, 0, 0, 0.75j, -1, -1, -1, -1]), abs=1e-7)
 
 
-@pytest.mark.deep
-@pytest.mark.jit_only
-def test_it_is_dropped_and_levitates_again():
-    rotor = controlled(ki=0.01).under_gravity(Gravity())
-    balanced = controlled(ki=0.01, forcing=np.zeros(6)).under_gravity(Gravity())
-    motion = cm.simulate(balanced, cm.drop(), "20 ms")
-    assert motion.contacts.time[0] == pytest.approx(np.sqrt(2.0 / abs(Gravity().pull(SCALES))), rel=1e-12)
-    back = cm.simulate(rotor, cm.drop(regained_after="16 ms"))
-    assert [part.outcome.label for part in back.parts] == ["triggered", "levitated"]
-    assert len(back.parts[0].contacts)
-
-
-def test_parameters_are_those_that_mean_something():
-    rotor = controlled()
-    assert not {"gamma", "omega"} & rotor.varied.keys()
-    assert rotor.value("rho") == pytest.approx(0.1)
-
-
 def test_another_speed_is_the_same_machine_in_other_units():
     """Exponents in 1/s do not change but for the gyroscopic ones, and what is left falls as before."""
     flat = {"gyroscopic": np.zeros((6, 6))}
@@ -153,23 +127,6 @@ def test_another_speed_is_the_same_machine_in_other_units():
     assert by_size((other.system.exponents + 1j) * 700.0) == pytest.approx(expected, abs=1e-8)
     free = by_size((other.without_levitation().system.exponents + 1j) * 700.0)
     assert free == pytest.approx(np.repeat([0.0, -1000.0], 4), abs=700.0 * 1e-7)
-
-
-def test_gains_multiply_what_is_left_too():
-    rotor = tilting().model
-    matrices = rotor.matrices
-    left = np.stack([0.5 * matrices.damping, 0.25 * matrices.stiffness])
-    partly = rotor.replace(unlevitated=left, gamma=2.0 * rotor.value("gamma"), omega=3.0 * rotor.value("omega"))
-    free = partly.without_levitation()
-    assert np.allclose(free.matrices.damping, matrices.damping, rtol=0, atol=1e-14)
-    assert np.allclose(free.matrices.stiffness, 2.25 * matrices.stiffness, rtol=0, atol=1e-14)
-
-
-def test_it_is_read_again_from_its_attributes():
-    rotor = controlled()
-    again = rotor_from(rotor.attributes())
-    assert again.system.arrays.tobytes() == rotor.system.arrays.tobytes()
-    assert np.array_equal(again.equations.unlevitated, rotor.equations.unlevitated)
 
 
 @pytest.mark.parametrize(

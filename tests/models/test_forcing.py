@@ -11,7 +11,7 @@ from linear_rotors import FixedFrame, single, tilting, to_fixed, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import InputError
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
 from carom.models import Force, from_matrices, second_order_system
@@ -103,20 +103,6 @@ def test_a_free_rotor_of_two_coordinates_falls(pushes):
         assert np.allclose((position - rest) * np.exp(1j * time), fixed, rtol=0, atol=1e-12)
 
 
-def test_at_rest_only_the_forces_move_it():
-    system = with_forces(planar_system(0.3, 0.76), [Force(-1j, np.array([0.02]))])
-    position, velocity = (values[0] for values in system.kicked(0.0))
-    still = system.amplitudes(position, velocity)
-    assert np.allclose(still, system.forced, rtol=0, atol=1e-15)
-    sag = 0.02 / 0.76**2
-    # A constant force in the fixed frame displaces the centre of the circle by the static sag.
-    for time in (0.0, 1.0, 7.0):
-        place, _ = system.state(system.fly(still, np.array(time)))
-        assert place * np.exp(1j * time) == pytest.approx(sag + system.rest[0] * np.exp(1j * time), abs=1e-14)
-    assert system.rest_radius == pytest.approx(abs(system.rest[0]) + sag)
-    assert system.translation_velocity(velocity) == pytest.approx(0.0, abs=1e-15)
-
-
 def dropped():
     """A balanced rotor in a clearance of 0.25 mm whose levitation is lost at 18,000 rpm: nothing but its weight acts on it."""
     scales = cm.parameters.Scales(5.0, 0.25e-3, 600.0 * math.pi)
@@ -141,31 +127,6 @@ def test_a_drop_from_the_centre_touches_after_the_time_of_free_fall():
     assert math.isinf(rotor.system.rest_radius)
 
 
-def test_a_bouncing_rotor_comes_to_rest_at_the_bottom():
-    """It leans by the friction angle: the friction that the spinning shaft meets carries its weight on the slope."""
-    rotor = dropped()
-    motion = cm.simulate(rotor, cm.State(0.0), 60_000.0, settle=False)
-    place, _ = motion.at_plane(motion.time)
-    turn = np.exp(1j * motion.time)
-    lean = np.angle(1j * place * turn)
-    assert abs(abs(lean) - math.atan(0.1)) < 0.3
-    assert abs(place) == pytest.approx(1.0, abs=1e-9)
-    assert motion.outcome is Outcome.TIME_REACHED
-
-
-def test_a_model_is_read_again_from_its_attributes():
-    rotor = dropped()
-    again = cm.models.rotor_from(rotor.attributes())
-    assert again.system.arrays.tobytes() == rotor.system.arrays.tobytes()
-    assert again.replace(mu=0.3).system.arrays.friction[0] == 0.3
-    assert again.value("mu") == 0.1
-
-
-def test_a_force_near_two_modes_that_nearly_coincide_is_refused():
-    with pytest.raises(InputError, match="force"):
-        with_forces(planar_system(1e-5, 0.0), [Force(-1j, np.array([0.1]))])
-
-
 def test_what_needs_rest_or_repetition_is_refused():
     shaken = tilting().model.under(Force(-0.5j, np.array([0.01, 0.0])))
     with pytest.raises(InputError, match="forces that change with time"):
@@ -177,16 +138,6 @@ def test_what_needs_rest_or_repetition_is_refused():
     for call in calls:
         with pytest.raises(InputError, match="forces that change in the fixed frame"):
             call()
-
-
-def test_no_contact_changes_a_force():
-    heavy = tilting().model.under(Force(-1j, np.array([-0.2j, 0.0])))
-    motion = cm.simulate(heavy, cm.State(np.array([0.1, 0.0]), np.array([1.0, 0.5j])), 200.0)
-    assert motion.is_impact.sum() > 100
-    course = heavy.system.forced[:, None] * np.exp(np.outer(heavy.system.arrays.exponents, motion.segment_starts))
-    # Each flight rounds the direction of the force.
-    forcing = heavy.system.forced != 0.0
-    assert motion.segment_amplitudes.T[forcing] == pytest.approx(course[forcing], abs=1e-12)
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-18])
@@ -252,27 +203,3 @@ def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
             assert np.allclose(state[1], speed, rtol=0, atol=1e-9)
             impacts += 1
     assert impacts > 1
-
-
-@pytest.mark.parametrize("rate", [-1j, -0.24j, 0.3j])
-@pytest.mark.parametrize("stiffness", [0.0, 0.76**2])
-def test_forces_of_one_exponent_add_up(rate, stiffness):
-    """In resonance with a mode too: both drive it."""
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[0.0]],
-        stiffness=[[stiffness]],
-        forcing=[0.1],
-        touchdowns=touchdowns([[1.0]], [0.1], [0.5], [9.0]),
-    )
-    halves = rotor.under(Force(rate, np.array([0.01])), Force(rate, np.array([0.02j]))).system
-    whole = rotor.under(Force(rate, np.array([0.01 + 0.02j]))).system
-    for time in (0.0, 3.0):
-        first, second = (each.state(each.fly(each.amplitudes(0.1, 0.2j), time)) for each in (halves, whole))
-        assert np.allclose(first, second, rtol=0, atol=1e-14)
-
-
-def test_a_force_next_to_a_resonance_that_another_drives_is_refused():
-    system = planar_system(0.0, 0.76)
-    with pytest.raises(InputError, match="another force drives"):
-        with_forces(system, [Force(-0.24j, np.array([0.01])), Force(-0.2401j, np.array([0.01]))])

@@ -109,16 +109,6 @@ def test_a_rigid_wall_may_turn_sit_on_a_mount_and_lie_off_the_centre(parts):
     assert rotor.value("d") == rotor.parameters.d
 
 
-def test_what_needs_a_rigid_wall_says_so():
-    model = of(law="kelvin-voigt", stiffness=STIFFNESS, restitution=0.9)
-    with pytest.raises(InputError, match=r"touchdown = kelvin-voigt.*known for these alone"):
-        cm.find_orbits(model)
-    with pytest.raises(InputError, match="bearing = rigid"):
-        jeffcott(ROTOR.parameters, TouchdownBearing())
-    with pytest.raises(InputError, match="rotor = "):
-        jeffcott(jeffcott(PAPER).parameters, TouchdownBearing("kelvin-voigt", 1e8, 500.0))
-
-
 def test_a_bearing_off_centre_is_met_where_the_levitating_rotor_is_a_clearance_from_its_centre():
     centre = 0.3 * np.exp(0.4j)
     given = {"offset": 0.3 * SCALES.length, "offset_direction": 0.4}
@@ -136,8 +126,3 @@ def test_a_bearing_off_centre_is_met_where_the_levitating_rotor_is_a_clearance_f
     assert model.system.rest_radius == pytest.approx(alone.system.rest_radius + 0.3, rel=1e-12)
     fallen = model.without_levitation()
     assert fallen.system.forced is None
-
-
-def test_a_direction_needs_a_distance():
-    with pytest.raises(InputError, match=r"offset = nothing given"):
-        of(law="kelvin-voigt", stiffness=STIFFNESS, restitution=0.9, offset_direction=0.4)

@@ -11,10 +11,8 @@ from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
 from carom.base.outcome import InputError
-from carom.disturbances import kick
-from carom.models import from_matrices, jeffcott, rotor_from, rotor_of
+from carom.models import from_matrices
 from carom.models.modes import modes_of
-from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 
@@ -72,11 +70,6 @@ def test_modes_stay_accurate_where_two_coincide(split):
     assert found.driven.any() == (split < 1e-3)
 
 
-def test_three_modes_in_one_are_refused():
-    with pytest.raises(InputError, match="at most two modes"):
-        modes_of(np.diag(np.ones(2), 1) - 0.3 * np.eye(3))
-
-
 def exact(model, time, state):
     """State after a free flight, less the equilibrium, by the matrix exponential in 50 digits."""
     n = len(model.equations.mass)
@@ -119,32 +112,6 @@ def test_coordinates_that_are_critically_damped_alike(split, damping, stiffness)
     assert np.abs(got - exact(model, 2.3, state)).max() < 5e-12 * np.abs(state).max()
 
 
-def test_three_modes_of_coordinates_that_cannot_be_separated_are_refused():
-    spin = 1.5 * np.eye(2)
-    stiffness = np.array([[0.5625, 1.0], [0.0, 0.5625]])
-    model = planar(PAPER, beside=0.7).replace(damping=spin, stiffness=stiffness, mass=np.eye(2))
-    with pytest.raises(InputError, match="unless they belong to coordinates that can be separated"):
-        assert model.system
-
-
-@pytest.mark.jit_only
-def test_a_coordinate_that_is_critically_damped_alike_changes_nothing():
-    parameters = PAPER.replace(gamma=2.0 * PAPER.omega)
-    alone, beside = planar(parameters), planar(parameters, beside=parameters.omega**2)
-    position, velocity = 0.7 + 0.1j, 2.4 - 0.9j
-    one = simulate(alone, State(position, velocity), 60.0)
-    other = simulate(beside, State(np.array([position, 0.0]), np.array([velocity, 0.0])), 60.0)
-    assert len(one.contacts) == len(other.contacts) > 0
-    assert np.allclose(one.contacts.time, other.contacts.time, rtol=0, atol=1e-10)
-
-
-def test_one_coordinate_takes_the_fast_route():
-    assert planar(PAPER).system.is_planar
-    assert not planar(PAPER, beside=0.7).system.is_planar
-    assert jeffcott(PAPER).system.is_planar
-    assert not single(1).model.system.is_planar
-
-
 @pytest.mark.jit_only
 def test_it_moves_as_the_planar_rotor_does_beside_a_coordinate_that_it_does_not_feel():
     random = np.random.default_rng(3)
@@ -160,34 +127,6 @@ def test_it_moves_as_the_planar_rotor_does_beside_a_coordinate_that_it_does_not_
         count = min(len(one.contacts), len(two.contacts), 6)
         assert np.allclose(one.contacts.time[:count], two.contacts.time[:count], rtol=0, atol=1e-8)
         assert np.allclose(one.contacts.normal_impulse[:count], two.contacts.normal_impulse[:count], rtol=0, atol=1e-7)
-
-
-@pytest.mark.jit_only
-def test_it_settles_as_the_planar_rotor_does():
-    """One motion after another, without what is known of the planar rotor, ends where lanes and proofs say."""
-    random = np.random.default_rng(5)
-    for parameters in (PAPER, PAPER.replace(gamma=0.2), PAPER.replace(rho=0.9, gamma=0.5), PAPER.replace(d=0.4)):
-        count = sized(25, 4, 400)
-        positions = 0.9 * np.sqrt(random.random(count)) * np.exp(2j * np.pi * random.random(count))
-        velocities = 1.5 * random.random(count) * np.exp(2j * np.pi * random.random(count))
-        fast = settle(parameters, positions, velocities)
-        general = settle(
-            planar(parameters, 0.7),
-            np.stack([positions, 0 * positions], -1),
-            np.stack([velocities, 0 * velocities], -1),
-        )
-        assert general.positions.shape == (count, 2)
-        differ = np.flatnonzero(fast.outcomes != general.outcomes)
-        # Motions that are irregular for long may end either way.
-        assert len(differ) <= 0.1 * count, (fast.outcomes[differ], general.outcomes[differ])
-
-
-def test_attributes_make_the_same_rotor_again():
-    model = tilting().model
-    again = rotor_from(model.attributes())
-    assert again.attributes() == model.attributes()
-    assert rotor_from(jeffcott(PAPER).attributes()) == jeffcott(PAPER)
-    assert rotor_of(model) is model
 
 
 @pytest.mark.parametrize(
@@ -233,9 +172,3 @@ def test_matrices_of_the_fixed_frame_are_not_stretched_to_shape(changes, named):
     plane = {"touchdowns": touchdowns([[1.0, 0.5]], [0.1], [0.9], [10.0])}
     with pytest.raises(InputError, match=f"^{named} = "):
         from_matrices(**numbers | plane | changes)
-
-
-def test_a_kick_moves_one_coordinate_as_its_translation_says():
-    rotor = planar(PAPER).replace(translation=[2.0])
-    assert rotor.system.is_planar
-    assert kick(0.3).stages(rotor)[1].velocity == pytest.approx(0.6)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from linear_rotors import bending, touchdowns
+from linear_rotors import touchdowns
 from machines import PAPER
 
 from carom.base.outcome import InputError
@@ -104,15 +104,6 @@ def test_planes_together_and_one_by_one():
         given.value("mu")
 
 
-def test_several_at_once():
-    given = rotor()
-    planes = touchdowns([[1.0, 0.1], [1.0, 0.0]], [0.1, 0.2], [0.9, 0.9], [30, 40])
-    got = given.replace(gamma=0.3, speed=100.0, mu=0.25, touchdowns=planes)
-    assert got.value("gamma") == pytest.approx(0.3, rel=1e-14), "physical parameters are set first"
-    assert got.value("omega") == pytest.approx(given.value("omega") * 1.842, rel=1e-14)
-    assert (got.scales.speed, got.value("friction"), got.equations.planes[0, 1]) == (100.0, 0.25, 0.1)
-
-
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
@@ -126,19 +117,3 @@ def test_several_at_once():
 def test_values_that_cannot_be_set(changes, words):
     with pytest.raises(InputError, match=words):
         rotor().replace(**changes)
-
-
-def test_nothing_to_multiply():
-    for name, without in (("gamma", {"damping": 0.0 * DAMPING}), ("rho", {"forcing": 0.0 * FORCING})):
-        with pytest.raises(InputError, match=f"{name} = 0 now"):
-            rotor(**without).replace(**{name: 0.1})
-    with pytest.raises(InputError, match="mass, clearance and speed are not known"):
-        axis(rotor(scales=None), "speed")
-    with pytest.raises(InputError, match="did you mean gamma"):
-        rotor().value("gama")
-
-
-def test_modes_change_with_the_speed():
-    model = bending().model
-    faster = model.replace(scales=SCALES).replace(speed=2.0 * SCALES.speed)
-    assert not np.allclose(np.sort(faster.system.exponents.real), np.sort(model.system.exponents.real))

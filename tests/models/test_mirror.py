@@ -10,18 +10,14 @@ from limited_reference import clipped, follow, struck
 from scipy.linalg import expm
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome, Phase
-from carom.closed_forms import harmless_kick
-from carom.closed_forms.sag import levitation
+from carom.base.outcome import InputError, Phase
 from carom.models import (
     Force,
     KelvinVoigt,
     Limit,
     Rigid,
     Touchdown,
-    from_corotating_matrices,
     from_matrices,
-    rotor_from,
 )
 from carom.motions import State, energy_ledger
 
@@ -111,14 +107,6 @@ def test_states_come_back_from_amplitudes_at_any_time():
         assert velocity == pytest.approx(START.velocity, abs=1e-14)
 
 
-def test_a_blow_changes_velocities_as_without_such_bearings():
-    arrays = heavy(rotor_of()).system.arrays
-    assert np.abs(arrays["mirror_columns"]).max() > 0.01
-    assert arrays["rows"] @ arrays["mirror_columns"] == pytest.approx(0.0, abs=1e-14)
-    assert arrays["rate_rows"] @ arrays["mirror_columns"] == pytest.approx(0.0, abs=1e-14)
-    assert arrays["mobility"] == pytest.approx(1.0, abs=1e-14)
-
-
 def test_unbalance_leads_round_an_ellipse():
     rotor = rotor_of()
     ahead = STIFFNESS - MASS + 1j * (DAMPING - 1j * GYROSCOPIC)  # of e^{it}
@@ -201,85 +189,7 @@ def test_limits_of_controllers_act_in_both_directions():
     assert energy_ledger(motion).imbalance < 1e-12
 
 
-@pytest.mark.parametrize(("law", "surface_speed"), [(SOFT, 8.0), (SOFT, 1.05), (Rigid(0.8), 8.0), (Rigid(0.3), 1.05)])
-def test_bearings_that_are_alike_move_the_rotor_as_without_the_second_set_of_modes(law, surface_speed):
-    # What acts on conjugates is not zero, but far below rounding.
-    nearly = rotor_of(law, 0.4, surface_speed, conjugate=np.full((2, 2, 2), 1e-300))
-    alike = rotor_of(law, 0.4, surface_speed, conjugate=None)
-    assert (not nearly.system.is_anisotropic, not alike.system.is_anisotropic) == (False, True)
-
-    ends = [cm.simulate(heavy(each), START, 15.0) for each in (nearly, alike)]
-    assert ends[0].segment_phases.tolist() == ends[1].segment_phases.tolist()
-    # Rounding grows in each contact.
-    assert ends[0].final.position == pytest.approx(ends[1].final.position, abs=1e-9)
-
-
-def test_lasting_contact_settles():
-    rotor = rotor_of(KelvinVoigt(stiffness=50.0, damping=5.0), 0.05, forcing=np.array([0.6, 0.0]))
-    motion = cm.simulate(rotor, State(np.array([0.9, 0.0]), np.zeros(2)))
-    assert motion.outcome is Outcome.FORWARD_RUB
-    turn = 2.0 * np.pi
-    before, after = motion.at(np.array([motion.time - turn, motion.time]))[0]
-    assert before == pytest.approx(after, abs=1e-8)  # states are the same to 1e-9 relative
-    # It goes round no circle: the radius changes twice a turn.
-    assert np.ptp(motion.radius(motion.time - np.linspace(0.0, turn, 100))) > 0.005
-
-
-def test_levitation_settles_inside_the_wall():
-    assert cm.simulate(heavy(rotor_of()), cm.kick(0.05)).outcome is Outcome.LEVITATED
-
-
-def test_a_model_comes_back_from_its_attributes():
-    rotor = heavy(rotor_of())
-    again = rotor_from(rotor.attributes())
-    assert again.system.arrays["mirror_columns"].tolist() == rotor.system.arrays["mirror_columns"].tolist()
-
-
-def test_such_bearings_stay_when_levitation_is_lost():
-    rotor = rotor_of(conjugate=ACROSS)
-    rotor = from_corotating_matrices(
-        **{name: getattr(rotor.equations, name) for name in ("mass", "damping", "stiffness", "forcing", "touchdowns")},
-        translation=rotor.equations.translation,
-        unlevitated=np.stack([DAMPING, 0.5 * STIFFNESS]),
-        conjugate=ACROSS,
-    )
-    left = rotor.without_levitation()
-    assert left.matrices.stiffness == pytest.approx(0.5 * STIFFNESS, abs=1e-14)
-    assert left.equations.conjugate.tolist() == ACROSS.tolist()
-
-
 @pytest.mark.parametrize("rotor", [rotor_of(), heavy(rotor_of())])
 def test_what_needs_alike_bearings_is_refused(rotor):
     with pytest.raises(InputError, match="anisotropic bearings"):
         cm.find_equilibria(rotor)
-
-
-def test_levitation_is_told_with_its_ellipse():
-    rotor = heavy(rotor_of())
-    held, motion = levitation(rotor), cm.simulate(rotor, cm.kick(0.0), 5.0)
-    times = np.linspace(0.0, 5.0, 7)
-    assert held.path(times) == pytest.approx(motion.at(times)[0] * np.exp(1j * times)[:, None], abs=1e-12)
-    assert held.reach == pytest.approx(rotor.system.rest_radius, abs=1e-12)
-    assert held.stable
-
-
-def test_no_kick_is_known_to_be_harmless():
-    assert harmless_kick(rotor_of()) == 0.0
-
-
-def test_the_speed_of_its_shaft_does_not_change():
-    with pytest.raises(InputError, match="its speed stays as it is"):
-        from_corotating_matrices(
-            MASS,
-            DAMPING,
-            STIFFNESS,
-            UNBALANCE,
-            [Touchdown(ROW, SOFT, 0.1, 8.0)],
-            conjugate=ACROSS,
-            shaft=cm.models.Shaft(1.0),
-        )
-
-
-def test_what_acts_on_conjugates_has_the_shape_of_the_matrices():
-    with pytest.raises(InputError, match=r"conjugate.*\(2, 2, 2\)"):
-        rotor_of(conjugate=np.zeros((2, 3)))

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, Race, Rigid, Touchdown, from_matrices, rotor_from
+from carom.models import HuntCrossley, KelvinVoigt, Race, Rigid, Touchdown, from_matrices
 
 GAMMA, OMEGA, PUSH = 0.1, 0.76, 3.0 / 7.0 * np.exp(0.21j)
 START = cm.State(0.2 + 0.1j, 1.0)
@@ -130,37 +130,6 @@ def test_motions_against_a_general_integrator(law, race, friction, surface_speed
     assert motion.final.position == pytest.approx(complex(y[0], y[1]), abs=1e-11)
     assert motion.final.velocity == pytest.approx(complex(y[2], y[3]), abs=1e-11)
     assert motion.final.races == pytest.approx((y[4],), abs=1e-10)
-
-
-def test_a_motion_goes_on_from_its_end_with_the_speed_of_its_race():
-    rotor = rotor_with(SOFT, Race(2.0, 1.5, 0.02, 0.1), 0.6, 1.2)
-    whole, first = cm.simulate(rotor, START, 8.0), cm.simulate(rotor, START, 3.1)
-    later = cm.simulate(rotor, first.final, 4.9)
-    assert later.final.races == pytest.approx(whole.final.races, abs=1e-12)
-    assert later.final.position == pytest.approx(whole.final.position, abs=1e-12)
-    again = cm.simulate(rotor, cm.State(first.final.position, first.final.velocity), 4.9)
-    assert abs(again.final.races[0] - whole.final.races[0]) > 1e-3
-
-
-def test_without_contact_drag_alone_slows_a_race():
-    rotor = rotor_with(SOFT, Race(2.0, 1.5, 0.3, 0.8))
-    end = cm.simulate(rotor, cm.State(rotor.system.rest[0], 0.0), 5.0).final
-    assert end.races == pytest.approx((1.2 * np.exp(-0.15 * 5.0),), rel=1e-14)
-
-
-def test_a_race_without_drag_ends_with_the_surface_of_a_rotor_that_stays_in_contact():
-    rotor = rotor_with(KelvinVoigt(1e2, 4.0), Race(5.0, 1.5, 0.0), 0.3, 1.5).replace(rho=1.2)
-    motion = cm.simulate(rotor, cm.State(0.9 + 0j, 0.5))
-    assert motion.outcome is cm.outcome.Outcome.FORWARD_RUB
-    radius = abs(motion.final.position)
-    assert motion.final.races[0] == pytest.approx(0.5 + radius, abs=1e-6)
-
-
-def test_a_rotor_with_a_race_is_written_and_read():
-    rotor = rotor_with(SOFT, Race(2.0, 1.5, 0.3, 0.8))
-    again = rotor_from(rotor.attributes())
-    assert again.equations.touchdowns == rotor.equations.touchdowns
-    assert cm.simulate(again, START, 3.0).final == cm.simulate(rotor, START, 3.0).final
 
 
 def test_what_cannot_turn_is_refused():

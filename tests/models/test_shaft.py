@@ -7,7 +7,7 @@ import pytest
 from turning_reference import SLIDES, Turning
 
 import carom as cm
-from carom.models import Force, HuntCrossley, KelvinVoigt, Race, Rigid, Shaft, Touchdown, from_matrices, rotor_from
+from carom.models import Force, HuntCrossley, KelvinVoigt, Race, Rigid, Shaft, Touchdown, from_matrices
 
 START = cm.State(0.2 + 0.1j, 1.0)
 SOFT = KelvinVoigt(1e3, 3.3)
@@ -208,70 +208,6 @@ def test_a_drop_against_a_general_integrator():
     assert_same(motion, reference, 26.0, y, bare)
 
 
-def test_levitation_is_lost_with_the_shaft_that_the_rotor_has():
-    held = single(SOFT, Shaft(6.0, 0.01))
-    falling = held.under(Force(-1j, np.array([-0.02j]))).without_levitation()
-    assert falling.equations.shaft == held.equations.shaft
-    assert falling.system.shaft is not None
-
-
-def test_without_contact_the_speed_stays_and_the_unbalance_follows_it():
-    rotor = single(SOFT, Shaft(3.0), forcing=[0.1])
-    for speed, angle in ((1.0, 0.0), (0.4, 0.7), (-0.3, 2.0)):
-        response = 0.1 * speed**2 / (0.76**2 - speed**2 + 0.1j * speed) * np.exp(1j * angle)
-        end = cm.simulate(rotor, cm.State(response, 1j * (speed - 1.0) * response, shaft=(speed, angle)), 5.0).final
-        assert end.shaft[0] == speed
-        assert end.position == pytest.approx(response * np.exp(5j * (speed - 1.0)), abs=1e-14)
-    at_rest = cm.kick(0.0).stages(rotor)[1]
-    assert at_rest.position == pytest.approx(0.1 / (0.76**2 - 1.0 + 0.1j), abs=1e-15)
-    assert rotor.system.rest_radius == pytest.approx(abs(at_rest.position), rel=1e-14)
-
-
-def test_a_motion_goes_on_from_its_end_and_is_seen_between():
-    rotor = single(SOFT, Shaft(3.0), 0.3, 3.0)
-    whole, first = cm.simulate(rotor, START, 9.0), cm.simulate(rotor, START, 4.2)
-    later = cm.simulate(rotor, first.final, 4.8)
-    assert later.final.shaft == pytest.approx(whole.final.shaft, abs=1e-13)
-    assert later.final.position == pytest.approx(whole.final.position, abs=1e-13)
-    for time in np.linspace(0.3, 8.7, 15):
-        assert whole.at(time)[0] == pytest.approx(cm.simulate(rotor, START, time).final.position, abs=1e-13)
-
-
-def test_braked_motions_settle_one_by_one_and_together():
-    rotor = single(SOFT, Shaft(3.0), 0.3, 3.0)
-    kicks = [0.3, 1.0, 4.0]
-    motions = [cm.simulate(rotor, cm.kick(size)) for size in kicks]
-    assert {motion.outcome.label for motion in motions} == {"levitated"}
-    assert all(motion.final.shaft[0] < 0.5 for motion in motions)
-    velocities = np.array([motion.start.velocity for motion in motions])
-    together = cm.settle(rotor, motions[0].start.position, velocities)
-    assert together.times.tolist() == [motion.time for motion in motions]
-
-
-def test_a_driven_shaft_leaves_a_rigid_wall_where_nothing_presses_it_there():
-    """It lifts off where ``N`` vanishes, in contact as in flight; many of these motions do so."""
-    rotor = single(Rigid(0.9), Shaft(500.0, 1.0), 0.15, 57.0)
-    draws = np.random.default_rng(5).uniform(-1.0, 1.0, (40, 4))
-    ends = cm.settle(rotor, 0.5 * (draws[:, 0] + 0.6j * draws[:, 1]), draws[:, 2] + 1j * draws[:, 3])
-    assert set(ends.outcomes.tolist()) <= {cm.outcome.Outcome.LEVITATED, cm.outcome.Outcome.FORWARD_RUB}
-
-
-def test_a_rotor_with_a_shaft_is_written_and_read(tmp_path):
-    rotor = single(SOFT, Shaft(2.0, 0.1), 0.3, 3.0)
-    again = rotor_from(rotor.attributes())
-    assert again.equations.shaft == rotor.equations.shaft
-    motion = cm.simulate(again, START, 3.0)
-    motion.save(tmp_path / "motion.nc")
-    assert cm.motions.Trajectory.load(tmp_path / "motion.nc").final == cm.simulate(rotor, START, 3.0).final
-
-
-def test_another_nominal_speed_is_another_unit_of_the_torque():
-    assert Shaft(2.0, 0.4).at_speed(2.0) == Shaft(2.0, 0.1)
-    scales = cm.parameters.Scales(mass=1.0, clearance=1e-3, speed=100.0)
-    rotor = single(SOFT, Shaft(2.0, 0.4)).replace(scales=scales)
-    assert rotor.replace(speed=200.0).equations.shaft == Shaft(2.0, 0.1)
-
-
 def test_what_cannot_be_is_refused():
     with pytest.raises(cm.outcome.InputError, match=r"inertia = 0.0"):
         Shaft(0.0)
@@ -287,26 +223,6 @@ def test_what_cannot_be_is_refused():
         cm.simulate(single(SOFT, None), cm.State(0.1, 0.0, shaft=(1.0, 0.0)), 1.0)
     with pytest.raises(cm.outcome.InputError, match="a shaft whose speed changes"):
         single(SOFT, Shaft(2.0)).system.refuse_forces()
-
-
-def test_tables_of_a_soft_touch_have_the_slip_of_the_present_speed():
-    """Friction brakes the shaft by its torque: the power of the drive is that of ``−sσF``."""
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[0.1]],
-        stiffness=[[0.6]],
-        forcing=[0.2],
-        touchdowns=[Touchdown([1.0], KelvinVoigt(1e3, 3.0), 0.3, 11.0)],
-        shaft=Shaft(300.0),
-    )
-    motion = cm.simulate(rotor, cm.State(0.2, 2.0), 8.0)
-    history = motion.history(np.linspace(0.0, motion.time, 4001))
-    held = history.normal_force > 0.0
-    assert held.any()
-    speed = -history.drive_power[held] / (10.0 * history.friction_force[held])
-    assert speed.max() <= 1.0 + 1e-12
-    assert speed.min() == pytest.approx(motion.final.shaft[0], abs=1e-3)
-    assert history.friction_power.max() < 1e-12
 
 
 @pytest.mark.jit_only
@@ -353,18 +269,3 @@ def test_impulses_at_a_rigid_wall_are_those_that_brake_the_shaft(laws):
     ).all()
     assert contacts.drive_work == pytest.approx(-(ends[1] ** 2 - ends[0] ** 2)[motion.is_impact], rel=1e-12)
     assert (contacts.contact_work <= 0.0).all()
-
-
-@pytest.mark.jit_only
-@pytest.mark.parametrize("disturbance", [cm.disturbances.BladeLoss(0.5), cm.BaseShock(0.6, 1.5)])
-def test_disturbances_of_a_heavy_shaft_are_those_of_one_at_constant_speed(disturbance):
-    """In units of the rotor's mass and clearance: what contact takes from such a shaft is lost in rounding."""
-    before, after = single(SOFT, Shaft(1e12)), single(SOFT, None)
-    grid = cm.Grid(disturbance, (3,) * len(disturbance.coordinates))
-    basin, expected = cm.map_basins(before, grid), cm.map_basins(after, grid)
-    assert expected.touched.any()
-    assert basin.outcomes.tolist() == expected.outcomes.tolist()
-    for name in ("start_x", "start_vy"):
-        assert basin.dataset[name].values == pytest.approx(expected.dataset[name].values, abs=1e-9)
-    states = [cm.simulate(*disturbance.apply(rotor, 0.7), until=4.0).final for rotor in (before, after)]
-    assert states[0].position == pytest.approx(states[1].position, abs=1e-8)

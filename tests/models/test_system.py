@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from machines import PAPER, random_parameters
+from machines import random_parameters
 from scipy.linalg import expm
 
 from carom.core.layout import rotor_record
@@ -62,17 +62,6 @@ def test_flight_is_the_matrix_exponential(count):
     np.testing.assert_allclose(system.fly(amplitudes, times), expected, atol=1e-11)
 
 
-def test_many_states_at_once_are_those_of_each():
-    random = np.random.default_rng(3)
-    system, _ = modal(random, 3)
-    amplitudes = random.normal(size=(4, 5, 6)) + 1j * random.normal(size=(4, 5, 6))
-    positions, velocities = system.state(amplitudes)
-    assert positions.shape == velocities.shape == (4, 5, 3)
-    for place in np.ndindex(4, 5):
-        one = system.state(amplitudes[place])
-        np.testing.assert_allclose((positions[place], velocities[place]), one, atol=1e-13)
-
-
 def test_a_second_order_system_keeps_its_equation():
     """``ü + αu̇ + βu = Γ`` for the rates that the generator gives."""
     for seed in range(20):
@@ -96,27 +85,3 @@ def test_amplitudes_of_the_planar_rotor_are_those_of_its_equation():
         change = position - rotor.equilibrium
         expected = [velocity - complex(rotor.system.exponents[1]) * change, change]
         np.testing.assert_array_equal(rotor.system.amplitudes(position, velocity), expected)
-
-
-def test_what_follows_from_the_arrays_is_made_once():
-    rotor = jeffcott(PAPER)
-    assert rotor.system is rotor.system
-    assert rotor.system.table is rotor.system.table
-    assert rotor.system.generator is rotor.system.generator
-
-
-def test_contacts_are_the_fields_of_the_record():
-    arrays = jeffcott(PAPER).system.arrays
-    (contact,) = jeffcott(PAPER).system.contacts
-    names = {"offset": "offsets", "row": "rows", "rate_row": "rate_rows"}
-    for name, value in {**contact._asdict(), **contact.wall._asdict()}.items():
-        if name == "wall":
-            continue
-        field = arrays.columns.T if name == "column" else getattr(arrays, names.get(name, name))
-        assert np.array_equal(value, field[0])
-
-
-def test_tables_are_shared_by_rotors_with_the_same_modes_only():
-    table = jeffcott(PAPER).system.table
-    assert jeffcott(PAPER.replace(rho=0.1, mu=0.3, d=0.5, phi=1.0)).system.table is table
-    assert jeffcott(PAPER.replace(gamma=np.nextafter(PAPER.gamma, 1.0))).system.table is not table

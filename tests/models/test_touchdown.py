@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
-from carom.disturbances import KickPlane
+from carom.base.outcome import InputError
 from carom.models import (
     FallingRestitution,
     HuntCrossley,
@@ -19,7 +16,6 @@ from carom.models import (
     Touchdown,
     from_matrices,
     jeffcott,
-    rotor_from,
 )
 from carom.motions.starts import State
 from carom.parameters import Parameters, Scales
@@ -58,29 +54,6 @@ def test_a_wall_that_hardly_yields_is_rigid():
         assert np.array_equal(by_matrices[name], planar[name])
 
 
-@pytest.mark.jit_only
-def test_the_second_law_runs_through_settling_basins_orbits_and_continuation():
-    rotor = paper(FallingRestitution(0.95, 8.0))
-    rest = complex(rotor.system.rest[0])
-    assert cm.settle(rotor, np.full(8, rest), np.linspace(0.2, 1.5, 8) * 1j).outcomes.min() >= Outcome.LEVITATED
-    basin = cm.map_basins(rotor, cm.Grid(KickPlane(1.0), (6, 6)))
-    assert basin.unresolved == 0
-    orbits = cm.find_orbits(rotor, impacts=1)
-    assert len(orbits) > 0
-    for orbit in orbits:
-        again = cm.simulate(rotor, orbit.departure, orbit.period * (1.0 - 1e-9))
-        assert abs(again.final.position - orbit.departure.position) < 1e-6
-    branch = cm.continue_orbit(orbits[0], "gamma", (0.09, 0.11))
-    assert len(branch.values) > 2
-
-
-def test_it_is_stored_and_read_again():
-    rotor = paper(FallingRestitution(0.9, 3.0))
-    again = rotor_from(rotor.attributes())
-    assert again.equations.touchdowns == rotor.equations.touchdowns
-    assert again.replace(d=0.5, mu=0.2).equations.touchdowns[0].law == FallingRestitution(0.5, 3.0)
-
-
 @pytest.mark.parametrize(
     ("make", "named"),
     [
@@ -96,11 +69,6 @@ def test_it_is_stored_and_read_again():
 def test_bad_values_are_refused(make, named):
     with pytest.raises(InputError, match=named):
         make()
-
-
-def test_the_outcomes_of_a_wall_that_yields_are_those_of_any_other():
-    motion = cm.simulate(paper(FallingRestitution(0.3, 0.5)), cm.kick(1.1))
-    assert motion.outcome in (Outcome.LEVITATED, Outcome.FORWARD_RUB, Outcome.BOUNCING)
 
 
 # ------------------------------------------------------------------------------------------------ compliant walls
@@ -120,13 +88,6 @@ def with_two_walls(first, second, scales=None) -> Rotor:
         touchdowns=[Touchdown([1.0, 0.8], first, 0.2, 21.0), Touchdown([1.0, -0.7], second, 0.1, 31.0)],
         scales=scales,
     )
-
-
-@pytest.mark.parametrize("law", [SPRING, BALLS, HuntCrossley(7.0, 0.0), HuntCrossley(7.0, 0.0, 10 / 9)], ids=str)
-def test_walls_that_give_way_are_stored_and_read_again_to_the_last_bit(law):
-    rotor = with_two_walls(law, Rigid(0.9))
-    again = rotor_from(rotor.attributes())
-    assert again.equations.touchdowns == rotor.equations.touchdowns
 
 
 def test_numbers_of_walls_are_per_mass_that_the_plane_feels():
@@ -153,15 +114,6 @@ def test_parameters_of_walls_have_names_by_law_and_plane():
     assert alone.replace(wall_dissipation=0.5).equations.touchdowns[0].law == HuntCrossley(5e4, 0.5, 1.5)
 
 
-def test_values_that_differ_between_walls_are_no_one_value():
-    with pytest.raises(InputError, match="wall_stiffness = "):
-        with_two_walls(SPRING, BALLS).value("wall_stiffness")
-    with pytest.raises(InputError, match="wall_damping_2"):
-        with_two_walls(SPRING, BALLS).replace(wall_damping_2=1.0)
-    with pytest.raises(InputError, match="wall_stiffness"):
-        paper(Rigid(0.9)).replace(wall_stiffness=1e4)
-
-
 @pytest.mark.parametrize("law", [SPRING, BALLS], ids=str)
 def test_the_same_wall_at_another_speed_gives_the_same_motion_in_si(law):
     """Without unbalance, which grows with the speed, and in a fixed frame: nothing else then depends on the speed."""
@@ -184,12 +136,6 @@ def test_the_same_wall_at_another_speed_gives_the_same_motion_in_si(law):
 def velocity_in_fixed(motion):
     """Velocity at the end in the fixed frame, turned back."""
     return motion.final.velocity + 1j * motion.final.position
-
-
-@pytest.mark.parametrize("law", [SPRING, BALLS, FallingRestitution(0.9, 2.0)], ids=str)
-def test_to_another_speed_and_back(law):
-    again = law.at_speed(3.0).at_speed(1.0 / 3.0)
-    assert dataclasses.astuple(again) == pytest.approx(dataclasses.astuple(law), rel=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-import tracemalloc
 
 import numpy as np
 import pytest
-from linear_rotors import tilting
 
 import carom as cm
 from carom.base.outcome import Outcome
 from carom.disturbances import whirl
-from carom.motions import drop_loads, energy_ledger, follow_loads, settling, simulation
+from carom.motions import drop_loads, energy_ledger, follow_loads, simulation
 from carom.motions.loads import MEASURED
 
 pytestmark = pytest.mark.jit_only
@@ -137,48 +135,6 @@ def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():
     assert found.settled_at < found.time
 
 
-def test_whirl_that_is_seen_is_not_said_to_go_on():
-    motion = cm.simulate(cm.load(BALLS), cm.drop(whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm"), "60 ms")
-    found = drop_loads(motion)
-    (plane,) = found.planes
-    assert found.settled_at is None
-    assert (plane.whirl.direction, plane.whirl.goes_on) == ("backward", False)
-    # Counted a second time: by the angle at a hundred instants a turn of the whirl.
-    times = np.linspace(motion.time - 16.0 * math.pi, motion.time, 1_601)
-    turned = np.ptp(np.unwrap(np.angle(motion.position(times, "fixed"))))
-    assert plane.whirl.turned == pytest.approx(-turned, rel=1e-9)
-    assert plane.whirl.lasted == pytest.approx(16.0 * math.pi, rel=1e-12)
-    short = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(whirl("0.2 mm", "-400 Hz", "30 deg")), 5.0)).planes[0]
-    assert short.whirl.lasted == 5.0
-    assert plane.whirl.frequency_si == pytest.approx(turned / (16.0 * math.pi) * 150.0, rel=1e-9)
-
-
-def test_a_rotor_at_rest_does_not_go_round():
-    found = drop_loads(cm.simulate(cm.load(RIGID, ["restitution=0.1"]), cm.drop()))
-    (plane,) = found.planes
-    assert found.outcome is Outcome.AT_REST
-    assert found.settled_at == plane.in_contact_since
-    assert plane.whirl.direction is None
-    assert not plane.whirl.goes_on
-
-
-def test_no_contact_no_load():
-    found = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(), "2 ms"))
-    (plane,) = found.planes
-    assert (plane.contacts, plane.bounces, plane.force, plane.pressure) == (0, 0, 0.0, 0.0)
-    assert (plane.force_at, plane.impulse_at, plane.restitution, plane.whirl, plane.in_contact_since) == (None,) * 5
-    assert (plane.race_at_end, plane.fastest_race, found.settled_at) == (0.0, 0.0, None)
-
-
-def test_several_planes_have_loads_of_their_own():
-    motion = cm.simulate(tilting().model, cm.kick(1.5), 30.0)
-    found = drop_loads(motion)
-    assert [plane.plane for plane in found.planes] == list(range(len(found.planes)))
-    assert len(found.planes) > 1
-    for plane in found.planes:
-        assert plane.contacts == len(motion.seen_at(plane.plane).contacts)
-
-
 def test_what_the_drive_would_do_in_flight_is_told():
     """A rotor that falls through the clearance and rests there: the torque acts from the first contact on."""
     shaft = cm.models.Shaft(50.0, 3.0)
@@ -234,25 +190,3 @@ def test_loads_added_up_in_pieces_are_those_of_the_whole_motion(machine, release
         for name in MEASURED:
             assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9), name
         assert one.whirl.turned == pytest.approx(other.whirl.turned, rel=1e-6)
-
-
-def test_nothing_is_kept_of_long_contact():
-    """Two bearings and fifteen thousand steps."""
-    case = cm.load("examples/tum-flexible-rotor.toml")
-    follow_loads(case, cm.drop(), "10 ms")
-    tracemalloc.start()
-    follow_loads(case, cm.drop(), "2 s")
-    most = tracemalloc.get_traced_memory()[1]
-    tracemalloc.reset_peak()
-    motion = cm.simulate(case, cm.drop(), "2 s")
-    recorded = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert len(motion.segment_starts) > 15_000
-    assert most < 0.5 * recorded
-
-
-def test_a_rotor_without_levitation_is_followed_for_a_time_that_is_stated():
-    case = cm.load(BALLS)
-    falling, _ = cm.drop().stages(case)
-    assert settling.longest_time(falling) == pytest.approx(3000.0 * math.pi)
-    assert settling.longest_time(cm.models.rotor_of(case)) >= settling.SHORTEST_LIMIT

@@ -7,11 +7,10 @@ import pytest
 from flexible_machines import munich
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import Outcome
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull
-from carom.rotors import Support
 
 pytestmark = pytest.mark.jit_only
 
@@ -118,27 +117,3 @@ def test_magnets_of_a_flexible_machine(tmp_path):
     assert stopped.outcome is Outcome.BEYOND_MODEL
     assert drop_loads(stopped).magnets.struck
     assert stopped.time == pytest.approx(motion.segment_starts[at_events > 0.99 * at_events.max()][0], rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [{}, {"current_limit": 2.0}, {"supports": [Support(7, 2e4, 1e4, cxx=10.0, cyy=5.0)]}],
-    ids=["plain", "limited", "anisotropic"],
-)
-def test_air_gaps_are_seen_alike_whatever_acts_on_the_rotor(changes):
-    limits = {name: value for name, value in changes.items() if name != "supports"}
-    given = munich(longest_element=0.2, supports=changes.get("supports", ()))
-    bearings = [dataclasses.replace(each, air_gap=4e-4, **limits) for each in given.bearings]
-    reduced, random = dataclasses.replace(given, bearings=bearings).with_modes(3), np.random.default_rng(1)
-    for model in (reduced.limited, reduced.model, reduced.model.without_levitation()):
-        system = model.system
-        state = random.standard_normal((2, 1, 2 * len(system.rest)))
-        (amplitudes,) = system.amplitudes_of(state[0] + 1j * state[1], 0.3)
-        seen = system.arrays["gap_rows"] @ amplitudes + system.arrays["gap_offsets"]
-        # Rounding of a free rotor whose amplitudes of weight are large.
-        assert seen == pytest.approx(system.magnets @ system.state(amplitudes)[0], abs=1e-12)
-
-
-def test_a_gap_narrower_than_the_clearance_is_refused(tmp_path):
-    with pytest.raises(InputError, match="larger than the clearance"):
-        machine(tmp_path, "air_gap=0.2 mm")

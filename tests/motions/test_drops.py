@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 import pytest
-from linear_rotors import tilting
 
 import carom as cm
 from carom.base.outcome import InputError, Outcome
@@ -44,29 +43,11 @@ def test_from_the_centre_it_touches_after_the_time_of_free_fall():
     assert motion.position(motion.contacts.time[0], "fixed") == pytest.approx(-1j, abs=1e-12)
 
 
-def test_a_state_or_a_kick_at_the_release():
-    state = cm.State(0.3 - 0.2j, 0.1j)
-    assert Drop(state).stages(HEAVY)[1] == state
-    _, kicked = cm.drop(cm.kick("50 mm/s", "30 deg")).stages(HEAVY)
-    _, levitates = cm.drop().stages(HEAVY)
-    assert kicked.position == levitates.position
-    push = cmath.rect(0.05 / HEAVY.parameters.scales.velocity, math.radians(30.0))
-    assert kicked.velocity - levitates.velocity == pytest.approx(push, abs=1e-15)
-
-
 def test_the_rotor_that_falls_has_its_weight_and_no_levitation():
     rotor, _ = cm.drop().stages(HEAVY)
     assert not rotor.has_closed_forms
     assert rotor.forces == ROTOR.forces
     assert rotor.value("omega") == rotor.value("gamma") == 0.0
-
-
-def test_one_drop_like_many():
-    starts = [cm.drop(phase=angle).stages(HEAVY) for angle in (0.0, 1.0, 2.0)]
-    for rotor, start in starts:
-        ending = cm.settle(rotor, np.array([start.position]), np.array([start.velocity]))
-        motion = cm.simulate(rotor, start)
-        assert (ending.outcomes[0], ending.impacts[0]) == (motion.outcome, motion.is_impact.sum())
 
 
 def test_levitation_is_back_after_a_time():
@@ -109,24 +90,6 @@ def test_it_is_released_from_a_whirl():
     assert motion.position(times, "fixed") == pytest.approx(expected, abs=1e-13)
 
 
-def test_a_mount_is_at_rest_at_the_release_from_a_whirl():
-    mounted = cm.load("examples/touchdown-balls.toml", ["touchdown_mount_mass=2", "touchdown_mount_stiffness=2e7"])
-    state = whirl(0.5, 2.0).stages(rotor_of(mounted))[1]
-    assert state.position.tolist() == [0.5, 0.0]
-    assert state.velocity.tolist() == [0.5j, 0.0]
-
-
-@pytest.mark.parametrize("speed", ["3000 rpm", -0.25])
-def test_the_race_turns_at_the_release(speed):
-    """In flight drag slows it down alone: ``J ω' = −c ω``."""
-    case = cm.load("examples/touchdown-balls.toml")
-    motion = cm.simulate(case, cm.drop(race_speed=speed), "5 ms")
-    begins = 1.0 / 3.0 if speed == "3000 rpm" else speed
-    assert not len(motion.contacts)
-    assert motion.start.races == pytest.approx((81.0 * begins,), rel=1e-14)
-    assert motion.final.races == pytest.approx((81.0 * begins * math.exp(-1e-5 / 2e-5 * 5e-3),), rel=1e-12)
-
-
 @pytest.mark.parametrize(
     ("machine", "drop", "words"),
     [
@@ -146,27 +109,6 @@ def test_the_race_turns_at_the_release(speed):
 def test_what_cannot_be_dropped(machine, drop, words):
     with pytest.raises(InputError, match=words):
         cm.simulate(machine, drop)
-
-
-def test_rotors_of_several_coordinates_are_dropped_in_stages():
-    scales = cm.parameters.Scales(5.0, 0.25e-3, 1000.0)
-    heavy = tilting().model.replace(scales=scales).under_gravity(cm.parameters.Gravity(0.1))
-    with pytest.raises(InputError, match="unlevitated matrices"):
-        cm.simulate(heavy, cm.drop())
-
-
-def test_a_kick_out_of_levitation_that_is_not_there_is_refused():
-    with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances"):
-        cm.simulate(HEAVY.replace(stiffness="1e5 N/m"), cm.kick(0.1))
-
-
-def test_a_given_release_does_not_ask_whether_levitation_would_hold():
-    """Its spring would sag by two thousand clearances, and plays no part."""
-    machine = cm.load("examples/dropped-rotor.toml", ["stiffness=1 kN/m"])
-    with pytest.raises(InputError, match=r"^levitation = "):
-        cm.simulate(machine, cm.drop(), 1.0)
-    for given in (cm.State(0j), whirl(0.5, 0.0)):
-        assert cm.simulate(machine, cm.drop(given), 1.0).time == 1.0
 
 
 def test_a_machine_that_states_no_weight_falls_by_it_from_its_centre():

@@ -119,29 +119,6 @@ def test_starts_may_have_machines_of_their_own(machine):
             np.testing.assert_array_equal(getattr(mixed, name)[which == number], getattr(alone, name), err_msg=name)
 
 
-@pytest.mark.parametrize("shape", [(0,), (0, 3), (3, 0)])
-@pytest.mark.parametrize("threads", [1, 3, None])
-def test_no_start_is_no_ending(machine, shape, threads):
-    none = np.empty(shape)
-    several = [carom.models.jeffcott(machine), carom.models.jeffcott(machine.replace(gamma=0.4))]
-    for endings in (
-        settle(several[0], none, 0.1j, threads=threads),
-        settle(several, none, none, which=none, threads=threads),
-        settle(several, none, none, which=np.empty(shape, np.int32), threads=threads),
-        settle([], none, none, which=none, threads=threads),
-    ):
-        assert [getattr(endings, name).shape for name in SAME] == [shape] * len(SAME)
-        assert endings.outcomes.dtype == np.int8
-        assert endings.recovered.shape == shape
-        assert endings.count(Outcome.LEVITATED) == 0
-
-
-def test_without_settling_motions_reach_the_time(machine):
-    endings = settle(carom.models.jeffcott(machine), *starts(8), until=5.0, patience=0)
-    assert (endings.outcomes == Outcome.TIME_REACHED).all()
-    np.testing.assert_array_equal(endings.times, 5.0)
-
-
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
@@ -161,11 +138,6 @@ def test_bad_input_is_named(machine, changes, words):
     arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
     with pytest.raises(InputError, match=words):
         settle(carom.models.jeffcott(machine), **arguments)
-
-
-def test_a_start_needs_a_machine_that_exists(machine):
-    with pytest.raises(InputError, match="whole numbers from 0 to 0"):
-        settle([carom.models.jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
 
 
 @pytest.mark.jit_only

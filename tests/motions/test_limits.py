@@ -9,10 +9,10 @@ import pytest
 from limited_reference import clipped, follow, struck
 
 import carom as cm
-from carom.base.outcome import Outcome, Phase
+from carom.base.outcome import Phase
 from carom.loading import load
 from carom.models import jeffcott, rotor_of
-from carom.motions import State, Trajectory, energy_ledger
+from carom.motions import State, energy_ledger
 from carom.parameters import ControlLimit, TouchdownBearing
 
 KEOGH = "examples/keogh-cole.toml"
@@ -162,66 +162,3 @@ def test_bearings_that_can_give_nothing_let_the_rotor_fly():
     # A force of up to √2 times the bound for a time of 2.
     assert abs(held.position - free.position) < 4 * bound
     assert abs(held.velocity - free.velocity) < 10 * bound
-
-
-def test_a_limit_that_is_just_met_or_just_missed_makes_no_difference():
-    """What is asked for is a circle in the frame of the rotor: each axis comes to its bound with no speed."""
-    rotor = keogh_cole()
-    levitation = rotor.system.rest[0]
-    asked = abs(rotor.parameters.omega**2 + 1j * rotor.parameters.gamma) * abs(levitation)
-
-    for share in (1.0 - 1e-12, 1.0, 1.0 + 1e-12):
-        motion = cm.simulate(limited(rotor, share * asked), State(levitation, 0j), 40.0)
-        assert motion.outcome is Outcome.TIME_REACHED
-        assert abs(motion.final.position - levitation) < 1e-10
-        assert len(motion.segment_starts) < 2000
-
-
-def test_axes_turned_by_a_quarter_turn_are_the_same():
-    rotor = keogh_cole()
-    turned = jeffcott(rotor.parameters.replace(phi=rotor.parameters.phi + 0.5 * np.pi))
-    start = State(0.2 + 0.1j, 1.1 - 0.3j)
-
-    one = cm.simulate(limited(rotor, 0.5, 0.2), start, 8.0)
-    other = cm.simulate(limited(turned, 0.5, 0.2), State(1j * start.position, 1j * start.velocity), 8.0)
-
-    assert other.final.position == pytest.approx(1j * one.final.position, abs=1e-9)
-
-
-def test_a_motion_goes_on_where_it_has_stopped():
-    """Its state holds the time, which says where the axes point."""
-    held, start = limited(keogh_cole(), 0.4, 0.2), State(0.3, 0.8 + 0.6j)
-    whole = cm.simulate(held, start, 6.0)
-
-    first = cm.simulate(held, start, 2.6)
-    second = cm.simulate(held, first.final, 3.4)
-
-    assert first.final.time == 2.6
-    assert second.final.position == pytest.approx(whole.final.position, abs=1e-10)
-    times = np.linspace(0.0, 3.4, 300)
-    assert second.at(times)[0] == pytest.approx(whole.at(2.6 + times)[0], abs=1e-10)
-
-
-def test_many_motions_end_as_each_alone():
-    held = limited(keogh_cole(), 0.3, 0.2)
-    velocities = np.array([0.1, 0.6 + 0.3j, -1.1j, 1.4])
-    rest = complex(held.system.rest[0])
-
-    endings = cm.settle(held, rest, velocities, until=50.0)
-
-    for place, velocity in enumerate(velocities):
-        alone = cm.simulate(held, State(rest, velocity), 50.0, settle=True)
-        assert (endings.outcomes[place], endings.times[place]) == (alone.outcome, alone.time)
-        # The sum of a thousand times has another order; the rotor is up to sixty clearances a unit of time fast.
-        assert endings.positions[place] == pytest.approx(alone.final.position, abs=1e-9)
-
-
-def test_a_motion_is_saved_with_its_limits(tmp_path):
-    motion = cm.simulate(limited(keogh_cole(), 0.4, 0.2), State(0.3, 0.8 + 0.6j), 6.0)
-    motion.save(tmp_path / "motion.nc")
-
-    again = Trajectory.load(tmp_path / "motion.nc")
-
-    times = np.linspace(0.0, 6.0, 200)
-    assert again.at(times)[0].tolist() == motion.at(times)[0].tolist()
-    assert again.rotor.limits == motion.rotor.limits

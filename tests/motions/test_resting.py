@@ -14,8 +14,6 @@ import pytest
 import carom as cm
 from carom.base.outcome import Outcome, Phase
 from carom.core.fate import memory
-from carom.models import Force, jeffcott
-from carom.motions import drop_loads
 from carom.motions.resting import lies
 
 pytestmark = pytest.mark.jit_only
@@ -76,25 +74,6 @@ def test_small_rocking_has_the_frequency_of_a_pendulum_on_its_slope():
     assert 2.0 * math.pi / np.diff(crossings) == pytest.approx(expected, rel=1e-5)
 
 
-def test_a_rotor_on_a_race_that_has_come_up_to_its_speed_rests_too():
-    """It rolls without slip on the surface that turns with it, and does not go round."""
-    motion = cm.simulate(cm.load("examples/touchdown-balls.toml", ["touchdown_dissipation=20 s/m"]), cm.drop())
-    assert motion.segment_phases[-1, 0] == Phase.ROLLING
-    assert motion.outcome is Outcome.AT_REST
-    assert drop_loads(motion).planes[0].lasting_power == 0.0
-
-
-def test_many_drops_end_at_rest_like_one():
-    starts = -0.6j * np.exp(1j * np.linspace(-0.8, 0.8, 7))
-    rotor, _ = cm.drop(cm.State(0.0)).stages(HEAVY.replace(eccentricity="2 um"))
-    assert (cm.settle(rotor, starts, -1j * starts).outcomes == Outcome.AT_REST).all()
-
-
-def test_a_rotor_that_sags_to_the_wall_rests_there():
-    soft = HEAVY.replace(stiffness="1e5 N/m", eccentricity="2 um")
-    assert cm.simulate(soft, cm.State(0.0)).outcome is Outcome.AT_REST
-
-
 @pytest.mark.parametrize("gravity", [9.81, 0.01, 1e-5])
 @pytest.mark.parametrize("radius", ["5 mm", "20 mm", "100 mm"])
 def test_rolling_under_any_weight_is_rolling(gravity, radius):
@@ -116,13 +95,6 @@ def test_whirl_that_goes_round_does_not_lie():
             lies(rotor, rotor.system.amplitudes(place, 1j * rate * place), contact, memory(rotor.system.modes))
             is expected
         )
-
-
-def test_without_weight_nothing_lies():
-    rotor = jeffcott(HEAVY.parameters)
-    for model in (rotor, rotor.under(Force(0.3j, np.array([0.1])))):
-        amplitudes = model.system.amplitudes(-1j, -1.0)
-        assert not lies(model, amplitudes, np.array([Phase.FORWARD_SLIP]), memory(model.system.modes))
 
 
 def test_a_rub_that_keeps_in_step_with_the_shaft_is_forward_rub():

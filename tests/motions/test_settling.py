@@ -14,7 +14,7 @@ import carom
 from carom.attractors.naming import name_motions
 from carom.base.outcome import Outcome, Phase
 from carom.closed_forms.absorbing import rub_neighbourhood
-from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.closed_forms.whirl import runaway_speed
 from carom.core.closing import PASSES
 from carom.core.fate import memory
 from carom.core.planar_proofs import absorbed
@@ -120,13 +120,6 @@ def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch)
         assert_slides_to_the_rub(rotor, found, State(proven.positions[place], proven.velocities[place]))
 
 
-def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
-    endings = settle(rotor, *sliding(rub_neighbourhood(rotor), 0.9, seed=6))
-    endings.velocities[0] = 0.9j * endings.positions[0]
-    named, names = name_motions(rotor, endings)
-    assert [names[index] for index in named[:3]] == ["drifting rub", "synchronous rub", "synchronous rub"]
-
-
 @pytest.mark.parametrize("gamma", [0.05, 0.1])
 def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkeypatch):
     rotor, count = carom.models.jeffcott(PAPER.replace(gamma=gamma)), 600
@@ -141,15 +134,6 @@ def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkey
         onward = simulate(rotor, state, 1e4, settle=True)
         assert onward.outcome is Outcome.ROLLING
         assert not len(onward.contacts)
-
-
-def test_no_runaway_where_rolling_does_not_hold():
-    machine = PAPER.replace(gamma=1.05 * rolling(carom.models.jeffcott(PAPER)).largest_damping)
-    assert fresh_memory(carom.models.jeffcott(machine), 1, absorb=True).proofs.runaway == math.inf
-    assert fresh_memory(carom.models.jeffcott(PAPER), 1).proofs.runaway == math.inf
-    assert fresh_memory(carom.models.jeffcott(PAPER), 1, absorb=True).proofs.runaway == pytest.approx(
-        runaway_speed(carom.models.jeffcott(PAPER)).certain, rel=1e-8
-    )
 
 
 def test_a_rub_that_runs_round_the_wall_is_not_judged_as_one_at_rest():
@@ -221,10 +205,3 @@ def test_a_whirl_that_never_repeats_is_known_for_what_it_is():
     turns = np.unwrap(np.angle(later.at_plane(np.linspace(0.0, 400.0, 40_000))[0])) / (2.0 * np.pi)
     # Backward in the fixed frame, which the co-rotating one turns through forward.
     assert turns[-1] - turns[0] < -1.5 * 400.0 / (2.0 * np.pi)
-
-
-def test_planes_that_jam_stop_a_motion():
-    """With ``μ = 1`` and closely coupled planes: pressed to its wall without contact there, and off it with contact."""
-    motion = simulate(random_rotor(10_178, n=3, planes=2), carom.kick(1.0, angle=1.6), max_events=20_000)
-    assert motion.outcome is Outcome.GRAZING
-    assert np.isfinite(motion.segment_amplitudes).all()

@@ -11,7 +11,7 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome, Phase
+from carom.base.outcome import InputError, Outcome
 from carom.models import Force, Stage, Trigger, in_stages, jeffcott
 
 pytestmark = pytest.mark.jit_only
@@ -142,41 +142,6 @@ def test_many_starts_end_as_each_alone(trigger):
         assert motion.final.position == pytest.approx(until.positions[place], abs=1e-7)
 
 
-@pytest.mark.parametrize("further", [(), (Stage(ROTOR),)], ids=["two stages", "three stages"])
-def test_a_mixture_of_machines_with_and_without_stages(further):
-    second = Stage(HELPED, Trigger(time=2.0)) if further else Stage(HELPED)
-    staged = in_stages((Stage(ROTOR, Trigger(contact_time=4.0, contact_gap=2.0)), second, *further))
-    positions, kicks = starts(30)
-    which = np.arange(30) % 2
-    together = cm.settle([staged, ROTOR], positions, kicks, which=which)
-    for number, machine in enumerate((staged, ROTOR)):
-        chosen = which == number
-        alone = cm.settle(machine, positions[chosen], kicks[chosen])
-        assert np.array_equal(alone.outcomes, together.outcomes[chosen])
-        assert np.array_equal(alone.times, together.times[chosen])
-
-
-def test_more_damping_after_contact_brings_back_what_bounced_on(tmp_path):
-    """A recovery action in a map of basins, against motions one by one."""
-    staged = in_stages((Stage(ROTOR, Trigger(contact_time=5.0, contact_gap=3.0)), Stage(HELPED)))
-    grid = cm.Grid(cm.disturbances.VelocityKick(1.0), (6, 12))
-    helped, left = cm.map_basins(staged, grid), cm.map_basins(ROTOR, grid)
-    assert left.fractions.get("levitation", 0.0) < 0.5
-    assert helped.fractions == {"levitation": 1.0}
-    helped.save(tmp_path / "helped.nc")
-    again = cm.basins.Basin.load(tmp_path / "helped.nc")
-    assert np.array_equal(again.outcomes, helped.outcomes)
-    assert again.rotor.stages[0].trigger == staged.stages[0].trigger
-
-
-def test_a_start_in_lasting_contact_counts_from_its_beginning():
-    rubbing = next(each for each in cm.find_equilibria(ROTOR.replace(gamma=0.2)) if each.kind == "rub" and each.stable)
-    staged = in_stages((Stage(ROTOR.replace(gamma=0.2), Trigger(contact_time=3.0)), Stage(HELPED)))
-    first = cm.simulate(staged, cm.State(rubbing.position), 50.0).parts[0]
-    assert (first.outcome, first.time) == (Outcome.TRIGGERED, 3.0)
-    assert (first.segment_phases[-1] == Phase.FORWARD_SLIP).all()
-
-
 @pytest.mark.parametrize(
     ("field", "made"),
     [
@@ -215,16 +180,6 @@ def test_a_motion_of_several_stages_is_saved_whole_and_part_by_part(tmp_path):
     assert (again.begins, again.time, again.outcome) == (0.0, 7.0, Outcome.TRIGGERED)
 
 
-@pytest.mark.parametrize("stages", [(), (Stage(HELPED),)], ids=["one stage", "two stages"])
-def test_threads_that_share_a_portion_follow_each_motion_once(stages):
-    """The later thread finds motions that have ended, with times above zero."""
-    rotor = in_stages((Stage(ROTOR, Trigger(time=3.0)), *stages)) if stages else ROTOR
-    positions, kicks = starts(20_000)
-    alone, shared = (cm.settle(rotor, positions, kicks, until=100.0, threads=threads) for threads in (1, 2))
-    for name, values in vars(alone).items():
-        assert np.array_equal(getattr(shared, name), values), name
-
-
 @pytest.mark.parametrize(("least", "gap"), [(30.0, 4.0), (100.0, 6.0), (1000.0, 10.0)])
 def test_contact_that_would_settle_triggers_once_it_has_persisted(least, gap):
     """Periodic bouncing and a rub that attracts are known long before."""
@@ -239,24 +194,6 @@ def test_contact_that_would_settle_triggers_once_it_has_persisted(least, gap):
             assert [part.begins for part in motion.parts] == pytest.approx([part.begins for part in followed.parts])
             alone = cm.simulate(rotor, cm.State(position, kick))
             assert len(motion.parts) == (1 if alone.outcome is Outcome.LEVITATED else 2)
-
-
-def test_bounces_with_longer_flights_than_the_gap_still_settle():
-    staged = in_stages((Stage(ROTOR, Trigger(contact_time=40.0, contact_gap=0.1)), Stage(HELPED)))
-    for start in zip(*starts(12, 1), strict=True):
-        alone, motion = (cm.simulate(rotor, cm.State(*start)) for rotor in (ROTOR, staged))
-        rubs = alone.outcome is Outcome.FORWARD_RUB
-        assert (motion.outcome, len(motion.parts)) == ((Outcome.LEVITATED, 2) if rubs else (alone.outcome, 1))
-
-
-def test_a_stage_may_begin_when_time_is_up():
-    staged = in_stages((Stage(ROTOR, Trigger(time=5.0)), Stage(HELPED)))
-    motion = cm.simulate(staged, KICK, 5.0)
-    assert [(part.outcome, part.time) for part in motion.parts] == [
-        (Outcome.TRIGGERED, 5.0),
-        (Outcome.TIME_REACHED, 0.0),
-    ]
-    assert cm.settle(staged, *starts(2), until=5.0).outcomes.tolist() == [Outcome.TIME_REACHED] * 2
 
 
 def test_every_plane_of_a_joint_impact_may_trigger():
@@ -279,53 +216,3 @@ def test_a_flight_next_to_the_wall_is_no_contact():
     logs = [whole.seen_at(plane) for plane in (0, 1)]
     expected = persisted_at(sorted(each for log in logs for each in touching(log)), 0.0, 1.0)
     assert first.time == pytest.approx(min(expected, 60.0), abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("carry", "field"), [(3.0 * np.eye(2), "start position"), (np.diag([1.0, 1e200]), "start velocity")]
-)
-def test_what_is_carried_out_of_the_wall_is_refused(carry, field):
-    staged = in_stages((Stage(ROTOR, Trigger(time=5.0), carry), Stage(HELPED)))
-    for follow in (lambda: cm.simulate(staged, KICK), lambda: cm.settle(staged, *starts(3))):
-        with pytest.raises(InputError, match=field):
-            follow()
-
-
-def test_a_stage_lasts_as_long_as_its_trigger_says():
-    """Longer than a motion that only may settle is followed."""
-    staged = in_stages((Stage(ROTOR, Trigger(time=3e5)), Stage(HELPED)))
-    motion, ends = cm.simulate(staged, cm.kick(0.01)), cm.settle(staged, ROTOR.equilibrium, 0.01)
-    assert [part.outcome for part in motion.parts] == [Outcome.TRIGGERED, Outcome.LEVITATED]
-    assert ends.outcomes == Outcome.LEVITATED
-    assert min(motion.begins, ends.times) >= 3e5
-
-
-def test_a_shock_comes_before_the_stages_of_a_rotor():
-    staged = in_stages((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
-    shock = cm.BaseShock(2.0, 1.3)
-    motion = cm.simulate(*shock.apply(staged, 0.3))
-    assert [part.begins for part in motion.parts] == pytest.approx([0.0, 1.3, 3.3])
-    assert [part.rotor for part in motion.parts[1:]] == [ROTOR, HELPED]
-    after = cm.simulate(staged, shock.release(staged, 0.3))
-    assert after.final.position == pytest.approx(motion.final.position, abs=1e-9)
-
-
-@pytest.mark.parametrize("disturbance", [cm.BaseShock(2.0, 1.3), cm.disturbances.BladeLoss(0.3)])
-def test_disturbances_of_a_rotor_at_rest_are_refused_where_it_never_is(disturbance):
-    grid = cm.Grid(disturbance, (3,) * len(disturbance.coordinates))
-    shaken = ROTOR.under(WEIGHT, Force(0.3j, np.array([0.01])))
-    with pytest.raises(InputError, match="forces that change in the fixed frame"):
-        cm.map_basins(shaken, grid, until=20.0)
-
-
-def test_low_bounces_in_a_later_stage_are_told_from_others():
-    rotor = jeffcott(PAPER.replace(gamma=0.3, mu=0.0, d=1.0))
-    staged = in_stages((Stage(rotor, Trigger(time=0.5)), Stage(rotor)))
-    random = np.random.default_rng(0)
-    positions = 0.999 * np.exp(1j * random.uniform(0.0, 6.3, 12))
-    kicks = random.uniform(0.0, 0.2, 12) * np.exp(1j * random.uniform(0.0, 6.3, 12))
-    for one in (rotor, staged):
-        alone = [
-            cm.simulate(one, cm.State(*start), patience=500).outcome for start in zip(positions, kicks, strict=True)
-        ]
-        assert cm.settle(one, positions, kicks, patience=500).outcomes.tolist() == alone

@@ -65,22 +65,6 @@ def test_a_motion_of_several_stages_is_kept_with_all_of_them(tmp_path):
         np.testing.assert_array_equal(one.at(times), other.at(times))
 
 
-def test_the_course_says_what_its_numbers_mean(motion):
-    times = np.linspace(0.0, 20.0, 101)
-    course = motion.to_dataset(times)
-    np.testing.assert_array_equal(course["x"] + 1j * course["y"], motion.at(times)[0])
-    assert course["x"].attrs["units"] == "c_r"
-    assert course["velocity_y"].attrs["units"] == "c_r Omega"
-    assert {"normal_force", "slip", "phase", "gap"} <= set(course.data_vars)
-
-    scaled = simulate(motion.rotor.replace(scales=SCALES), motion.start, 20.0).to_dataset(times)
-    np.testing.assert_allclose(scaled["x"], course["x"].values * 0.7e-3, rtol=1e-15)
-    np.testing.assert_allclose(scaled["velocity_x"], course["velocity_x"].values * SCALES.velocity, rtol=1e-15)
-    np.testing.assert_allclose(scaled["time"], times / 184.2, rtol=1e-15)
-    assert scaled["y"].attrs["units"] == "m"
-    assert motion.to_dataset().sizes["time"] == len(motion.sample())
-
-
 def test_a_file_that_holds_no_motion_is_refused(motion, tmp_path):
     path = tmp_path / "motion.nc"
     with pytest.raises(InputError, match="cannot be read"):

@@ -14,11 +14,10 @@ from yielding_walls import SUMS, contacts_of, free_mass, with_walls
 from carom.base.outcome import Phase
 from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL, POWER
 from carom.models import HuntCrossley, KelvinVoigt
-from carom.motions import State, drop_loads, energy_ledger, simulate
+from carom.motions import State, energy_ledger, simulate
 from carom.motions.kinematics import presses, slip_velocity
 from carom.motions.ledger import NODES, WEIGHTS
 from carom.motions.wall_works import contact_works
-from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only
 SPEED = 0.7
@@ -136,49 +135,6 @@ def test_two_planes_against_the_reference(law, friction, ratio):
     others, motion = compared(rotor, law, (np.array([0.1, 0.02j]), np.array([0.9 + 0.2j, 0.02])), 5.0)
     assert {touch.plane for touch in others} == {0, 1}
     assert (motion.segment_phases != Phase.FLIGHT).all(axis=1).any()
-
-
-def test_a_contact_that_goes_on():
-    """Pressed into the wall by the unbalance until the end: not left, and its impulse is no impact's."""
-    rotor = single(1, friction=0.15, radius_ratio=20.0, forcing=np.array([1.5]))
-    motion = simulate(with_walls(rotor, KelvinVoigt(1e3, 20.0)), State(0.5 + 0j, 0j), 30.0)
-    touches, loads = motion.contacts, drop_loads(motion).planes[0]
-    assert touches.lasts[-1]
-    assert not touches.lasts[:-1].any()
-    assert touches.end[-1] == motion.time
-    assert loads.impulse == touches.normal_impulse[:-1].max(initial=0.0) < touches.normal_impulse[-1]
-    assert loads.contacts == len(touches)
-
-
-def test_a_motion_that_begins_in_the_wall():
-    """The ledger closes, and the first contact was not entered."""
-    motion = simulate(with_walls(single(1), KelvinVoigt(1e4, 3.0)), State(0.81, 0.3), 8.0)
-    touches = motion.contacts
-    assert touches.entered.tolist() == [False] + [True] * (len(touches) - 1)
-    assert touches.time[0] == 0.0
-    assert energy_ledger(motion).imbalance < 1e-12
-
-
-def test_contacts_of_rigid_bearings_have_no_duration():
-    motion = simulate(tilting().model, State(np.zeros(2), np.array([0.9, 0.1])), 10.0)
-    log = motion.contacts
-    assert motion.is_impact.any()
-    assert log.is_impact.all()
-    assert not np.any([log.duration, log.deepest, log.lasts])
-    assert (log.end == log.time).all()
-    assert drop_loads(motion).planes[0].depth == 0.0
-
-
-def test_in_si():
-    scales, law = Scales(mass=50.0, clearance=0.7e-3, speed=184.2), KelvinVoigt(1e4, 3.0)
-    motion = simulate(with_walls(single(1), law, scales), State(0.2, 1.0), 8.0)
-    touches, table = motion.contacts, motion.contacts.to_dataset()
-    assert table["peak_force"].attrs["units"] == "N"
-    assert table["peak_force"].values == pytest.approx(touches.peak_force * 50.0 * 0.7e-3 * 184.2**2)
-    assert table["deepest"].values == pytest.approx(touches.deepest * 0.7e-3)
-    assert table["time"].values == pytest.approx(touches.time / 184.2)
-    assert table["phase"].attrs["flag_meanings"].split()[int(table["phase"][0])] == "forward_slip"
-    assert drop_loads(motion).planes[0].si()["depth"] == pytest.approx(0.7e-3 * touches.deepest.max())
 
 
 @pytest.mark.parametrize("law", [None, KelvinVoigt(300.0, 8.0), HuntCrossley(300.0, 0.2, 1.5)])

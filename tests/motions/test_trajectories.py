@@ -210,19 +210,3 @@ def test_limits_that_cannot_be_used_are_named(changes, words):
         with pytest.raises(InputError, match=f"^{words}") as caught:
             follow(**changes)
         assert "\n" not in str(caught.value)
-
-
-def test_times_outside_the_range_followed_are_refused():
-    motion = simulate(PAPER, State(0.2 + 0j), 3.0)
-    assert np.isfinite(motion.at([0.0, 3.0, 3.0 * (1.0 + 1e-13)])[0]).all()
-    assert motion.at([])[0].shape == (0,)
-    range_followed, finite = "times from 0 to 3, the range followed", "finite real numbers"
-    for times, allowed in (
-        (-1e-6, range_followed),
-        ([0.5, 3.001], range_followed),
-        ([[np.inf]], finite),
-        (np.nan, finite),
-    ):
-        for ask in (motion.at, motion.at_plane, motion.forces, motion.position, motion.radius, motion.history):
-            with pytest.raises(InputError, match=rf"^times = .*: {allowed}"):
-                ask(np.atleast_1d(times))

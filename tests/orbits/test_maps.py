@@ -11,8 +11,8 @@ import pytest
 from compilation import sized
 from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
 
-from carom import find_equilibria, find_orbits, simulate
-from carom.base.outcome import InputError, Outcome
+from carom import simulate
+from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.orbits import Section, impact_map
 from carom.parameters import Parameters
@@ -164,31 +164,6 @@ def test_jacobian_agrees_with_differences(ratio, sticks):
     assert compared > 0.1 * count
 
 
-def test_never_to_return():
-    """Strong damping, and an impact on the side from which all forces point inward."""
-    mapped = impact_map(jeffcott(PAPER.replace(gamma=1.0)), Section(PAPER.phi + math.pi, 0.1, 0.0))
-    assert mapped.outcome is Outcome.CLEAR
-    assert mapped.image is None
-    assert mapped.duration == 1000.0
-
-
-def test_longest_flight():
-    rotor = jeffcott(PAPER)
-    section = find_orbits(rotor)["B1,d"].section
-    assert impact_map(rotor, section, longest_flight=2.8).outcome is Outcome.CLEAR
-    assert impact_map(rotor, section, longest_flight=2.9).outcome is Outcome.CONTACT
-
-
-def test_chatter():
-    """Pressed outward, the smallest bounces do not count one by one."""
-    parameters = PAPER.replace(gamma=0.05, d=0.5)
-    rotor = jeffcott(parameters)
-    rub = find_equilibria(rotor)[1]
-    assert rub.status == "admissible"
-    assert impact_map(rotor, Section(rub.angle, 1e-9, 0.0)).outcome is Outcome.CHATTER
-    assert impact_map(rotor, Section(rub.angle, 1e-3, 0.0)).outcome is Outcome.CONTACT
-
-
 def test_between_hit_and_miss_lies_grazing():
     """A flight that touches the wall within rounding is said to graze; neighbours on either side hit there, or pass."""
     parameters = PAPER.replace(gamma=0.06)
@@ -221,17 +196,3 @@ def grazing_bracket(flight) -> tuple[float, float]:
         else:
             high = middle
     return low - 1e-14, high + 1e-14
-
-
-@pytest.mark.parametrize(
-    ("speed", "words"),
-    [
-        (0.0, "radial speed = .*above 0"),
-        (-0.1, "radial speed = .*above 0"),
-        (math.nan, "radial_speed = nan: a finite"),
-        (1e13, "speeds up to 1e\\+12"),
-    ],
-)
-def test_only_a_rotor_that_meets_the_wall_is_mapped(speed, words):
-    with pytest.raises(InputError, match=words):
-        impact_map(jeffcott(PAPER), Section(0.0, speed, 0.0))

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 import dataclasses
 import json
-import pickle
 
 import pytest
 
-from carom.orbits.names import OrbitName, combined, in_order
+from carom.orbits.names import OrbitName
 
 
 @pytest.mark.parametrize(
@@ -32,27 +30,3 @@ def test_a_name_is_a_text_that_carries_its_parts(parts, text, letter):
     assert {text: 1}[name] == 1
     with pytest.raises(dataclasses.FrozenInstanceError):
         name.pair = 3
-
-
-@pytest.mark.parametrize(
-    "copied", [copy.copy, copy.deepcopy, *(lambda n, p=p: pickle.loads(pickle.dumps(n, p)) for p in range(6))]
-)
-def test_copies_and_pickles_keep_the_parts(copied):
-    name = OrbitName(2, True, False, -1)
-    other = copied(name)
-    assert type(other) is OrbitName
-    assert other == name
-    assert (other.pair, other.longer, other.faster, other.slip) == (2, True, False, -1)
-    assert dataclasses.replace(other, faster=True) == "R2,d"
-
-
-def test_lists_of_names():
-    names = [
-        OrbitName(10, False, False),
-        OrbitName(2, True, False),
-        OrbitName(1, True, True, -1),
-        OrbitName(2, True, True),
-    ]
-    assert in_order(names) == ("B2,b", "B2,d", "B10,a", "R1,d")
-    assert combined(names) == "B2,b/d, B10,a, R1,d"
-    assert combined(()) == ""

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import replace
-from itertools import combinations
-
 import numpy as np
 import pytest
 
@@ -18,18 +14,15 @@ from carom.orbits import find_orbits
 from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.search import Search
-from carom.orbits.searched import Searched, random_starts
+from carom.orbits.searched import random_starts
 from carom.parameters import Parameters
-from tests.bouncing_machines import bouncing_parameters, disc_points
 from tests.compilation import sized
-from tests.machines import PAPER, random_parameters
+from tests.machines import PAPER
 
 DOUBLED = PAPER.replace(gamma=0.083)
 LANDING = Parameters(0.0274, 1.0566, 0.42048, 0.0, 0.35408, 0.0269, 1.0477)
 """Bounces that chatter into a stretch of sliding twice a turn or so."""
 GUESSES = sized(400, 5, 1500)
-MANY = 10_000
-"""Starts from which stable orbits are looked for by simulation alone."""
 
 UNSTABLE = {
     2: {2.843591999: (0.80548417, 0.28268084), 2.881753133: (0.60463283, 0.43951141)},
@@ -73,17 +66,6 @@ def test_unstable_orbits_that_attract_no_motion_are_found(seed):
 
 
 @pytest.mark.jit_only
-def test_with_at_most_so_many_impacts():
-    """With more impacts the same orbits are listed, and more."""
-    machine = PAPER.replace(gamma=0.09)
-    two, three = (find_orbits(machine, impacts=count) for count in (2, 3))
-    assert {orbit.impacts for orbit in two} == {1, 2}
-    assert {orbit.impacts for orbit in three} == {1, 2, 3}
-    assert all(any(same_orbit(orbit, other) for other in three) for orbit in two)
-    assert all(not same_orbit(a, b) for a, b in combinations(three, 2))
-
-
-@pytest.mark.jit_only
 def test_an_orbit_with_lasting_contact_is_found():
     """Its period is the time between the lift-offs of a motion that has settled; two directions do not survive the contact."""
     (orbit,) = [each for each in find_orbits(LANDING, impacts=1, guesses=1) if not each.impacts]
@@ -108,12 +90,6 @@ def test_the_share_of_fresh_motions_that_end_on_a_listed_orbit():
     listed, others = Search(found.rotor, 2).measured(500, random)  # of a search that has found nothing
     assert listed == 0
     assert others / 500 == pytest.approx(share, abs=5 * np.sqrt(0.25 / 500))
-
-
-def test_searches_add_up():
-    one, two = Searched(1, 2, 3, 4, 5, 2, 7, 8, 9, 10), Searched(10, 20, 30, 40, 50, 6, 70, 80, 90, 100)
-    assert one.and_then(two) == Searched(11, 22, 33, 44, 55, 3 + 6, 77, 88, 99, 110)
-    assert one.and_then(replace(two, last_new=0)).last_new == 2
 
 
 @pytest.mark.jit_only
@@ -185,47 +161,3 @@ def test_bad_numbers_of_impacts(given):
             function(DOUBLED, impacts=given)
         assert "a whole number" in problem.value.allowed
         assert "\n" not in str(problem.value)
-
-
-def test_bad_numbers_of_guesses_and_names():
-    for guesses in (0, 2.5, True):
-        with pytest.raises(InputError, match="guesses"):
-            find_orbits(DOUBLED, impacts=2, guesses=guesses)
-    with pytest.raises(InputError, match="seed"):
-        find_orbits(DOUBLED, impacts=2, seed=-1)
-    with pytest.raises(InputError, match="orbit"):
-        find_orbits(DOUBLED, impacts=2, guesses=1)["P9,77"]
-
-
-def test_motions_without_an_orbit():
-    assert orbit_of_motion(simulate(PAPER, State(0.1, 0.0), 5.0)) is None
-
-
-@pytest.mark.deep
-def test_stable_orbits_on_which_simulated_motions_end_are_found():
-    """All that 10,000 starts end on, with up to 12 impacts: of the paper's machine, also where bouncing is irregular, and of others."""
-    rng = np.random.default_rng(11)
-    gammas = (*np.linspace(0.0805, 0.0834, 10), *np.linspace(0.085, 0.17, 10))
-    machines = [PAPER.replace(gamma=float(gamma)) for gamma in gammas]
-    machines += [bouncing_parameters(rng, 1 + number % 2) for number in range(30)]
-    machines += [random_parameters(rng) for _ in range(10)]
-    seen: Counter[int] = Counter()
-    for machine in machines:
-        positions, velocities = disc_points(rng, MANY), disc_points(rng, MANY)
-        ends = settle(machine, 0.99 * positions, 1.5 * velocities, patience=3000)
-        counts = np.where(ends.outcomes == Outcome.BOUNCING, ends.multiplicities, 0)
-        for impacts in set(counts.tolist()) & set(range(1, 13)):
-            ended: list[Orbit] = []
-            for which in np.flatnonzero(counts == impacts)[:100]:
-                start = State(0.99 * positions[which], 1.5 * velocities[which])
-                orbit = orbit_of_motion(simulate(machine, start, settle=True, patience=3000))
-                if orbit is None or not orbit.stable or orbit.impacts != impacts:
-                    continue
-                if not any(same_orbit(orbit, other) for other in ended):
-                    ended.append(orbit)
-            found = find_orbits(machine, impacts=impacts) if ended else ()
-            for orbit in ended:
-                seen[impacts] += 1
-                assert any(same_orbit(orbit, other) for other in found), (machine, orbit)
-    assert seen[1] >= 20
-    assert seen.total() - seen[1] >= 20

@@ -25,7 +25,6 @@ from scipy.linalg import expm
 from scipy.optimize import brentq, fsolve
 
 from carom import State, find_orbits, simulate
-from carom.base.outcome import InputError, Outcome
 from carom.models import jeffcott
 from carom.orbits import Orbit, OrbitSet, Section, impact_map
 from carom.parameters import Parameters
@@ -108,22 +107,6 @@ def test_orbits_agree_with_matrix_exponential_and_simulation(parameters):
         assert_returns_by_matrix_exponential(orbit)
         if orbit.admissible:
             assert_returns_by_simulation(orbit)
-
-
-def test_random_machines_have_orbits_of_both_kinds():
-    """What the previous test speaks about: many orbits, admissible and virtual, at any damping."""
-    random = np.random.default_rng(10)
-    count = {True: 0, False: 0}
-    overdamped = 0
-    for _ in range(SETS):
-        parameters = random_parameters(random)
-        for orbit in orbits_of(parameters)[:8]:
-            assert_returns_by_matrix_exponential(orbit)
-            if orbit.admissible:
-                assert_returns_by_simulation(orbit)
-            count[orbit.admissible] += 1
-            overdamped += parameters.gamma > 2.0 * parameters.omega
-    assert min(*count.values(), overdamped) >= SETS // 10
 
 
 # ------------------------------------------------------------------------------------------------ multipliers
@@ -242,15 +225,6 @@ def test_reasons_agree_with_the_laws_of_contact_and_dense_sampling():
     assert min(count for key, count in seen.items() if key != "undecided") >= 5, seen
 
 
-def test_small_rough_rotors_have_their_slip_limited():
-    """At ``R/c_r`` = 0.05 … 1 friction would stop or reverse the slip of most orbits, and that is said."""
-    for ratio in (0.05, 0.2, 1.0):
-        reasons = [
-            orbit.reason for orbit in orbits_of(PAPER.replace(radius_ratio=ratio, mu=1.0)) if orbit.radial_speed > 0
-        ]
-        assert any("friction would stop" in reason or "slip would run" in reason for reason in reasons)
-
-
 def grazing_damping() -> float:
     """Damping at which the path of B1,d touches the wall between impacts, from sampled radii."""
     return brentq(
@@ -292,14 +266,6 @@ def test_admissibility_without_rebound_changes_exactly_where_the_pull_off_the_wa
             for time in np.geomspace(1e-9, 0.999 * leaves.period, 300):
                 position, _ = motion.fly(start, 1j * mpmath.mpf(speed) * start, mpmath.mpf(time))
                 assert abs(position) < 1
-
-
-def test_reason_names_the_time_of_the_crossing():
-    orbit = orbits_of(PAPER.replace(gamma=0.05))["B1,d"]
-    times = np.linspace(0.0, orbit.period, 200_001)[1:]
-    outside = np.abs(path(orbit.rotor.parameters, *after_impact(orbit, limited=False), times)) > 1.0
-    stated = float(orbit.reason.split("t = ")[1].split(",")[0])
-    assert stated == pytest.approx(times[outside][0], abs=2e-5)
 
 
 # ------------------------------------------------------------------------------------------------ completeness
@@ -352,19 +318,6 @@ def test_the_argument_says_what_was_proven():
     assert [orbit.name for orbit in some] == ["B1,a", "B1,c"]
     assert "F1 has 1 root for 0 < T ≤ 1/Ω" in some.argument
     assert "longer periods were not searched; orbits whose impacts stop the slip were not searched." in some.argument
-
-
-def test_without_damping_a_longest_period_is_needed():
-    with pytest.raises(InputError, match="longest_period must limit the orbits searched"):
-        orbits_of(PAPER.replace(gamma=0.0))
-    orbits = find_orbits(jeffcott(PAPER.replace(gamma=-0.1)), longest_period=10.0)
-    assert not orbits.complete
-    for orbit in orbits:
-        assert_returns_by_matrix_exponential(orbit)
-
-
-def test_a_balanced_rotor_has_no_synchronous_orbits():
-    assert len(orbits_of(PAPER.replace(rho=0.0))) == 0
 
 
 # -------------------------------------------------------------------------------------- slip that does not run on
@@ -492,64 +445,4 @@ def test_an_orbit_with_stopped_slip_exists_where_the_argument_leaves_room_for_it
     np.testing.assert_allclose(contacts.angular_speed, angular, rtol=1e-9)
 
 
-TINY_ROTOR = Parameters(gamma=0.0222, omega=0.176, rho=0.1293, phi=0.0, mu=0.021, d=1.0, radius_ratio=0.02)
-
-
-def test_an_orbit_with_backward_slip_is_a_motion_of_a_tiny_rotor():
-    orbits = orbits_of(TINY_ROTOR)
-    orbit = orbits["R1,d"]
-    assert orbit.admissible
-    assert orbit.slip == -1
-    assert_returns_by_matrix_exponential(orbit)
-    assert_returns_by_simulation(orbit)
-    assert orbit.trajectory(1.1).contacts.slip_before[0] < 0.0
-    assert all(orbit.slip == 1 for orbit in orbits if orbit.name.startswith("B"))
-
-
 # ------------------------------------------------------------------------------------------ names, look-up, views
-
-
-def test_names_follow_periods_and_speeds():
-    orbits = orbits_of(PAPER.replace(gamma=0.01))
-    assert len(orbits) == 60
-    assert [orbit.name for orbit in orbits] == [f"B{pair},{letter}" for pair in range(1, 16) for letter in "abcd"]
-    for pair in range(1, 16):
-        a, b, c, d = (orbits[f"B{pair},{letter}"] for letter in "abcd")
-        assert a.period == c.period == orbits.periods[2 * pair - 2]
-        assert b.period == d.period == orbits.periods[2 * pair - 1]
-        assert a.radial_speed < c.radial_speed
-        assert b.radial_speed < d.radial_speed
-
-
-def test_names_without_a_shorter_period():
-    """With ``d = 1`` the shorter root of the first pair may be ``T = 0``, which is no orbit."""
-    assert [orbit.name for orbit in orbits_of(PAPER.replace(d=1.0))] == ["B1,b", "B1,d"]
-
-
-def test_look_up():
-    orbits = orbits_of(PAPER)
-    assert len(orbits) == 4
-    assert orbits["B1,d"] is orbits[3] is orbits[-1] is list(orbits)[3]
-    assert [orbit.name for orbit in orbits[1:3]] == ["B1,b", "B1,c"]
-    with pytest.raises(InputError, match="orbit = B2,a: one of: B1,a, B1,b, B1,c, B1,d"):
-        orbits["B2,a"]
-    with pytest.raises(InputError, match=r"one of: none$"):
-        orbits_of(PAPER.replace(gamma=0.3))["B1,a"]
-    with pytest.raises(IndexError):
-        orbits[4]
-
-
-def test_views_of_an_orbit():
-    orbit = orbits_of(PAPER)["B1,d"]
-    position, velocity = after_impact(orbit, limited=True)
-    assert orbit.impacts == 1
-    assert orbit.position == pytest.approx(position, abs=1e-15)
-    assert orbit.departure.velocity == pytest.approx(velocity, abs=1e-14)
-    times = np.linspace(0.0, orbit.period, 50)[:-1]
-    expected = path(PAPER, position, velocity, times)
-    np.testing.assert_allclose(orbit.path(times), expected, atol=1e-13)
-    np.testing.assert_allclose(orbit.path(times + 3 * orbit.period), expected, atol=1e-12)
-    motion = orbit.trajectory(3.5)
-    assert motion.outcome is Outcome.TIME_REACHED
-    np.testing.assert_allclose(motion.contacts.time, orbit.period * np.arange(1, 4), rtol=1e-12)
-    np.testing.assert_allclose(motion.at(times)[0], expected, atol=1e-13)

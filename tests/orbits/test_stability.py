@@ -45,37 +45,7 @@ def test_largest_first_and_upper_of_a_pair_first(values, seed):
     assert found.stable == (abs(values[0]) < 1.0)
 
 
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ([0.99, -0.99, 0.5], ""),
-        ([0.6 + 0.79j, 0.6 - 0.79j, 0.5], ""),
-        ([1.2, -1.1, 0.0], "steadily to one side"),
-        ([-1.2, 1.1, 0.0], "in alternation from impact to impact"),
-        ([0.9 + 0.9j, 0.9 - 0.9j, 1.1], "in an oscillation from impact to impact"),
-    ],
-    ids=str,
-)
-def test_instability_in_words(values, words):
-    found = multipliers(matrix_with(values))
-    assert found.instability == words
-    assert found.stable == (not words)
-
-
-def test_on_the_unit_circle_is_not_stable():
-    assert not multipliers(np.diag([1.0, 0.5, 0.2])).stable
-    assert not multipliers(np.diag([-1.0, 0.5])).stable
-    assert multipliers(np.diag([1.0, 0.5])).spectral_radius == 1.0
-
-
 def test_a_defective_matrix():
     found = multipliers(np.array([[0.5, 1.0, 0.0], [0.0, 0.5, 1.0], [0.0, 0.0, 0.5]]))
     np.testing.assert_allclose(found.values, 0.5, atol=1e-4)
     assert found.stable
-
-
-def test_superstable():
-    found = multipliers(np.zeros((3, 3)))
-    assert found.spectral_radius == 0.0
-    assert found.stable
-    assert found.instability == ""

@@ -14,7 +14,7 @@ from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.motions import settle
 from carom.parameters import Parameters
-from carom.proofs import Hypotheses, check, hypotheses_of, prove, prove_kicks
+from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
 from carom.proofs.families import KICKS
@@ -206,26 +206,6 @@ def test_what_holds_is_told_of_stretches_of_a_parameter():
     assert Fraction(named["kicks recover"].enclosures["share_open"].low) == Fraction(3, 16)
 
 
-def test_nothing_is_told_where_everything_is_open():
-    with at_precision(64):
-        claims = claims_of(disc(DAMPING), read("t", 1))
-    assert [claim.status for claim in claims] == ["undecided", "undecided"]
-
-
-def test_speeds_are_not_told_in_a_unit_that_machines_do_not_share():
-    with at_precision(64):
-        claims = claims_of(disc(("clearance", "0.2 mm", "0.3 mm")), read("v0g", 1))
-    assert "speed" not in claims[0].enclosures
-    assert claims[0].enclosures["speed_si"].low == "0.0555"
-
-
-def test_time_that_is_up_leaves_gaps():
-    along = {"damping": ("280 N s/m", "420 N s/m")}
-    first = prove_kicks(SPINDLE, "111 mm/s", along=along, most_impacts=1, time_limit=1e-3, workers=1)
-    assert first["kicks all recover"].status == "undecided"
-    assert check(json.loads(json.dumps(first.document()))).claims == first.claims
-
-
 @pytest.mark.parametrize(
     ("along", "words"),
     [
@@ -263,23 +243,3 @@ def test_terms_mean_what_they_do_in_a_file(tmp_path, settings):
     for name, ball in numbers._asdict().items():
         # The file's values are rounded once or twice.
         assert float(ball.mid()) == pytest.approx(wanted[name], rel=1e-14)
-
-
-def test_helpers_of_terms_are_hypotheses(tmp_path):
-    read = hypotheses_of(file_of(GAINS, tmp_path), ["force_current_factor=81 N/A"], ["derivative_gain"])
-
-    assert read.helpers == {"magnetic_bearings": "2", "force_current_factor": "81 N/A"}
-    assert Hypotheses.from_document(read.document()) == read
-    with pytest.raises(InputError, match="mass"):
-        Hypotheses.from_document({**read.document(), "helpers": {"mass": "1 kg"}})
-
-
-def test_orbits_are_proven_along_a_term():
-    """Along the diameter of the clearance the same is proven as along its radius."""
-    diameter = prove(SPINDLE, along="diametral_clearance", interval=("0.49 mm", "0.51 mm"))
-    radius = prove(SPINDLE, along="clearance", interval=("0.245 mm", "0.255 mm"))
-
-    assert check(json.loads(json.dumps(diameter.document()))).claims == diameter.claims
-    assert [claim.status for claim in diameter] == [claim.status for claim in radius]
-    ends = [proof["kick harmless"].enclosures["speed_si"] for proof in (diameter, radius)]
-    assert ends[0].value == pytest.approx(ends[1].value, rel=1e-9)

@@ -6,7 +6,6 @@ import copy
 import json
 import random
 import re
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -16,7 +15,6 @@ from machines import PAPER
 from carom.base.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import Enclosure
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
 
 DECIMAL = {
     "gamma": "0.1",
@@ -155,26 +153,6 @@ def test_false_evidence_is_refused(document, name, value):
         check({**document, "evidence": {**document["evidence"], name: value}})
 
 
-def test_file_that_is_no_certificate_is_named(tmp_path):
-    for text in ("", "[]", "{", "[" * 100_000):
-        (tmp_path / "other.json").write_text(text)
-        with pytest.raises(InputError, match=r"must be a JSON file|is refused"):
-            check(tmp_path / "other.json")
-    with pytest.raises(InputError, match="cannot be read"):
-        check(tmp_path / "absent.json")
-
-
-def test_evidence_is_read_as_recorded():
-    searched = Evidence()
-    assert searched.take("cut", lambda: "1/2") == "1/2"
-    read = Evidence(searched.document())
-    assert read.take("cut", lambda: pytest.fail("searched")) == "1/2"
-    with pytest.raises(NotShownError, match="lacks"):
-        read.take("other", lambda: "1")
-    with pytest.raises(NotShownError, match="no fraction"):
-        rational_of("1e5")
-
-
 def test_number_stated_much_wider_than_known_is_refused(document):
     changed = copy.deepcopy(document)
     claim = next(entry for entry in changed["claims"] if entry["kind"] == "solution" and entry["about"] == "B1,a")
@@ -209,18 +187,3 @@ def test_key_that_is_twice_in_a_file_is_refused(document, tmp_path):
 )
 def test_short_number_shows_no_digits_that_are_not_certain(low, high, words):
     assert Enclosure(low, high, (Fraction(low), Fraction(high))).short == words
-
-
-def test_text_of_a_proof_is_short_and_names_what_is_undecided(document):
-    proof = check(document)
-    lines = repr(proof).splitlines()
-    assert lines[1].split(maxsplit=1) == ["theorem", "single-impact orbits"]
-    assert "mu 0.15" in lines[2]
-    assert f"{len(proof.with_status('proven'))} proven" in repr(proof)
-    open_ = tuple(replace(claim, status="undecided") for claim in proof)
-    told = repr(replace(proof, claims=open_)).splitlines()
-    assert len(told) <= 16
-    assert told[4].split(maxsplit=1) == ["undecided", proof[0].name]
-    assert f"and {len(proof) - 10} more" in told[-1]
-    # The table keeps all.
-    assert len(proof.rows()) == len(proof) + 1

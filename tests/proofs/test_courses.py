@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from compilation import sized
-from flint import acb, arb, arb_series, ctx
+from flint import acb, arb, arb_series
 from machines import random_parameters
 
 from carom.bifurcations.conditions import conditions_at, jacobian_at, profile_at
@@ -16,7 +16,7 @@ from carom.proofs.courses import Course, Return, period_condition
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
-from carom.proofs.series import hyperbolic, imaginary, real, short_return, squared, terms
+from carom.proofs.series import hyperbolic, short_return, squared, terms
 
 
 def balls(parameters) -> Numbers:
@@ -252,11 +252,3 @@ def test_period_condition_has_the_sign_of_the_closing_condition():
             condition = period_condition(numbers, arb(period))(numbers, arb(period))
             closing = Return(numbers, arb(period)).closing
             assert not condition * closing < 0
-
-
-def test_real_and_imaginary_parts_of_series():
-    with terms(3):
-        series = arb_series([1, 2, 3]) * acb(1, 2)
-        assert [float(real(series)[k]) for k in range(3)] == [1, 2, 3]
-        assert [float(imaginary(series)[k]) for k in range(3)] == [2, 4, 6]
-    assert ctx.cap != 3

@@ -9,7 +9,6 @@ import pytest
 
 from carom.base.outcome import InputError
 from carom.loading import load
-from carom.models import jeffcott
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 
 PAPER = {"gamma": "0.1", "omega": "0.76", "rho": "3/7", "phi": "0.21", "mu": "0.15", "d": "0.95", "radius_ratio": "57"}
@@ -106,35 +105,6 @@ def test_missing_number_is_named():
 def test_unit_that_is_not_exact_is_refused():
     with pytest.raises(InputError, match="cannot be converted exactly"):
         hypotheses_of(KEOGH, ["stiffness=5600 lbf/in"])
-
-
-def test_model_counts_by_its_doubles():
-    case = load(KEOGH)
-    assert hypotheses_of(jeffcott(case.parameters)).numbers == hypotheses_of(case).numbers
-
-
-def test_settings_may_be_fractions_and_intervals():
-    numbers = hypotheses_of("examples/source-paper.toml", ["rho=3/7", "gamma=[0.1, 1/9]"]).numbers
-
-    assert numbers["rho"].rational == Fraction(3, 7)
-    assert (numbers["gamma"].low, numbers["gamma"].high) == (Fraction(1, 10), Fraction(1, 9))
-
-
-def test_numbers_given_in_other_terms_count_by_their_doubles(tmp_path):
-    path = tmp_path / "terms.toml"
-    text = Path(KEOGH).read_text(encoding="utf-8")
-    text = text.replace('eccentricity = "0.3 mm"', 'unbalance = "15000 g mm"')
-    text = text.replace('unbalance_phase = "0.21 rad"', "")
-    path.write_text(text, encoding="utf-8")
-
-    numbers = hypotheses_of(path)
-
-    exact = hypotheses_of(KEOGH, ["unbalance_phase=0"]).numbers
-    assert numbers.numbers["rho"].rational == Fraction(0.3e-3) / Fraction("0.7e-3")
-    assert {**numbers.numbers, "rho": 0} == {**exact, "rho": 0}
-    assert numbers.document()["values"]["eccentricity"] == "double 0.0003"
-    with_grade = hypotheses_of(path, ["balance_grade=G 6.3", "mu=0.2"])
-    assert with_grade.numbers["rho"].rational == Fraction(0.0063 / 184.2) / Fraction("0.7e-3")
 
 
 @pytest.mark.parametrize(

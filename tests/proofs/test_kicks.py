@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import random
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -15,8 +14,7 @@ from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.motions import settle
 from carom.proofs import check, hypotheses_of, prove_kicks
-from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, leaves, read, written
-from carom.proofs.passages import REASONS
+from carom.proofs.kick_cells import IMPACTS, leaves, read
 from carom.proofs.seeds import doubles_of
 
 NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
@@ -201,20 +199,6 @@ def test_other_terms_are_refused(document, change):
         check({**document, **change})
 
 
-def test_each_reason_has_a_letter_of_its_own():
-    assert len(OPEN) == len(REASONS) + 2
-
-
-def test_time_that_is_up_leaves_cells_open_with_reasons():
-    proof = prove_kicks(SPINDLE, "220 mm/s", most_impacts=4, time_limit=0.2, workers=1)
-    all_of_it = proof["kicks all recover"]
-
-    assert all_of_it.status == "undecided"
-    assert "% of the area" in all_of_it.reason
-    shares = [Fraction(proof["kicks recover"].enclosures[name].low) for name in ("share_proven", "share_open")]
-    assert sum(shares) == 1
-
-
 @pytest.mark.parametrize(
     ("machine", "largest", "words"),
     [
@@ -241,26 +225,3 @@ def test_intervals_of_a_machine_are_followed_at_once():
 
     assert check(proof.document()).claims == proof.claims
     assert proof["kicks recover"].status == "proven"
-
-
-def test_cells_are_read_as_they_are_written():
-    tree = {DISC: BY_SPEED}
-    low, high = DISC.halves(BY_SPEED)
-    tree |= {low: "0", high: BY_ANGLE} | dict(zip(high.halves(BY_ANGLE), ("3", "g"), strict=True))
-
-    assert written(tree) == "v0a3g"
-    assert read("v0a3g") == tree
-    assert sum(cell.share for cell, _ in leaves(tree)) == 1
-    assert low.share == Fraction(1, 4)
-
-
-def test_letters_are_told_apart():
-    assert len(OPEN) + len(IMPACTS) + 2 == len({*OPEN, *IMPACTS, BY_SPEED, BY_ANGLE})
-
-
-def test_processes_find_and_verify_the_same(document, monkeypatch):
-    machine, largest, most = CASES["elastic wall, no unbalance"]
-    monkeypatch.setattr("carom.proofs.kick_search.ALONE", 0.0)
-    found = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=2)
-
-    assert found.document() == document

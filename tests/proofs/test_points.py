@@ -212,45 +212,6 @@ def test_zero_that_is_no_point_of_the_interval_is_refused(kind, guess, low, high
             point_claims(Rotor(hypotheses), Evidence({"points": [entry]}), {"along": "gamma", "from": low, "to": high})
 
 
-def test_one_point_twice_is_refused():
-    """Also where the box of the second one is narrower."""
-    hypotheses, options = hypotheses_of(DECIMAL), {"along": "gamma", "from": "0.063", "to": "0.064"}
-    with at_precision(128):
-        searched = Evidence()
-        found = point_claims(Rotor(hypotheses), searched, options)
-        document = searched.document()
-        assert point_claims(Rotor(hypotheses), Evidence(document), options) == found
-        (entry,) = [entry for entry in document["points"] if entry["kind"] == "grazing"]
-        twice = {"points": [*document["points"], entry | {"width": entry["width"] + 4}]}
-        with pytest.raises(NotShownError, match=r"one grazing of B1,d twice"):
-            point_claims(Rotor(hypotheses), Evidence(twice), options)
-
-
-def test_two_guesses_of_one_point_are_one():
-    """Around the fold a search comes to it from both sides, and both boxes hold the same zero."""
-    claims = points(DECIMAL, "gamma", "0.178", "0.1781")
-    assert [name for name in claims if name.startswith("fold of B1,d")].count("fold of B1,d transversal") == 1
-    assert not any("(2)" in name for name in claims)
-
-
-@pytest.mark.parametrize("name", KNOWN)
-def test_uniqueness_is_stated_with_its_box(paper, name):
-    enclosures = paper[name].enclosures
-    boxes = [key.removesuffix(" box") for key in enclosures if key.endswith(" box")]
-    assert boxes == [key for key in enclosures if not key.endswith(" box")]
-    for key in boxes:
-        assert enclosures[f"{key} box"].holds(enclosures[key])
-
-
-@pytest.mark.parametrize("change", [{"label": "B1,d: no kick is lost"}, {"comment": "no kick is lost"}])
-def test_words_in_the_evidence_of_a_point_are_refused(change):
-    entry = {"kind": "fold", "label": "B1,d", "near": [0.1], **change}
-    with at_precision(128), pytest.raises(NotShownError, match="names no motion"):
-        point_claims(
-            Rotor(hypotheses_of(DECIMAL)), Evidence({"points": [entry]}), {"along": "gamma", "from": "0.1", "to": "0.2"}
-        )
-
-
 def test_a_pair_of_multipliers_leaves_the_unit_circle_where_continuation_says():
     """The rotor on a softer bearing and better balanced: B1,d loses its stability to a torus."""
     found = points({**DECIMAL, "omega": "0.35", "rho": "0.2"}, "gamma", "0.0772", "0.0773")

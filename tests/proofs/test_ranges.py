@@ -14,7 +14,7 @@ from carom.orbits import find_orbits
 from carom.proofs import Claim, Proof, check, prove
 from carom.proofs.balls import at_precision, interval, rational
 from carom.proofs.block_orbits import _longest
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import line_of
 from carom.proofs.proving import proof_of
@@ -92,17 +92,6 @@ def test_orbits_of_the_paper_on_an_interval():
         stated[key] = other
         with pytest.raises(InputError, match="does not show what it claims"):
             check(document)
-
-
-@pytest.mark.deep
-def test_whole_stable_range_of_the_paper():
-    proof = prove(DECIMAL, along="gamma", interval=("0.084", "0.177"))
-
-    assert proof["machine all-single-impact-orbits"].status == "proven"
-    assert proof["B1,d stable"].status == proof["B1,d admissible"].status == "proven"
-    assert {proof[f"{name} stable"].status for name in ("B1,a", "B1,b", "B1,c")} == {"refuted"}
-    random = np.random.default_rng(3)
-    assert all(assert_holds_at(proof, PAPER, "gamma", value) for value in random.uniform(0.084, 0.177, 200))
 
 
 def test_points_leave_gaps_and_the_largest_interval_is_told():
@@ -186,18 +175,6 @@ def test_what_cannot_be_asked_is_told_in_one_line(arguments, words):
     assert "\n" not in str(problem.value)
 
 
-def test_interval_of_one_value():
-    assert proven_along(DECIMAL, "gamma", "0.1", "0.1")["B1,d stable"].status == "proven"
-
-
-def test_physical_parameters_have_units():
-    claims = ranges("examples/keogh-cole.toml", "damping", "1400 N s/m", "1400.5 N s/m")
-    stable = named(claims, "B1,d stable")
-    assert stable.status == "proven"
-    assert stable.enclosures["to"].low == "1400.5"
-    assert "1400 N s/m <= damping <= 1400.5 N s/m" in stable.statement
-
-
 def test_longest_period_of_a_block_bounds_that_of_every_machine_in_it():
     line = line_of(hypotheses_of({**DECIMAL, "omega": "1", "mu": "5"}), "gamma", "0.5", "2.2")
     with at_precision(64):
@@ -212,14 +189,6 @@ def test_periods_without_radial_speeds_are_not_counted_as_roots():
     assert stated
     # F1 has two roots there, and no radial speed belongs to either.
     assert all("none" in words and "F1" not in words for words in stated)
-
-
-@pytest.mark.parametrize("reason", ["\x1b[2Jproven", "x" * 1000])
-def test_words_why_a_block_is_open_are_refused(reason):
-    evidence = Evidence({"blocks": [["1/10", ""], ["101/1000", reason]]})
-    options = {"along": "gamma", "from": "0.1", "to": "0.101", **LIMITS}
-    with at_precision(64), pytest.raises(NotShownError, match="neither decided nor open"):
-        range_claims(Rotor(hypotheses_of(DECIMAL)), evidence, options)
 
 
 def test_why_a_block_is_open_is_found_again_by_the_check():

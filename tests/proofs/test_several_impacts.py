@@ -146,10 +146,3 @@ def test_orbit_that_is_listed_twice_is_refused(proof, first):
     evidence = Evidence({**proof.evidence, "orbits": [entry, again]})
     with at_precision(proof.bits), pytest.raises(NotShownError, match="lists an orbit twice"):
         several_impact_claims(Rotor(proof.hypotheses), evidence, proof.options)
-
-
-def test_words_in_the_evidence_of_an_orbit_are_refused(proof):
-    entry = proof.evidence["orbits"][0]
-    evidence = Evidence({**proof.evidence, "orbits": [{**entry, "note": "the only one"}]})
-    with at_precision(proof.bits), pytest.raises(NotShownError, match="a centre and a width"):
-        several_impact_claims(Rotor(proof.hypotheses), evidence, proof.options)

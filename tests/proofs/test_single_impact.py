@@ -272,15 +272,6 @@ def test_hard_machines_are_decided(changes):
     assert_agrees(Parameters(**{name: float(Fraction(text)) for name, text in {**DECIMAL, **changes}.items()}), proof)
 
 
-def test_critical_damping_of_both_signs_of_the_split_agree():
-    proofs = [
-        prove({**DECIMAL, "gamma": gamma}) for gamma in ("1.52", "1.519999999999999999999", "1.520000000000000000001")
-    ]
-    speeds = [proof["kick harmless"].enclosures["speed"].value for proof in proofs]
-    assert speeds == pytest.approx([speeds[0]] * 3, rel=1e-15)
-    assert speeds[0] == pytest.approx(cm.closed_forms.harmless_kick(PAPER.replace(gamma=1.52)), rel=1e-8)
-
-
 def test_without_damping_the_periods_up_to_a_limit_are_proven():
     proof = prove({**DECIMAL, "gamma": "0"}, longest_period=20)
     periods = proof["machine periods"]
@@ -291,20 +282,6 @@ def test_without_damping_the_periods_up_to_a_limit_are_proven():
     assert int(periods.statement.split()[3]) == len(found.periods)
     assert {claim.about for claim in proof if claim.kind == "admissible"} == {orbit.name for orbit in found}
     assert status(proof, "machine orbits") == "undecided"
-
-
-def test_negative_damping_ends():
-    proof = prove({**DECIMAL, "gamma": "-0.1"})
-    assert status(proof, "machine periods") == "undecided"
-    assert status(proof, "levitation stable") == "refuted"
-
-
-def test_elastic_rotor_without_damping_is_not_stable():
-    """The product of all multipliers is exactly 1."""
-    proof = prove({**DECIMAL, "gamma": "0", "d": "1"}, longest_period=10)
-    stable = [claim for claim in proof if claim.kind == "stable" and claim.about.startswith("B")]
-    assert stable
-    assert {claim.status for claim in stable} == {"refuted"}
 
 
 def test_condition_that_vanishes_at_every_period_is_left_undecided():
@@ -364,31 +341,3 @@ def test_decay_bounds_hold_beside_fifty_digits():
             assert slope <= slow * (1 + abs(mpmath.mpc(parameters.gamma / 2, 1)) * time)
             closest = max(closest, float(share))
     assert closest > 0.5
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"gamma": ("-0.1", "0.1"), "omega": ("0.9", "1.1")},
-        {"gamma": ("0", "1")},
-        {"omega": ("0.001", "1000")},
-        {"d": ("0", "1")},
-        {"mu": ("0", "10")},
-        {"rho": ("0", "1")},
-        {"gamma": ("-1000", "1000"), "rho": ("0", "1000"), "radius_ratio": ("0.001", "1e9")},
-    ],
-)
-def test_widest_boxes_end_with_reasons(changes):
-    proof = prove({**DECIMAL, **changes})
-    assert all(claim.reason for claim in proof if claim.status != "proven")
-    assert proof.bits == 128
-
-
-def test_grid_sees_no_more_roots_than_are_proven():
-    random = np.random.default_rng(8)
-    for _ in range(sized(5, 2, 100)):
-        parameters = near_the_paper(random)
-        proof = prove(parameters)
-        times = np.linspace(1e-3, 60.0, 20_001)
-        changes = np.count_nonzero(np.diff(np.sign(period_condition(parameters, times))))
-        assert changes <= int(proof["machine periods"].statement.split()[3])

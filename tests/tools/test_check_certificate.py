@@ -155,12 +155,6 @@ def test_machines_of_every_sort_are_confirmed(name):
     assert not_covered(document) <= OTHERS
 
 
-def test_a_machine_in_si_units_and_with_settings_is_confirmed():
-    assert refused(prove(KEOGH).document()) == []
-    assert refused(prove(KEOGH, ["speed=1759 rpm", "clearance=27.5 mil"]).document()) == []
-    assert refused(prove(KEOGH, ["gamma=0.1"], longest_period="5").document()) == []
-
-
 def test_orbits_of_several_impacts_are_confirmed(doubled):
     lines = {what: verdict for verdict, what, _ in report_of(doubled).lines}
     assert refused(doubled) == []
@@ -200,12 +194,6 @@ def points_only(document):
             if claim["about"] == about and claim["kind"].startswith(first):
                 report.each([claim], lambda c, f=first, of=facts: PROGRAM_OF.judge(c, of[c["kind"][len(f) :].strip()]))
     return report.lines
-
-
-@pytest.mark.deep
-@pytest.mark.parametrize("interval", [("0.0833", "0.0835"), ("0.0636", "0.06362"), ("0.36", "0.38"), ("0.1", "0.105")])
-def test_intervals_of_the_damping_are_confirmed(interval):
-    assert refused(prove(PAPER, along="gamma", interval=interval).document()) == []
 
 
 # ---------------------------------------------------------------------------------------------------------- forgeries
