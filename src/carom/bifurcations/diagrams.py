@@ -106,6 +106,11 @@ class Diagram(Result):
         """Unit in which people are told speeds: mm/s where the machine is known."""
         return shown_in("velocity", self.model.scales)[1]
 
+    @property
+    def time_unit(self) -> str:
+        """Unit in which people are told periods."""
+        return shown_in("time", self.model.scales)[1]
+
     def told_speeds(self, values: np.ndarray | float, speeds: np.ndarray | float) -> np.ndarray:
         """Speeds in this unit, from those in ``c_r Ω`` of the machines that have these values of the parameter."""
         return self.told("velocity", values, speeds)

@@ -1,23 +1,128 @@
-"""Diagrams and maps as plain data for JSON; unknown or non-finite numbers are written as ``null``."""
+"""What people see of diagrams and maps: the columns of their tables, and plain data for JSON, where unknown or non-finite numbers are ``null``."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
 from carom.attractors import exact_interval
+from carom.base.outcome import STEADY_WORDS
 from carom.base.results import record
 from carom.bifurcations.branches import OrbitBranch
+from carom.bifurcations.curve_results import Curve
 from carom.bifurcations.diagrams import Diagram
+from carom.bifurcations.planes import EDGE
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.regions import RegionMap
 from carom.bifurcations.simulated import SimulatedBranch
 from carom.models.axes import Axis
 from carom.orbits.orbit import Orbit
 from carom.orbits.searched import Searched
+from carom.parameters.columns import Column, keys_of
+from carom.parameters.formats import format_quantity, number
 
-POINT = "kind branch=name parameter value period radial_speed admissible detail"
+_NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}
+"""Names of bifurcations that keep hyphens or capitals."""
+
+
+def kind_words(kind: str) -> str:
+    """The kind of a bifurcation in words."""
+    return _NAMED.get(kind, kind.replace("-", " "))
+
+
+def _happens(point: Bifurcation, _: Diagram) -> str:
+    return f"{kind_words(point.kind)} ({point.detail})" if point.detail else kind_words(point.kind)
+
+
+def _size(kind: str, digits: int) -> Any:
+    """Text of a size at a special point, in units of the machine there."""
+
+    def text(point: Bifurcation, diagram: Diagram) -> str:
+        size = {"time": point.period, "velocity": point.radial_speed}[kind]
+        return "" if size != size else number(float(diagram.told(kind, point.value, size)), digits)
+
+    return text
+
+
+def _possible(entry: Any, _: object) -> str:
+    return "" if entry.admissible else "virtual"
+
+
+def _place(found: RegionMap, point: Sequence[float]) -> str:
+    """A point of the plane, in the units of its headings."""
+    pairs = zip(found.axes, point, strict=True)
+    return ", ".join(f"{axis.field.in_usual_unit(value):.6g}" for axis, value in pairs)
+
+
+def _coordinate(place: int) -> Any:
+    return lambda point, found: f"{found.axes[place].field.in_usual_unit(point.value[place]):.8g}"
+
+
+def _curve_possible(curve: Curve, _: RegionMap) -> str:
+    return "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
+
+
+def _period(point: Any, found: RegionMap) -> str:
+    scales = found.plane.at(found.model.parameters, *point.value).scales
+    return "" if point.period != point.period else format_quantity(point.period, "time", scales, 6)
+
+
+POINT = (
+    Column("value", "{parameter}", lambda point, found: f"{found.axis.field.in_usual_unit(point.value):.10g}"),
+    Column("kind", "what happens", _happens),
+    Column("branch=name", "to", lambda point, _: STEADY_WORDS.get(point.name, point.name)),
+    Column("parameter"),
+    Column("period", "period ({time_unit})", _size("time", 8)),
+    Column("radial_speed", "radial speed ({speed_unit})", _size("velocity", 7)),
+    Column("admissible", "possible", _possible),
+    Column("detail"),
+)
 BRANCH = "values period admissible stable ends=stops"
-CURVE = "kind orbits points periods radial_speeds admissible ends=stops"
+CURVE = (
+    Column("kind", "bifurcation", lambda curve, _: kind_words(curve.kind)),
+    Column("orbits", "of", lambda curve, _: curve.subject),
+    Column("points", "from {axes[0].heading}, {axes[1].heading}", lambda curve, found: _place(found, curve.points[0])),
+    Column("", "to", lambda curve, found: _place(found, curve.points[-1])),
+    Column(
+        "ends=stops",
+        "ends before the edge of the plane",
+        lambda curve, _: ", ".join(dict.fromkeys(kind_words(stop) for stop in curve.stops if stop != EDGE)),
+    ),
+    Column("periods"),
+    Column("radial_speeds"),
+    Column("admissible", "possible", _curve_possible),
+)
+CODIMENSION2 = (
+    Column("kind", "kinds", lambda point, _: " + ".join(map(kind_words, point.kinds))),
+    Column("value", "{axes[0].heading}", _coordinate(0)),
+    Column("", "{axes[1].heading}", _coordinate(1)),
+    Column("period", "period", _period),
+    Column("radial_speed"),
+    Column("admissible", "possible", _possible),
+)
+REGION = (
+    Column("", "#", lambda region, found: str(next(n for n, each in enumerate(found.regions, 1) if each is region))),
+    Column("share", "share", lambda region, _: f"{100 * region.share:.1f} %" if region.share else "thin"),
+    Column(
+        "point",
+        "for example at {axes[0].heading}, {axes[1].heading}",
+        lambda region, found: _place(found, region.point),
+    ),
+    Column("", "region", lambda region, _: region.motions.region),
+    Column(
+        "",
+        "motions",
+        lambda region, found: ", ".join(part for part in region.motions.parts if part not in found.everywhere),
+    ),
+)
+CHANGE = (
+    Column("point", "at {axes[0].heading}, {axes[1].heading}", lambda change, found: _place(found, change.point)),
+    Column("", "what changes", lambda change, _: change.words),
+    Column("reason", "why no curve"),
+    Column("before=before.words"),
+    Column("after=after.words"),
+)
 MOTIONS = (
     "name=region words contact_free orbits stable_orbits stable_orbit_names=stable_names unstable_orbit_names=unstable_names "
     "rub rolling source_region"
@@ -35,7 +140,7 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
         **_axis(diagram.axis),
         **record(diagram, "interval"),
         "points": [
-            record(point, POINT) | _word(point.orbit if point.motion in ("orbit", "rubbing") else None)
+            record(point, keys_of(POINT)) | _word(point.orbit if point.motion in ("orbit", "rubbing") else None)
             for point in diagram.points
         ],
         "branches": [record(branch, f"names {BRANCH} radial_speed") for branch in diagram.orbits],
@@ -69,10 +174,10 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
             {**_axis(axis), "range": list(limits)}
             for axis, limits in ((first, plane.first_range), (second, plane.second_range))
         ],
-        "curves": [record(curve, CURVE) for curve in found.curves],
-        "codim2": [record(point, "kind value period radial_speed admissible") for point in found.codimension2],
+        "curves": [record(curve, keys_of(CURVE)) for curve in found.curves],
+        "codim2": [record(point, keys_of(CODIMENSION2)) for point in found.codimension2],
         "regions": [
-            {"number": number, **record(region.motions, MOTIONS), **record(region, "point share")}
+            {"number": number, **record(region.motions, MOTIONS), **record(region, keys_of(REGION))}
             for number, region in enumerate(found.regions, start=1)
         ],
         "present": {
@@ -80,9 +185,7 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
             "region": found.present_region,
             "words": found.present_motions.words,
         },
-        "unexplained": [
-            record(change, "point reason before=before.words after=after.words") for change in found.unexplained
-        ],
+        "unexplained": [record(change, keys_of(CHANGE)) for change in found.unexplained],
         **record(found, "everywhere lost"),
     }
 

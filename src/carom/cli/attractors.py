@@ -11,7 +11,7 @@ from carom.cli.output import hand_over, write_output
 from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
-    from carom.attractors import Attractor, AttractorSet
+    from carom.attractors import AttractorSet
     from carom.orbits import LyapunovExponents
     from carom.parameters import Case
 
@@ -53,16 +53,16 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
     """Print a table of the attractors, and what the rotor does on each below it."""
     from carom.basins import share_of_kicks
     from carom.cli.fitting import print_table
+    from carom.parameters.columns import table_of
+    from carom.studies.document import SEEN
 
     screen = console()
-    rows = [
-        (entry.name.words, _lasting(entry), *_numbers(entry, measured, len(found.disturbances)))
-        for entry, measured in zip(found, known, strict=True)
-    ]
+    headings, rows = table_of(SEEN, found, found)
+    shown = [[*row, _across(measured)] for row, measured in zip(rows, known, strict=True)]
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
-    columns = ("motion", "lasting", "disturbances", "impacts", "period", "largest exponent across the motion")
-    print_table(screen, "Motions on which disturbances end", columns, rows)
+    headings.append("largest exponent across the motion")
+    print_table(screen, "Motions on which disturbances end", headings, shown)
     if share := share_of_kicks(found):
         screen.print(f"{share.words}.")
     for entry in found:
@@ -71,42 +71,19 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()} of some disturbances ended: {found.transient.words}.")
     if exponents:
         screen.print()
-        note = "In Omega, +- standard errors; -inf: contact removes this direction."
+        note = "In Ω, ± standard errors; -inf: contact removes this direction."
         headings = ("motion", "exponents", "impacts measured")
         print_table(screen, "Lyapunov exponents", headings, _exponents(found, known), note=note)
     screen.print()
     screen.print(found.argument)
 
 
-def _lasting(entry: Attractor) -> str:
-    """Whether motions stay on it; irregular bouncing is never called an attractor."""
-    if entry.survival is not None:
-        return entry.survival.verdict
-    return "undecided" if entry.name.irregular or not entry.name.outcome.settled else "attractor"
-
-
-def _numbers(entry: Attractor, exponents: LyapunovExponents | None, total: int) -> tuple[str, ...]:
-    """Share of all disturbances, impacts, period and largest exponent across the motion, as text."""
-    from carom.attractors import exact_interval
-    from carom.parameters.formats import format_quantity
-
-    low, high = exact_interval(entry.count, total) if total else (0.0, 1.0)
-    largest = "-"
-    if exponents is not None:
-        value, error = exponents.across
-        largest = f"{value:.3g}" + (f" +- {error:.1g}" if error else "")
-    impacts = entry.orbit.impacts if entry.orbit else entry.name.multiplicity
-    return (
-        f"{100.0 * entry.share_of_disturbances:.3g} % ({_end(low)} to {_end(high)})",
-        str(impacts) if impacts else "-",
-        format_quantity(entry.period, "time", entry.scales, 6) if entry.period else "-",
-        largest,
-    )
-
-
-def _end(share: float) -> str:
-    """An end of an interval in per cent: two digits, or three where two would be a power of ten."""
-    return f"{100.0 * share:.{2 if share < 0.995 else 3}g}"
+def _across(exponents: LyapunovExponents | None) -> str:
+    """The largest exponent across the motion."""
+    if exponents is None:
+        return "-"
+    value, error = exponents.across
+    return f"{value:.3g}" + (f" ± {error:.1g}" if error else "")
 
 
 def _exponents(found: AttractorSet, known: list[LyapunovExponents | None]) -> list[tuple[str, str, str]]:
@@ -117,6 +94,6 @@ def _exponents(found: AttractorSet, known: list[LyapunovExponents | None]) -> li
             rows.append((entry.name.words, "not known", "-"))
             continue
         pairs = zip(measured.values, measured.errors, strict=True)
-        shown = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
+        shown = [f"{value:.4g} ± {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
         rows.append((entry.name.words, ", ".join(shown), f"{measured.impacts:,}" if measured.errors.any() else "exact"))
     return rows

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from carom.base.outcome import STEADY_WORDS
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.output import hand_over, write_output
 from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Bifurcation, Diagram
+    from carom.bifurcations import Diagram
     from carom.models import Axis
 
 IMPACTS = option(
@@ -65,36 +64,17 @@ def _shown(varied: Axis, value: float) -> str:
 
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
+    from carom.bifurcations.documents import POINT
     from carom.cli.fitting import print_table
-    from carom.cli.regions import named
-    from carom.parameters.formats import shown_in
+    from carom.parameters.columns import table_of
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
     now = _shown(diagram.axis, present)
     screen.print(f"Bifurcations over {diagram.axis.field.words}, {ends}; now {now}")
-    unit = shown_in("time", diagram.model.scales)[1]
-    columns = (
-        diagram.parameter,
-        "what happens",
-        "to",
-        f"period ({unit})",
-        f"radial speed ({diagram.speed_unit})",
-        "possible",
-    )
-    rows = [
-        (
-            f"{diagram.axis.field.in_usual_unit(point.value):.10g}",
-            f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
-            STEADY_WORDS.get(point.name, point.name),
-            "" if point.period != point.period else f"{float(diagram.told('time', point.value, point.period)):.8g}",
-            "" if point.radial_speed != point.radial_speed else _speed(diagram, point),
-            "" if point.admissible else "virtual",
-        )
-        for point in diagram.points
-    ]
-    if rows:
-        print_table(screen, "", columns, rows, styles=["" if point.admissible else "dim" for point in diagram.points])
+    if diagram.points:
+        styles = ["" if point.admissible else "dim" for point in diagram.points]
+        print_table(screen, "", *table_of(POINT, diagram.points, diagram), styles=styles)
     else:
         screen.print("No bifurcation on this range.")
     for branch in diagram.orbits:
@@ -103,9 +83,3 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
     if diagram.search is not None:
         screen.print(f"Searched at several values, counted together. {diagram.search.words}")
-
-
-def _speed(diagram: Diagram, point: Bifurcation) -> str:
-    """The radial speed at a special point: with six decimals in units of the equations, with four in mm/s."""
-    decimals = 6 if diagram.model.scales is None else 4
-    return f"{round(float(diagram.told_speeds(point.value, point.radial_speed)), decimals) + 0.0:.{decimals}f}"

@@ -16,9 +16,9 @@ from carom.attractors.settled import settled_motion
 from carom.base.outcome import Outcome, Phase
 from carom.cli.fitting import print_table
 from carom.cli.logs import contact_rows
-from carom.cli.tables import TEXT_WIDTH, complex_words, print_rows
+from carom.cli.tables import TEXT_WIDTH, print_rows
 from carom.motions import Trajectory, drop_loads
-from carom.parameters.formats import format_angle, format_quantity, number, shown_from_si
+from carom.parameters.formats import complex_words, format_angle, format_quantity, number, shown_from_si
 from carom.parameters.indentation import indentation_of_hit
 from carom.studies import LoadCheck, Wording
 from carom.studies.load_checks import checks_of_planes

@@ -15,9 +15,11 @@ from rich.text import Text
 
 from carom.base.outcome import Outcome
 from carom.cli.fitting import print_table
+from carom.parameters.columns import table_of
 from carom.parameters.formats import number
 from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
+from carom.studies.document import FOUND_ORBIT, MULTIPLIERS, ORBIT
 from carom.studies.facts import Topic, about, paragraphs
 from carom.studies.summaries import (
     MOTION_COLUMNS,
@@ -161,13 +163,8 @@ def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
     """Print the orbits with at most a number of impacts."""
     _print_head(console, case, found.rotor)
     title = f"Orbits with at most {counted(found.impacts, 'impact')} a period"
-    say, rows = Wording(case.parameters.scales), []
-    for orbit in found:
-        turns = "" if orbit.turns is None else f", {counted(orbit.turns, 'turn')}"
-        state = "stable" if orbit.stable else "unstable"
-        rows.append((orbit.name, f"{say.time(orbit.period)}{turns}", state, orbit.segments))
-    if rows:
-        print_table(console, title, ("orbit", "period", "state", "word"), rows)
+    if found.members:
+        print_table(console, title, *table_of(FOUND_ORBIT, found, found))
     else:
         console.print(f"No orbit with at most {counted(found.impacts, 'impact')} a period was found.")
     _print_numbers(console, list(found))
@@ -187,14 +184,10 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
     if not shown:
         return
     styles = ["" if orbit.admissible else "dim" for orbit in shown]
-    names = {"period T": "period", "ṙ": "radial_speed", "θ": "angle", "θ̇": "angular_speed"}
-    rows = [(orbit.name, *(f"{getattr(orbit, name):.10g}" for name in names.values())) for orbit in shown]
     title = "Orbits in the units of the equations, just before the first impact"
-    print_table(console, title, ("orbit", *names), rows, styles=styles)
-    factors = [(each.multipliers.spectral_radius, map(complex_words, each.multipliers.values)) for each in shown]
-    rows = [(each.name, f"{most:.6g}", "   ".join(all_)) for each, (most, all_) in zip(shown, factors, strict=True)]
+    print_table(console, title, *table_of(ORBIT, shown, None), styles=styles)
     title = "Multipliers: a small disturbance is multiplied by these in a period"
-    print_table(console, title, ("orbit", "largest modulus", "multipliers"), rows, styles=styles)
+    print_table(console, title, *table_of(MULTIPLIERS, shown, None), styles=styles)
 
 
 def print_motions(console: Console, title: str, rows: Sequence[MotionRow]) -> None:
@@ -209,10 +202,3 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
     virtual = sum(not orbit.admissible for orbit in orbits)
     if virtual > most_virtual:
         console.print(f"{virtual} orbits that are not possible are left out; --json lists them.")
-
-
-def complex_words(value: complex) -> str:
-    """A complex number to six digits."""
-    if value.imag == 0:
-        return f"{value.real:.6g}"
-    return f"{value.real:.6g} {'+' if value.imag >= 0 else '−'} {abs(value.imag):.6g}i"

@@ -34,6 +34,11 @@ class Axis:
         """Name of the parameter."""
         return self.field.name
 
+    @property
+    def heading(self) -> str:
+        """Name of the parameter, with the unit in which people usually say it."""
+        return f"{self.name} ({self.field.usual_unit})" if self.field.usual_unit else self.name
+
     @checked
     def value(self, model: Rotor) -> float:
         """Its value in a model, in SI units if it is physical."""

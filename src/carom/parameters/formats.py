@@ -39,6 +39,13 @@ def number(value: float, digits: int = 4) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
+def complex_words(value: complex) -> str:
+    """A complex number to six digits: ``0.5 − 0.25i``."""
+    if value.imag == 0:
+        return f"{value.real:.6g}"
+    return f"{value.real:.6g} {'+' if value.imag >= 0 else '−'} {abs(value.imag):.6g}i"
+
+
 def rounded_down(value: float, digits: int = 4) -> float:
     """Round a positive number down to significant digits: what is proven must not be told as more."""
     unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)

@@ -25,6 +25,8 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Machine, Parameters
+from carom.parameters.columns import Column, keys_of
+from carom.parameters.formats import complex_words, format_quantity
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
@@ -34,9 +36,45 @@ from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
-from carom.studies.wording import Wording
+from carom.studies.wording import Wording, counted
 
-ORBIT = "name impacts period: radial_speed: angle angular_speed multipliers=multipliers.values stable admissible reason"
+
+def _number(name: str) -> Any:
+    return lambda orbit, _: f"{getattr(orbit, name):.10g}"
+
+
+def _period_of_found(orbit: Orbit | SimulatedOrbit, found: OrbitSet) -> str:
+    turns = "" if orbit.turns is None else f", {counted(orbit.turns, 'turn')}"
+    return f"{Wording(found.rotor.scales).time(orbit.period)}{turns}"
+
+
+FOUND_ORBIT = (
+    Column("", "orbit", lambda orbit, _: orbit.name),
+    Column("", "period", _period_of_found),
+    Column("", "state", lambda orbit, _: "stable" if orbit.stable else "unstable"),
+    Column("word=segments", "word"),
+    Column("all_multipliers=complete"),
+)
+ORBIT = (
+    Column("name", "orbit"),
+    Column("impacts"),
+    Column("period:", "period T", _number("period")),
+    Column("radial_speed:", "ṙ", _number("radial_speed")),
+    Column("angle", "θ", _number("angle")),
+    Column("angular_speed", "θ̇", _number("angular_speed")),
+    Column("stable"),
+    Column("admissible"),
+    Column("reason"),
+)
+MULTIPLIERS = (
+    Column("", "orbit", lambda orbit, _: orbit.name),
+    Column("", "largest modulus", lambda orbit, _: f"{orbit.multipliers.spectral_radius:.6g}"),
+    Column(
+        "multipliers=multipliers.values",
+        "multipliers",
+        lambda orbit, _: "   ".join(map(complex_words, orbit.multipliers.values)),
+    ),
+)
 ATTRACTOR = (
     "name outcome=name.outcome.label settled multiplicity=name.multiplicity period whirl count share_of_disturbances "
     "known_starts=known largest_impulse: largest_force:"
@@ -80,9 +118,8 @@ def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
     turns = {} if orbit.turns is None else {"turns": orbit.turns}
     return {
         **_orbit(orbit),
-        "word": orbit.segments,
+        **record(orbit, keys_of(FOUND_ORBIT)),
         **extremes,
-        "all_multipliers": orbit.complete,
         **turns,
         "contacts": [
             {
@@ -120,16 +157,54 @@ def attractors_document(
 EXPONENTS = "per_time=values per_impact error_per_time=errors error_per_impact lost"
 
 
+def _lasting(entry: Attractor, _: AttractorSet) -> str:
+    """Whether motions stay on it; irregular bouncing is never called an attractor."""
+    if entry.survival is not None:
+        return entry.survival.verdict
+    return "undecided" if entry.name.irregular or not entry.name.outcome.settled else "attractor"
+
+
+def _interval(entry: Attractor, total: int) -> tuple[float, float]:
+    return exact_interval(entry.count, total) if total else (0.0, 1.0)
+
+
+def _share(entry: Attractor, found: AttractorSet) -> str:
+    """In per cent; the ends of the interval to two digits, or three where two would be a power of ten."""
+    ends = _interval(entry, len(found.disturbances))
+    low, high = (f"{100.0 * end:.{2 if end < 0.995 else 3}g}" for end in ends)
+    return f"{100.0 * entry.share_of_disturbances:.3g} % ({low} to {high})"
+
+
+def _impacts(entry: Attractor) -> int | None:
+    return (entry.orbit.impacts if entry.orbit else entry.name.multiplicity) or None
+
+
+SEEN = (
+    Column("name", "motion", lambda entry, _: entry.name.words),
+    Column("outcome=name.outcome.label"),
+    Column("", "lasting", _lasting),
+    Column("", "disturbances", _share),
+    Column("count"),
+    Column("known_starts=known"),
+    Column("", "impacts", lambda entry, _: str(_impacts(entry) or "-")),
+    Column(
+        "period",
+        "period",
+        lambda entry, _: format_quantity(entry.period, "time", entry.scales, 6) if entry.period else "-",
+    ),
+    Column("words"),
+)
+
+
 def _seen(entry: Attractor, total: int) -> dict[str, Any]:
     orbit, lasts = entry.orbit, entry.survival
     return {
-        **record(entry, "outcome=name.outcome.label name count known_starts=known"),
-        "words": entry.words,
+        **record(entry, keys_of(SEEN)),
         "word": str(orbit.word) if orbit else None,
         **({"turns": orbit.turns} if orbit and orbit.turns is not None else {}),
-        "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
+        "impacts": _impacts(entry),
         "period": orbit.period if orbit else entry.period,
-        "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
+        "share": [entry.share_of_disturbances, *_interval(entry, total)],
         **(document_of(lasts) | {"transient": lasts is not None and lasts.verdict == "transient"}),
     }
 
@@ -189,7 +264,7 @@ def _equilibrium(entry: SteadyMotion, rotor: Rotor) -> dict[str, Any]:
 
 
 def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
-    document, own = record(entry, ORBIT, entry.scales), entry.scales
+    document, own = record(entry, keys_of((*ORBIT, *MULTIPLIERS)), entry.scales), entry.scales
     if own is not None:
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
         document |= _wall(indentation_of_hit(entry.rotor.in_rigid_wall, entry.radial_speed))
