@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from linear_rotors import as_matrices, single
 
 import carom as cm
+from carom.motions.starts import State
 
 RANGE = (0.2, 0.5)
 
@@ -50,3 +53,18 @@ def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_ro
     for kind, value in shared:
         assert min(abs(each.value - value) for each in found.points if each.kind == kind) < 1e-9
     found.plot()
+
+
+@pytest.mark.jit_only
+def test_rolling_that_closes_from_any_angle_is_no_branch(monkeypatch):
+    """125 clearances of radius roll 126 times round in a turn: Newton's method finds such a motion at every angle and at every speed."""
+    monkeypatch.setattr("carom.bifurcations.followed.PLACES", (0.5,))
+    machine = cm.load(Path(__file__).parents[1] / "machines" / "gravity.toml")
+    found = cm.find_bifurcations(machine, "speed", ("32400 rpm", "36000 rpm"))
+    assert found.several
+    for branch in found.several:
+        assert (len(branch), branch.stops, branch.special) == (1, ("one of a continuum",) * 2, ())
+        (orbit,) = branch.orbits
+        begun = orbit.start.position * np.exp(0.3j), orbit.start.velocity * np.exp(0.3j)
+        turned = cm.simulate(orbit.rotor, State(*begun, time=orbit.start.time), orbit.period, settle=False)
+        assert abs(turned.final.position - begun[0]) < 1e-9

@@ -38,6 +38,9 @@ JOINS, CHANGES = "grazing", "contact-change"
 """Where an arrival at a wall joins or leaves the period, and where anything else that happens in it does."""
 BESIDE, ALONG = (2e-3, -2e-3, 1e-2, -1e-2), (0.02, 0.06, 0.15)
 """Changes of the parameter, relative to it, and distances along the direction that alternates, at which a doubled period is sought."""
+NEUTRAL, CONTINUUM = 1e-6, "one of a continuum"
+"""Singular value of all derivatives of the equations below which a motion is one of a continuum at one value of the parameter; it is no branch then.
+Rolling closes after a turn from any angle, where the radius of the rotor is a whole number of clearances."""
 TWICE = 1e-4
 """Distance of the halves of a period, from which on it is no shorter one."""
 
@@ -173,6 +176,8 @@ def continue_simulated(
 ) -> SimulatedBranch:
     """Continue a periodic motion of any machine along a parameter, through events that join or leave its period.
 
+    A motion that is one of a continuum at one value of the parameter is all of its branch.
+
     Parameters
     ----------
     orbit : SimulatedOrbit
@@ -196,6 +201,10 @@ def continue_simulated(
     family = Family(begun, along, limits, budget or Budget())
     vector = Flow.vector(begun.start)
     start = np.append(vector, begun.period) if family.free else vector
+    scales = np.append(np.ones(len(start)), family.size)
+    slopes = family.jacobian(start, present) * scales
+    if np.isfinite(slopes).all() and np.linalg.svd(slopes, compute_uv=False)[-1] < NEUTRAL:
+        return SimulatedBranch(along, orbit.name, orbit.rotor, np.array([present]), (orbit,), (), (CONTINUUM,) * 2)
     branch = continue_branch(
         family.residual,
         start,
@@ -204,7 +213,7 @@ def continue_simulated(
         jacobian=family.jacobian,
         watches=family.watches(),
         steps=steps or STEPS,
-        scales=np.append(np.ones(len(start)), family.size),
+        scales=scales,
         crossings="",
     )
     orbits: list[SimulatedOrbit] = []

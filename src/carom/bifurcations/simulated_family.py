@@ -5,7 +5,7 @@ A period of any length begins where the radius is least; one of whole turns at i
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cache, cached_property, lru_cache
 from itertools import combinations
 from typing import Any
 
@@ -20,6 +20,8 @@ from carom.orbits.simulated import SimulatedOrbit
 
 DIFFERENCE = 1e-6
 """Step of the differences by the parameter, relative to its size."""
+REMEMBERED = 64
+"""Motions that are kept: each is asked for by the equations, their derivatives and all watches."""
 LEADING = 0.2
 """Size of the multipliers that are watched in pairs."""
 
@@ -35,24 +37,23 @@ class Family:
         self.budget = budget
         self.orbit, self.along, self.limits = orbit, along, limits
         self.free, self.plane = orbit.repeats is None, orbit.leading_plane
-        self._flows: dict[Place, Flow | None] = {}
-        self._motions: dict[bytes, tuple[np.ndarray, Trajectory] | None] = {}
-        self._slopes: dict[bytes, np.ndarray] = {}
+        self.flow = lru_cache(REMEMBERED)(self._flow)
+        self._known = lru_cache(REMEMBERED)(self._followed)
+        # Of every point of a branch: its orbits ask for them again.
+        self._slopes = cache(self._derived)
 
     @cached_property
     def size(self) -> float:
         """Typical size of the parameter."""
         return max(abs(self.along.value(self.orbit.rotor)), 0.1 * (self.limits[1] - self.limits[0]))
 
-    def flow(self, p: Place) -> Flow | None:
+    def _flow(self, p: Place) -> Flow | None:
         """The flow at a place; ``None`` where there is no such rotor."""
-        if p not in self._flows:
-            try:
-                rotor = self.along.move(self.orbit.rotor, p)
-                self._flows[p] = Flow(rotor, self.orbit.start.time, self.orbit.rests, self.budget)
-            except InputError:
-                self._flows[p] = None
-        return self._flows[p]
+        try:
+            rotor = self.along.move(self.orbit.rotor, p)
+        except InputError:
+            return None
+        return Flow(rotor, self.orbit.start.time, self.orbit.rests, self.budget)
 
     def split(self, u: np.ndarray) -> tuple[np.ndarray, float]:
         """State and period of the unknowns."""
@@ -60,13 +61,11 @@ class Family:
 
     def motion(self, u: np.ndarray, p: Place) -> Trajectory | None:
         """One period from the unknowns."""
-        key = u.tobytes() + np.asarray(p, float).tobytes()
-        if key not in self._motions:
-            flow, (vector, period) = self.flow(p), self.split(u)
-            found = None if flow is None or period <= 0.0 else flow.follow(vector, period)
-            self._motions[key] = None if found is None else (vector, found)
-        known = self._motions[key]
-        return None if known is None else known[1]
+        return self._known(u.tobytes(), p)
+
+    def _followed(self, unknowns: bytes, p: Place) -> Trajectory | None:
+        flow, (vector, period) = self.flow(p), self.split(np.frombuffer(unknowns))
+        return None if flow is None or period <= 0.0 else flow.follow(vector, period)
 
     def residual(self, u: np.ndarray, p: Place) -> np.ndarray:
         """How far the end is from the start, and the radial speed there if the period is free."""
@@ -85,13 +84,14 @@ class Family:
 
     def flow_slopes(self, u: np.ndarray, p: Place) -> np.ndarray:
         """Derivative of the end of the period by its start."""
-        key = u.tobytes() + np.asarray(p, float).tobytes()
-        if key not in self._slopes:
-            motion, flow, (vector, _) = self.motion(u, p), self.flow(p), self.split(u)
-            if motion is None or flow is None:
-                return np.full((len(vector),) * 2, np.nan)
-            self._slopes[key] = flow.derivative(vector, motion)
-        return self._slopes[key]
+        return self._slopes(u.tobytes(), p)
+
+    def _derived(self, unknowns: bytes, p: Place) -> np.ndarray:
+        u = np.frombuffer(unknowns)
+        motion, flow, (vector, _) = self.motion(u, p), self.flow(p), self.split(u)
+        return (
+            np.full((len(vector),) * 2, np.nan) if motion is None or flow is None else flow.derivative(vector, motion)
+        )
 
     def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:
         """Derivatives of the residual by the unknowns and the parameter."""
