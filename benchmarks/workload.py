@@ -8,9 +8,9 @@ import numpy as np
 import carom
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
+from carom.core.settling import memory
 
 UNTIL, MOST_IMPACTS = 200.0, 100
 

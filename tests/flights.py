@@ -15,11 +15,11 @@ from carom.core import events
 from carom.core.advance import advance
 from carom.core.block import load_products
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.flow import displacement, squared_modulus
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LEVELS, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
+from carom.core.settling import memory
 from carom.models import Rotor, jeffcott
 from carom.parameters import Parameters
 

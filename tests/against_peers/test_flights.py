@@ -42,7 +42,7 @@ def assert_same_flight(parameters: Parameters, start: tuple[complex, complex], h
     amplitudes, how = rotor.system.amplitudes(*start), LEAVING if abs(start[0]) > 1.0 - 1e-12 else INSIDE
     outcome, time = first_crossing(rotor.system.arrays, rotor.system.table, 0, amplitudes, horizon, how, work)
     assert outcome in (CLEAR, CONTACT)
-    position, velocity = (complex(value) for value in rotor.system.state(work.arrival))
+    position, velocity = (complex(value) for value in rotor.system.state(work.end))
     error = flight_error(rotor, peer, *start, theirs.steps)
     outward = (position.conjugate() * velocity).real
     stiffness, force = stiffness_and_force(parameters)

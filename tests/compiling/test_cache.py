@@ -100,7 +100,7 @@ def test_a_file_under_the_name_of_another_is_not_taken(kept):
 
 
 def test_what_stands_in_the_place_of_a_file_does_no_harm(kept, monkeypatch):
-    monkeypatch.setattr("carom.core.compiling.cache.tell_once", cache_directory.tell_once.__wrapped__)
+    monkeypatch.setattr("carom.core.compiling.cache.warn_once", cache_directory.warn_once.__wrapped__)
     kept.unlink()
     kept.mkdir()
     with pytest.warns(CaromWarning, match="cannot be kept"):
@@ -112,7 +112,7 @@ def test_a_disk_that_refuses_is_told_of_and_done_without(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("carom.core.compiling.cache.write_whole", full)
-    monkeypatch.setattr("carom.core.compiling.cache.tell_once", cache_directory.tell_once.__wrapped__)
+    monkeypatch.setattr("carom.core.compiling.cache.warn_once", cache_directory.warn_once.__wrapped__)
     with pytest.warns(CaromWarning, match=r"make room, or set CAROM_CACHE_DIR to a directory that can be written$"):
         assert fresh(tmp_path)(3.0) == 27.0
     assert not list(tmp_path.iterdir())
@@ -121,7 +121,7 @@ def test_a_disk_that_refuses_is_told_of_and_done_without(tmp_path, monkeypatch):
 
 
 def test_it_is_told_of_once(tmp_path):
-    cache_directory.tell_once.cache_clear()
+    cache_directory.warn_once.cache_clear()
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         assert fresh(None)(3.0) == 27.0

@@ -13,9 +13,9 @@ from reference import first_crossing, jeffcott_flight, unit
 from carom.base.outcome import Outcome
 from carom.core.advance import CHATTER_HEIGHT, advance
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
+from carom.core.settling import memory
 from carom.core.table import flight_table
 from carom.models import jeffcott
 from carom.motions.simulation import simulate

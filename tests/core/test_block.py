@@ -43,7 +43,7 @@ def test_look_at_a_node_and_move_to_any_time_agree_with_the_flight(seed):
     for time in task.table.durations[0] * np.array([0.0, 0.013, 0.31, 0.77, 1.0]):
         block.move_to(task.arrays, task.table, time, work)
         flown = rotor.system.fly(task.amplitudes, np.array(time))
-        np.testing.assert_allclose(work.arrival, flown, rtol=0.0, atol=1e-13 * np.abs(flown).max())
+        np.testing.assert_allclose(work.end, flown, rtol=0.0, atol=1e-13 * np.abs(flown).max())
         np.testing.assert_allclose(work.increments, flown - task.amplitudes, rtol=0.0, atol=1e-13 * np.abs(flown).max())
 
 
@@ -125,7 +125,7 @@ def test_many_modes_are_moved_to_any_time(seed):
         time = share * float(tables.durations[0])
         flown = fly_all(arrays, work.current[None], np.array([time]))[0]
         block.move_to(arrays, tables, time, work)
-        np.testing.assert_allclose(work.arrival, flown, rtol=0.0, atol=1e-13 * np.abs(flown).max())
+        np.testing.assert_allclose(work.end, flown, rtol=0.0, atol=1e-13 * np.abs(flown).max())
         np.testing.assert_allclose(work.increments, flown - work.current, rtol=0.0, atol=1e-13 * np.abs(flown).max())
     for node in (0, 1, NODES // 3, NODES):
         flown = fly_all(arrays, work.current[None], np.array([node * float(tables.spacing)]))[0]

@@ -10,9 +10,9 @@ from scipy.optimize import brentq
 from carom.base.outcome import Outcome
 from carom.core.block import move_to
 from carom.core.events import INSIDE, first_crossing
-from carom.core.fate import levitates
 from carom.core.flow import fly_all, nudge
 from carom.core.layout import rotor_record, workspace
+from carom.core.settling import levitates
 from carom.core.table import flight_table
 
 LENGTHS = [3, 4]
@@ -54,7 +54,7 @@ def test_flights_are_those_of_the_matrix(length):
             time = share * float(table.durations[0])
             move_to(arrays, table, time, work)
             exact = expm(matrix * time) @ amplitudes
-            np.testing.assert_allclose(work.arrival, exact, rtol=0, atol=1e-14 * np.abs(exact).max())
+            np.testing.assert_allclose(work.end, exact, rtol=0, atol=1e-14 * np.abs(exact).max())
         nudged, short = amplitudes.copy(), 1e-5
         nudge(arrays, nudged, short)
         np.testing.assert_allclose(nudged, expm(matrix * short) @ amplitudes, rtol=0, atol=1e-15)
@@ -87,7 +87,7 @@ def test_the_first_crossing_is_that_of_a_dense_search(length):
         exact = brentq(level, (out[0] - 1) * step, out[0] * step, xtol=1e-15)
         assert outcome == Outcome.CONTACT
         assert time == pytest.approx(exact, abs=1e-11)
-        np.testing.assert_allclose(work.arrival, expm(matrix * time) @ amplitudes, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(work.end, expm(matrix * time) @ amplitudes, rtol=0, atol=1e-12)
         crossed += 1
     assert crossed > 20
     assert clear > 2

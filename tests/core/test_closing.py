@@ -11,7 +11,7 @@ from machines import PAPER
 from carom.attractors import find_attractors
 from carom.base.outcome import Outcome
 from carom.core.closing import ATTRACTS, OPEN, REPELS, close, least_period
-from carom.core.fate import memory
+from carom.core.settling import memory
 from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.settling import _tools

@@ -9,10 +9,10 @@ from linear_rotors import tilting
 from carom.core.advance import advance
 from carom.core.contact_series import rub_series
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING
 from carom.core.rub import fly_or_rub_all, forces_all, next_phase, press
+from carom.core.settling import memory
 from carom.core.taylor import series_step, sum_series
 
 ROTOR = tilting(forcing=np.array([0.88 + 0.18j, 0.05]))

@@ -208,7 +208,7 @@ def test_arrival_is_the_state_at_the_returned_time():
                 )
                 expected = rotor.system.fly(task.amplitudes, np.array(time))
                 scale = np.abs(task.amplitudes).sum() + np.abs(rotor.equilibrium)
-                assert np.abs(work.arrival - expected).max() <= 1e-14 * scale * (1.0 + time)
+                assert np.abs(work.end - expected).max() <= 1e-14 * scale * (1.0 + time)
 
 
 def test_amplitudes_are_left_alone():
@@ -454,8 +454,8 @@ def by_steps(task, horizon):
     if outcome == Outcome.CONTACT:
         position, speed, _ = (complex(value) for value in task.flight.state(time))
         noise = 16 * EPSILON * task.flight.spread(time) * (1.0 + task.flight.fastest * time)
-        assert abs(displacement(task.arrays, task.plane, work.arrival) - position) <= noise
-        assert abs(velocity(task.arrays, task.plane, work.arrival) - speed) <= noise * (1.0 + task.flight.fastest)
+        assert abs(displacement(task.arrays, task.plane, work.end) - position) <= noise
+        assert abs(velocity(task.arrays, task.plane, work.end) - speed) <= noise * (1.0 + task.flight.fastest)
     return outcome, time
 
 
@@ -676,7 +676,7 @@ def decide(task, time, block, rounding):
         task.arrays, task.table, task.plane, origin, level, time, block, bounds, rounding, work
     )
     position = complex(task.flight.state(end)[0])
-    assert abs(displacement(task.arrays, task.plane, work.arrival) - position) <= task.noise(end)
+    assert abs(displacement(task.arrays, task.plane, work.end) - position) <= task.noise(end)
     return outcome, end
 
 

@@ -15,16 +15,16 @@ from carom.core.friction import (
     BACKWARD,
     FORWARD,
     STOPPED,
-    arrival,
-    arrival_by_law,
-    arrival_change,
-    arrival_in_sense,
+    friction_margin,
     landing,
     margin_of_slip,
+    rolling_margin,
     sense_of,
     slip_of,
-    spare_friction,
-    spare_grip,
+    velocity_change,
+    velocity_change_by_law,
+    velocity_change_by_speed,
+    velocity_change_in_sense,
 )
 from carom.core.layout import WIDTH
 from carom.core.vector import join, load, store
@@ -49,7 +49,7 @@ def exact_law(radial, angular, friction, restitution, surface_speed):
 @given(speeds, turns, walls)
 def test_arrival_is_the_law(radial, angular, wall):
     local = complex(radial, angular)
-    after = local + arrival(local, wall)
+    after = local + velocity_change(local, wall)
     size = radial + abs(angular) + abs(wall.surface_speed)
     with mpmath.workdps(40):
         expected = complex(exact_law(radial, angular, *wall[:3]))
@@ -58,15 +58,15 @@ def test_arrival_is_the_law(radial, angular, wall):
         assert abs(slip_of(after, wall)) <= 8 * EPSILON * size
     else:
         assert math.copysign(1.0, slip_of(after, wall)) == sense_of(local, wall)
-    assert arrival_in_sense(local, sense_of(local, wall), wall) == pytest.approx(
-        arrival(local, wall), abs=4 * EPSILON * size
+    assert velocity_change_in_sense(local, sense_of(local, wall), wall) == pytest.approx(
+        velocity_change(local, wall), abs=4 * EPSILON * size
     )
 
 
 @given(speeds, turns, walls)
 def test_friction_opposes_slip_and_never_reverses_it(radial, angular, wall):
     local = complex(radial, angular)
-    change, before = arrival(local, wall), slip_of(local, wall)
+    change, before = velocity_change(local, wall), slip_of(local, wall)
     after = slip_of(local + change, wall)
     rounding = 8 * EPSILON * (radial + abs(angular) + abs(wall.surface_speed))
     assert change.imag * before <= rounding * abs(before)
@@ -79,14 +79,14 @@ def test_friction_opposes_slip_and_never_reverses_it(radial, angular, wall):
 
 @kernel
 def _arrivals(radial, angular, wall, changes):
-    change = arrival(join(load(radial, 0), load(angular, 0)), wall)
+    change = velocity_change(join(load(radial, 0), load(angular, 0)), wall)
     store(changes[0], 0, change.real)
     store(changes[1], 0, change.imag)
 
 
 @kernel
 def _arrival(local, wall):
-    return arrival(local, wall)
+    return velocity_change(local, wall)
 
 
 @pytest.mark.parametrize("wall", [Wall(0.2, 0.9, 40.0), Wall(0.4, 0.0, -3.0), Wall(0.0, 1.0, 2.0)])
@@ -97,29 +97,29 @@ def test_it_is_one_law_for_python_one_motion_and_lanes(wall):
     locals_ = radial + 1j * angular
     one_by_one = np.array([_arrival(local, wall) for local in locals_])
     np.testing.assert_allclose(changes[0] + 1j * changes[1], one_by_one, rtol=4 * EPSILON)
-    np.testing.assert_allclose(arrival(locals_, wall), one_by_one, rtol=4 * EPSILON)
+    np.testing.assert_allclose(velocity_change(locals_, wall), one_by_one, rtol=4 * EPSILON)
 
 
 def test_no_slip_no_friction():
     wall = Wall(0.3, 0.8, 3.0)
     assert sense_of(0.5 - 3.0j, wall) == STOPPED
-    assert arrival(0.5 - 3.0j, wall) == complex(-0.9, 0.0)
+    assert velocity_change(0.5 - 3.0j, wall) == complex(-0.9, 0.0)
 
 
 def test_friction_that_just_stops_the_slip_stops_it():
     """At the corner of the law, where all numbers are exact: the sense and the derivative are those of stopped slip."""
     wall = Wall(0.5, 1.0, 2.0)
-    assert spare_friction(1.0 - 1.0j, wall) == 0.0
+    assert friction_margin(1.0 - 1.0j, wall) == 0.0
     assert sense_of(1.0 - 1.0j, wall) == STOPPED
-    assert arrival(1.0 - 1.0j, wall) == -2.0 - 1.0j
+    assert velocity_change(1.0 - 1.0j, wall) == -2.0 - 1.0j
     # Whatever the velocity along the wall, none is left after the impact; slipping on, it would stay as large.
-    assert arrival_change(1.0 - 1.0j, STOPPED, wall, 1j) == -1j
+    assert velocity_change_by_speed(1.0 - 1.0j, STOPPED, wall, 1j) == -1j
 
 
 def test_without_friction_the_tangential_speed_stays():
     wall = Wall(0.0, 0.6, 50.0)
     assert sense_of(0.5 - 2.0j, wall) == FORWARD
-    assert arrival(0.5 - 2.0j, wall) == pytest.approx(-0.8, abs=1e-15)
+    assert velocity_change(0.5 - 2.0j, wall) == pytest.approx(-0.8, abs=1e-15)
 
 
 @pytest.mark.parametrize(("rebound", "change"), [(-0.5, 0.5 + 0.1j), (-9.0, 9.0 + 1.5j), (0.0, 0.0)])
@@ -145,9 +145,9 @@ def test_derivatives_against_many_digits(regime, number):
     local, wall = complex(radial, angular), Wall(*numbers)
     sense = sense_of(local, wall)
     if number < 2:
-        found = arrival_change(local, sense, wall, (1.0, 1j)[number])
+        found = velocity_change_by_speed(local, sense, wall, (1.0, 1j)[number])
     else:
-        found = arrival_by_law(
+        found = velocity_change_by_law(
             local, sense, wall, Wall(*np.eye(3)[number - 2].tolist(), law=wall.law, law_number=wall.law_number)
         )
     with mpmath.workdps(60):
@@ -175,15 +175,17 @@ def test_margins_vanish_where_the_sense_changes(regime):
         size = 1.0 + abs(surface_speed)
         assert margin_of_slip(local, sense, wall) == pytest.approx(0.0, abs=8 * EPSILON * size)
         assert margin_of_slip(local, STOPPED, wall) == pytest.approx(0.0, abs=8 * EPSILON * size)
-        there = arrival_in_sense(local, sense, wall)
-        assert there == pytest.approx(arrival_in_sense(local, STOPPED, wall), abs=8 * EPSILON * size)
+        there = velocity_change_in_sense(local, sense, wall)
+        assert there == pytest.approx(velocity_change_in_sense(local, STOPPED, wall), abs=8 * EPSILON * size)
 
 
 def test_the_cone_is_left_where_friction_would_have_to_pull_more():
     wall = Wall(0.25, 0.9, 3.0)
-    assert spare_grip(4.0, 1.0, BACKWARD, wall) == 0.0  # friction along growing angle is at its limit: backward slip
-    assert spare_grip(4.0, -1.0, FORWARD, wall) == 0.0
-    assert spare_grip(4.0, 0.5, FORWARD, wall) == 1.5
+    assert (
+        rolling_margin(4.0, 1.0, BACKWARD, wall) == 0.0
+    )  # friction along growing angle is at its limit: backward slip
+    assert rolling_margin(4.0, -1.0, FORWARD, wall) == 0.0
+    assert rolling_margin(4.0, 0.5, FORWARD, wall) == 1.5
 
 
 @given(
@@ -198,7 +200,7 @@ def test_coefficients_follow_from_velocities_measured_in_the_room(radial, angula
     """The formulas of the page on measured impacts, in mm/s, for a rotor of radius ``ratio`` clearances at ``speed`` rad/s."""
     clearance = 0.4  # mm
     local, wall = complex(radial, angular), Wall(friction, restitution, ratio + 1.0)
-    before, after = (clearance * speed * (moving + 1j) for moving in (local, local + arrival(local, wall)))
+    before, after = (clearance * speed * (moving + 1j) for moving in (local, local + velocity_change(local, wall)))
     size = abs(before) + ratio * clearance * speed
     slip = ratio * clearance * speed + after.imag
     assert -after.real / before.real == pytest.approx(restitution, abs=16 * EPSILON * size / before.real)

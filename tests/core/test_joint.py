@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom.core.joint import join, strike_together
+from carom.core.joint import join, joint_impact
 from carom.core.layout import rotor_record, rub_workspace
 from carom.core.phases import AWAY
 
@@ -59,7 +59,7 @@ class Body:
         before = _interleaved(velocity[None], self.position[None])[0]
         after = np.empty_like(before)
         assert join(self.arrays, np.full(self.planes, AWAY), 0, before, work) == (self.planes > 1)
-        strike_together(self.arrays, before, after, work)
+        joint_impact(self.arrays, before, after, work)
         assert np.array_equal(after[1::2], before[1::2])
         return after[::2], self.felt * work.impulses
 

@@ -9,12 +9,11 @@ from flights import parameters
 from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.flow import displacement, fly_all, velocity
-from carom.core.friction import STOPPED, sense_of, slip_of, spare_friction
-from carom.core.friction import arrival as arrival_at
+from carom.core.friction import STOPPED, friction_margin, sense_of, slip_of, velocity_change
 from carom.core.laws.choice import LAWS
 from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
-from carom.core.variation import carry_through_impact, carry_to_wall, shift
+from carom.core.variation import carry_through_impact, saltation_step, shift
 from carom.core.wall import wall_of
 from carom.models import jeffcott
 
@@ -55,7 +54,7 @@ def arrival(arrays, table, plane, amplitudes, start, horizon=20.0):
     work = workspace(len(amplitudes))
     outcome, time = events.first_crossing(arrays, table, plane, amplitudes, horizon, start, work)
     assert outcome == Outcome.CONTACT
-    return time, work.arrival.copy()
+    return time, work.end.copy()
 
 
 def directions_of(modes):
@@ -70,7 +69,7 @@ def check_carry_to_wall(arrays, table, plane, amplitudes):
     if outward < 0.5:
         return False
     carried, delays = directions_of(modes), np.empty(2 * modes)
-    carry_to_wall(arrays, plane, duration, end, carried, delays)
+    saltation_step(arrays, plane, duration, end, carried, delays)
     for direction, found, delay in zip(directions_of(modes), carried, delays, strict=True):
 
         def moved(change):
@@ -120,7 +119,7 @@ def test_impact_of_a_general_rotor(plane):
         position, speed = displacement(arrays, plane, amplitudes), velocity(arrays, plane, amplitudes)
         normal, wall = position / abs(position), wall_of(arrays, plane)
         local = normal.conjugate() * speed
-        return amplitudes + arrays.columns[:, plane] * (normal * arrival_at(local, wall)), sense_of(
+        return amplitudes + arrays.columns[:, plane] * (normal * velocity_change(local, wall)), sense_of(
             local, wall
         ) == STOPPED
 
@@ -129,7 +128,7 @@ def test_impact_of_a_general_rotor(plane):
         before = random.normal(size=4) + 1j * random.normal(size=4)
         position, speed = displacement(arrays, plane, before), velocity(arrays, plane, before)
         local, wall = position.conjugate() * speed / abs(position), wall_of(arrays, plane)
-        slip, margin = slip_of(local, wall), abs(spare_friction(local, wall))
+        slip, margin = slip_of(local, wall), abs(friction_margin(local, wall))
         # Differences must not step over the edge between slipping and not, nor over the middle of the plane.
         if local.real < 0.1 or margin < 0.2 or abs(slip) < 0.2 or abs(position) < 0.5:
             continue
@@ -169,14 +168,14 @@ def test_a_whole_impact_map(machine, angular_speed):
         start = before + change
         place = displacement(arrays, 0, start)
         normal = place / abs(place)
-        impulse = normal * arrival_at(normal.conjugate() * velocity(arrays, 0, start), wall_of(arrays, 0))
+        impulse = normal * velocity_change(normal.conjugate() * velocity(arrays, 0, start), wall_of(arrays, 0))
         time, state = arrival(arrays, rotor.system.table, 0, start + arrays.columns[:, 0] * impulse, events.LEAVING)
         return np.append(state, time)
 
     directions = np.array([rotor.system.amplitude_change(0.0, 1.0), rotor.system.amplitude_change(0.0, 1j)])
     carried, delays, nominal = directions.copy(), np.empty(2), mapped(np.zeros(2))
     carry_through_impact(arrays, 0, before, carried)
-    carry_to_wall(arrays, 0, nominal[-1].real, nominal[:-1], carried, delays)
+    saltation_step(arrays, 0, nominal[-1].real, nominal[:-1], carried, delays)
     for direction, found, delay in zip(directions, carried, delays, strict=True):
         expected = difference(mapped, direction)
         scale = 1.0 + np.abs(carried).max()

@@ -13,7 +13,7 @@ import pytest
 
 import carom as cm
 from carom.base.outcome import Outcome, Phase
-from carom.core.fate import memory
+from carom.core.settling import memory
 from carom.motions.resting import lies
 
 pytestmark = pytest.mark.jit_only

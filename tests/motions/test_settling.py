@@ -16,8 +16,8 @@ from carom.base.outcome import Outcome, Phase
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import runaway_speed
 from carom.core.closing import PASSES
-from carom.core.fate import memory
 from carom.core.planar_proofs import absorbed
+from carom.core.settling import memory
 from carom.models import from_matrices
 from carom.motions.ensembles import settle
 from carom.motions.recurrence import least_recurrence

@@ -128,7 +128,7 @@ def test_the_model_levitates_round_the_same_ellipse():
     whole = machine.whole
     found, system = synchronous_response(machine, [machine.speed]).touchdowns, whole.model.system
     assert system.arrays["offsets"] * machine.clearance == pytest.approx(found.forward[0], rel=1e-7)
-    behind = system.arrays["rows"][:, system.arrays["mirror"][0]] * machine.clearance
+    behind = system.arrays["rows"][:, system.arrays["anisotropy"][0]] * machine.clearance
     assert behind == pytest.approx(found.backward[0], rel=1e-7)
     # Their exponents are the whirls, and the conjugates of these.
     slowest = sorted(find_whirls(machine), key=lambda each: each.frequency)[:6]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from carom.base.outcome import InputError
-from carom.core.friction import slip_of, spare_friction
+from carom.core.friction import friction_margin, slip_of
 from carom.core.margins import highest_point
 from carom.orbits.admissibility import departure
 from carom.orbits.orbit import Orbit
@@ -53,7 +53,7 @@ def _with_other_slip(orbit: Orbit) -> tuple[Word, Start]:
     wall, gaps = orbit.rotor.system.contacts[0].wall, []
     for i, section in enumerate(orbit.sections):
         local = complex(section.radial_speed, section.angular_speed)
-        gaps.append((abs(spare_friction(local, wall)), i, slip_of(local, wall)))
+        gaps.append((abs(friction_margin(local, wall)), i, slip_of(local, wall)))
     _, i, slip = min(gaps)
     slides = Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
     changed = Kind.IMPACT_STOPPED if orbit.word[i].sense else slides

@@ -19,7 +19,7 @@ from carom.continuation import Watch
 from carom.continuation.equations import applied
 from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
-from carom.core.variation import strike
+from carom.core.variation import apply_impact
 from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.admissibility import departure
@@ -81,7 +81,7 @@ class FamilyPoint:
         """What changes its sign where the radius between impacts of a planar rotor gains a maximum and a minimum."""
         system, (nodes, durations) = self.rotor.system, self.links.start
         (after,) = system.nodes.amplitudes(nodes)
-        strike(system.arrays, 0, self.word[0].sense, after, np.empty((0, 2), complex))
+        apply_impact(system.arrays, 0, self.word[0].sense, after, np.empty((0, 2), complex))
         (slow, fast), (driving, driven) = system.exponents.tolist(), after.tolist()
         at = system.arrays["offsets"][0], driven, driving, system.arrays["restitution"][0]
         return float(flight_profile(slow, fast, *at, durations[0], self.margins.approach)[2])

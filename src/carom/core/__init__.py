@@ -1,7 +1,7 @@
 """Numba kernels: floats and arrays in, floats and outcome codes out.
 
 Nothing here knows units, files or results.  A kernel sees a rotor as the arrays of
-:func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
+:func:`~carom.core.layout.rotor_record` and works for any number of modes and contact stations.
 
 =====================  ===========================================================
 ``records``            arrays and scalars that kernels take by one address
@@ -10,27 +10,27 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``table``              constants of a block of flight, for the search of crossings
 ``block``              one block of flight: possible roots, state at a time
 ``events``             certified first crossing of the wall
-``wall``               numbers of a wall, and planes at it
-``wall_work``          what walls that give way take of the energy
+``wall``               numbers of a wall, and stations at it
+``wall_work``          what compliant walls take of the energy
 ``laws``               laws of a wall along its normal
-``friction``           arrivals and lasting contact with Coulomb friction
-``phases``             states of contact of a plane
-``joint``              impacts of several planes in one instant
+``friction``           impacts and lasting contact with Coulomb friction
+``phases``             states of contact of a station
+``joint``              impacts of several stations in one instant
 ``contact_series``     lasting contact as Taylor series
-``compliance``         contact with a wall that gives way, as Taylor series
+``compliance``         contact with a compliant wall, as Taylor series
 ``shaft``              the speed of the shaft as a state, in contact and from flight to flight
 ``limits``             limits of magnetic bearings: what is asked for beyond them
-``mirror``             bearings that act differently in two directions
-``surfaces``           speeds of the two surfaces that touch, where they change
+``anisotropy``         anisotropic bearings
+``surfaces``           speeds of the two surfaces in contact, where they change
 ``rounding``           rounding errors of sums over the modes
 ``taylor``             length of a step, sums and zeros of Taylor series
 ``rub``                when lasting contact changes, and what follows
 ``rub_step``           one step of lasting contact
 ``event_log``          the log of a motion's events
 ``in_turn``            many motions one after another, each for the same time
-``arrivals``           what happens where a plane arrives at its wall
+``contact_events``     what happens where a station arrives at its wall
 ``advance``            the event loop of one motion
-``fate``               criteria for the end to which a motion settles
+``settling``           criteria for the end to which a motion settles
 ``planar_proofs``      ends that are proven before they are reached
 ``ensemble``           many motions in one call, each to its end
 ``lanes``              many motions side by side in vector registers

@@ -1,21 +1,21 @@
-"""The event loop of one motion: fly, meet the wall, strike; land, slide, roll, lift off; end where it settles."""
+"""The event loop of one motion: fly, reach the wall, rebound; land, slide, roll, lift off; end where it settles."""
 
 from __future__ import annotations
 
 import math
 
 from carom.base.outcome import Outcome
-from carom.core.arrivals import LANDING, rests, touch
 from carom.core.compiling.decorators import expanded, inlined, kernel, separate
+from carom.core.contact_events import LANDING, begin_contact, rests
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import levitates, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.limits import FREE, WITHIN, at_limits, keeps_time, pass_time
 from carom.core.phases import AWAY, FLIGHT, stays
 from carom.core.planar_proofs import stays_inside
 from carom.core.rounding import RESTING, push_rounding, speed_rounding
 from carom.core.rub import lift_off, press, wall_push
-from carom.core.rub_step import NOWHERE, leading_plane, rub_step
+from carom.core.rub_step import NOWHERE, leading_station, rub_step
+from carom.core.settling import levitates, triggers, until_triggered
 from carom.core.shaft import enter_flight, leave_flight
 from carom.core.wall import unit
 
@@ -27,9 +27,9 @@ CHATTER_HEIGHT = 1e-13
 STALLED = 64
 """Events in a row without progress in time after which double precision cannot decide what follows."""
 STALLED_TOGETHER, AT_A_STAND = 4096, 1e-9
-"""Events of several planes within less than that time after which they count as jammed: no bounces of a chatter are so quick."""
+"""Events of several stations within less than that time after which they count as jammed: no bounces of a chatter are so quick."""
 BLOCKS = 4.0
-"""Longest blocks of flight that one of several planes is searched for contact before the others are."""
+"""Longest blocks of flight that one of several stations is searched for contact before the others are."""
 SHORTEST = 1e-15
 """Duration that counts as no progress."""
 FIRST_LOOK = 4.0
@@ -45,7 +45,7 @@ LEAST_LOSS = 1e-3
 def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     """Follow a motion until a given time, until the log is full, or until it settles.
 
-    Impacts at several planes in one instant are resolved together (:mod:`carom.core.joint`) and are one event, of one of these planes.
+    Impacts at several stations in one instant are resolved together (:mod:`carom.core.joint`) and are one event, of one of these stations.
 
     Parameters
     ----------
@@ -57,12 +57,12 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     until : float
         Duration to follow.
     contacts : int array, shape (P,)
-        State of contact of each plane at the start; on return that at the returned time.  It is a
-        :class:`~carom.base.outcome.Phase` on the wall (``FLIGHT``: about to leave or to strike), otherwise ``AWAY``.
+        State of contact of each station at the start; on return that at the returned time.  It is a
+        :class:`~carom.base.outcome.Phase` on the wall (``FLIGHT``: about to leave or to rebound), otherwise ``AWAY``.
     log : EventLog
         Its entries are overwritten.  An impact is followed by ``FLIGHT`` and changes the amplitudes; a long contact is logged
         in steps that change nothing.  A motion that settles at an impact ends just before it.
-    memory : record of :func:`~carom.core.fate.memory`
+    memory : record of :func:`~carom.core.settling.memory`
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
 
     Returns
@@ -70,7 +70,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     outcome : int
         ``TIME_REACHED``, ``EVENT_LIMIT`` (log full, or the time of a slice is over), ``GRAZING``, ``CHATTER``, ``TRIGGERED``,
         ``BEYOND_MODEL`` at the end of the first step of contact that leads further into a wall than the model holds, or at an event at which a
-        magnet is struck,
+        magnet is reached,
         or what the motion settles to.
     time : float
     events : int
@@ -90,20 +90,20 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     while outcome == CONTACT and events < log.times.shape[0] and time < memory.slice:
         slides, rubs, horizon, left = _slides(rotor, contact, state, rub), False, until - time, math.inf
         if memory.watches > 0:
-            rubs = leading_plane(rotor, contact) != NOWHERE
+            rubs = leading_station(rotor, contact) != NOWHERE
             left = until_triggered(memory, rubs)
             horizon = min(horizon, left)
         if slides:
-            outcome, duration, plane = _slide(rotor, contact, horizon, memory, work, rub)
+            outcome, duration, station = _slide(rotor, contact, horizon, memory, work, rub)
         else:
             horizon = min(horizon, memory.slice - time)
-            outcome, duration, plane = _fly(rotor, table, horizon, contact, memory, work, rub)
+            outcome, duration, station = _fly(rotor, table, horizon, contact, memory, work, rub)
         if outcome == TIME_REACHED and horizon >= left:
             outcome = TRIGGERED
         memory.lap += duration
         outcome, time = _cut(outcome, time, duration, until, slides, memory)
         if outcome == CONTACT:
-            _note(rotor, contact, events, time, plane, log, work, rub)
+            _note(rotor, contact, events, time, station, log, work, rub)
             events += 1
             stands = duration <= SHORTEST
             if rotor.rows.shape[0] > 1:
@@ -113,8 +113,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
             memory.stood = memory.stood if stands else 0.0
             if memory.stalled >= most_stalled:
                 outcome = GRAZING
-            touches = (not slides or duration == 0.0) and plane != NOWHERE
-            if memory.watches > 0 and triggers(memory, rubs, touches, duration):
+            makes_contact = (not slides or duration == 0.0) and station != NOWHERE
+            if memory.watches > 0 and triggers(memory, rubs, makes_contact, duration):
                 outcome = TRIGGERED
             if (slides and _beyond(rotor, state)) or _at_magnet(rotor, state):
                 outcome = BEYOND_MODEL
@@ -135,13 +135,13 @@ def _cut(outcome, time, duration, until, slides, memory):
 
 
 @inlined
-def _note(rotor, contact, event, time, plane, log, work, rub):
+def _note(rotor, contact, event, time, station, log, work, rub):
     """Write an event into the log."""
-    log.times[event], log.planes[event] = time, plane
+    log.times[event], log.stations[event] = time, station
     for p in range(rotor.rows.shape[0]):
         log.phases[event, p] = FLIGHT if contact[p] == AWAY else contact[p]
     for k in range(work.current.shape[0]):
-        log.before[event, k] = work.arrival[k]
+        log.before[event, k] = work.end[k]
         log.after[event, k] = work.current[k]
     for axis in range(rub.limited.shape[0]):
         log.limited[event, axis] = rub.limited[axis]
@@ -149,17 +149,17 @@ def _note(rotor, contact, event, time, plane, log, work, rub):
 
 @inlined
 def _beyond(rotor, amplitudes):
-    """Whether a plane is further from the centre than the model holds."""
+    """Whether a station is further from the centre than the model holds."""
     found = False
-    for plane in range(rotor.rows.shape[0]):
-        radius = math.sqrt(squared_modulus(displacement(rotor, plane, amplitudes)))
-        found = found or radius > rotor.farthest[plane]
+    for station in range(rotor.rows.shape[0]):
+        radius = math.sqrt(squared_modulus(displacement(rotor, station, amplitudes)))
+        found = found or radius > rotor.farthest[station]
     return found
 
 
 @inlined
 def _at_magnet(rotor, amplitudes):
-    """Whether a magnet is struck."""
+    """Whether a magnet is reached."""
     found = False
     for magnet in range(rotor.gap_offsets.shape[0]):
         place = rotor.gap_offsets[magnet]
@@ -171,13 +171,13 @@ def _at_magnet(rotor, amplitudes):
 
 @inlined
 def _slides(rotor, contact, amplitudes, rub):
-    """Whether the motion is followed by Taylor series: in lasting contact, next to a wall beside other planes, or near a limit of a bearing."""
+    """Whether the motion is followed by Taylor series: in lasting contact, next to a wall beside other stations, or near a limit of a bearing."""
     if rotor.rows.shape[0] == 1 and rotor.limit_bounds.shape[0] == 0:
         return stays(contact[0])
     if rotor.limit_bounds.shape[0] > 0 and at_limits(rub):
         return True
-    for plane in range(rotor.rows.shape[0]):
-        if stays(contact[plane]) or (contact[plane] == FLIGHT and rests(rotor, plane, amplitudes)):
+    for station in range(rotor.rows.shape[0]):
+        if stays(contact[station]) or (contact[station] == FLIGHT and rests(rotor, station, amplitudes)):
             return True
     return False
 
@@ -186,7 +186,7 @@ def _slides(rotor, contact, amplitudes, rub):
 def _fly(rotor, table, horizon, contact, memory, work, rub):
     """One flight from ``work.current`` and the impact or landing at its end; ``work.current`` is then the new state.
 
-    Returns the outcome (CONTACT: the motion continues), the duration and the plane touched.  ``work.arrival`` is the
+    Returns the outcome (CONTACT: the motion continues), the duration and the station in contact.  ``work.end`` is the
     state just before the impact.
     """
     state = work.current
@@ -195,45 +195,45 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
     settle = memory.patience > 0
     span = min(FIRST_LOOK * table.durations[0], memory.recheck)
     while True:
-        reaction, resting, plane = _reaction(rotor, contact, memory, work, rub)
+        reaction, resting, station = _reaction(rotor, contact, memory, work, rub)
         if reaction != CLEAR:
-            copy(state, work.arrival)
+            copy(state, work.end)
             break
         if settle and _levitates(rotor, table, state, work):
-            return LEVITATED, elapsed, plane
+            return LEVITATED, elapsed, station
         if settle and unproven >= memory.recheck:
             unproven = 0.0
-            if stays_inside(rotor, state) and _keeps_limits(rotor, state, work):
-                return LEVITATED, elapsed, plane
+            if stays_inside(rotor, state) and _stays_within_limits(rotor, state, work):
+                return LEVITATED, elapsed, station
         leap = min(horizon - elapsed, span) if settle else horizon - elapsed
-        reaction, duration, plane = _leap(rotor, table, leap, contact, resting, work, rub)
+        reaction, duration, station = _leap(rotor, table, leap, contact, resting, work, rub)
         elapsed, unproven = elapsed + duration, unproven + duration
         span = min(2.0 * span, memory.recheck)
         if keeps_time(rotor):
             pass_time(duration, False, memory, rub)
         if reaction != CLEAR:
             break
-        copy(work.arrival, state)
+        copy(work.end, state)
         if rotor.limit_bounds.shape[0] > 0 and at_limits(rub):
             return CONTACT, elapsed, NOWHERE
         if elapsed >= horizon:
-            return TIME_REACHED, horizon, plane
-    return touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
+            return TIME_REACHED, horizon, station
+    return begin_contact(rotor, contact, station, reaction, elapsed, memory, work, rub), elapsed, station
 
 
 @inlined
 def _levitates(rotor, table, amplitudes, work):
-    """:func:`~carom.core.fate.levitates`, at the speed that the shaft has."""
+    """:func:`~carom.core.settling.levitates`, at the speed that the shaft has."""
     if rotor.shaft.shape[0] > 0:
         enter_flight(rotor, table, amplitudes)
-    found = levitates(rotor, amplitudes, work) and _keeps_limits(rotor, amplitudes, work)
+    found = levitates(rotor, amplitudes, work) and _stays_within_limits(rotor, amplitudes, work)
     if rotor.shaft.shape[0] > 0:
         leave_flight(rotor, amplitudes)
     return found
 
 
 @inlined
-def _keeps_limits(rotor, amplitudes, work):
+def _stays_within_limits(rotor, amplitudes, work):
     """Whether a flight provably never reaches a limit of a bearing."""
     if rotor.limit_bounds.shape[0] > 0:
         return levitates(rotor.reach, amplitudes, work)
@@ -242,13 +242,13 @@ def _keeps_limits(rotor, amplitudes, work):
 
 @expanded
 def _reaction(rotor, contact, memory, work, rub):
-    """What the first plane on its wall that does not just fly away does: its reaction, whether it rests, the plane."""
+    """What the first station on its wall that does not just fly away does: its reaction, whether it rests, the station."""
     reaction, resting, place = CLEAR, False, NOWHERE
-    for plane in range(rotor.rows.shape[0]):
-        if reaction == CLEAR and contact[plane] == FLIGHT:
-            lifting = memory.lifting == plane + 1
-            reaction, resting = _wall_reaction(rotor, contact, plane, work.current, lifting, rub)
-            place = plane
+    for station in range(rotor.rows.shape[0]):
+        if reaction == CLEAR and contact[station] == FLIGHT:
+            lifting = memory.lifting == station + 1
+            reaction, resting = _wall_reaction(rotor, contact, station, work.current, lifting, rub)
+            place = station
     memory.lifting = 0
     return reaction, resting, place
 
@@ -257,12 +257,12 @@ def _reaction(rotor, contact, memory, work, rub):
 def _leap(rotor, table, horizon, contact, resting, work, rub):
     """Fly from ``work.current`` to the next contact or the horizon, or just off the wall from a start at rest on it.
 
-    Returns the reaction of the wall (CLEAR: the flight continues), the duration and the plane touched; ``work.arrival``
+    Returns the reaction of the wall (CLEAR: the flight continues), the duration and the station in contact; ``work.end``
     holds the state there.
     """
     if resting:
-        copy(work.current, work.arrival)
-        duration, returned = lift_off(rotor, contact, work.arrival, horizon, rub)
+        copy(work.current, work.end)
+        duration, returned = lift_off(rotor, contact, work.end, horizon, rub)
         if duration == 0.0:
             return LANDING, duration, 0
         contact[0] = FLIGHT if returned else AWAY
@@ -274,30 +274,30 @@ def _leap(rotor, table, horizon, contact, resting, work, rub):
 
 @kernel
 def _next_contact_or_limit(rotor, table, horizon, contact, work, rub):
-    """:func:`_next_contact`, unless a bearing comes to its limit first: then without a plane, and with its axes no longer free."""
+    """:func:`_next_contact`, unless a bearing comes to its limit first: then without a station, and with its axes no longer free."""
     copy(work.current, rub.series[0])
-    outcome, time, plane = _next_contact(rotor, table, horizon, contact, work)
-    copy(work.arrival, rub.series[1])
+    outcome, time, station = _next_contact(rotor, table, horizon, contact, work)
+    copy(work.end, rub.series[1])
     for each in range(rotor.limit_bounds.shape[0]):
         copy(rub.series[0], work.current)
         found, met = search(rotor.reach, table, each, time, INSIDE, work)
         if found != CLEAR and met < time:
-            outcome, time, plane = CLEAR, met, NOWHERE
-            copy(work.arrival, rub.series[1])
+            outcome, time, station = CLEAR, met, NOWHERE
+            copy(work.end, rub.series[1])
             for other in range(each):
                 rub.limited[2 * other], rub.limited[2 * other + 1] = FREE, FREE
             rub.limited[2 * each], rub.limited[2 * each + 1] = WITHIN, WITHIN
-    copy(rub.series[1], work.arrival)
-    return outcome, time, plane
+    copy(rub.series[1], work.end)
+    return outcome, time, station
 
 
 @expanded
 def _next_contact(rotor, table, horizon, contact, work):
-    """Earliest contact over all planes of the flight from ``work.current``; ``work.arrival`` holds the state there."""
+    """Earliest contact over all stations of the flight from ``work.current``; ``work.end`` holds the state there."""
     if rotor.shaft.shape[0] > 0:
         enter_flight(rotor, table, work.current)
         found = _next_contact_of_several(rotor, table, horizon, contact, work)
-        leave_flight(rotor, work.arrival)
+        leave_flight(rotor, work.end)
         return found
     if rotor.rows.shape[0] == 1:
         outcome, time = search(rotor, table, 0, horizon, LEAVING if contact[0] == FLIGHT else INSIDE, work)
@@ -308,21 +308,21 @@ def _next_contact(rotor, table, horizon, contact, work):
 
 @kernel
 def _next_contact_of_several(rotor, table, horizon, contact, work):
-    """:func:`_next_contact` of several planes, over a few blocks at a time: each is searched no further than the others."""
+    """:func:`_next_contact` of several stations, over a few blocks at a time: each is searched no further than the others."""
     elapsed, outcome, target = 0.0, CLEAR, NOWHERE
     while True:
         time = min(horizon - elapsed, BLOCKS * table.durations[0])
         copy(work.current, work.departure)
-        for plane in range(rotor.rows.shape[0]):
+        for station in range(rotor.rows.shape[0]):
             copy(work.departure, work.current)
-            found, met = search(rotor, table, plane, time, LEAVING if contact[plane] == FLIGHT else INSIDE, work)
-            contact[plane] = AWAY
-            if found != CLEAR or plane == 0:
-                copy(work.arrival, work.nearest)
+            found, met = search(rotor, table, station, time, LEAVING if contact[station] == FLIGHT else INSIDE, work)
+            contact[station] = AWAY
+            if found != CLEAR or station == 0:
+                copy(work.end, work.nearest)
             if found != CLEAR:
-                outcome, time, target = found, met, plane
+                outcome, time, target = found, met, station
         elapsed += time
-        copy(work.nearest, work.arrival)
+        copy(work.nearest, work.end)
         if outcome != CLEAR or elapsed >= horizon:
             return outcome, min(elapsed, horizon), target
         copy(work.nearest, work.current)
@@ -330,17 +330,17 @@ def _next_contact_of_several(rotor, table, horizon, contact, work):
 
 @expanded
 def _slide(rotor, contact, horizon, memory, work, rub):
-    """One step of lasting contact from ``work.current``, in place; returns outcome, duration and plane as :func:`_fly`."""
-    reaction, plane = CLEAR, NOWHERE
+    """One step of lasting contact from ``work.current``, in place; returns outcome, duration and station as :func:`_fly`."""
+    reaction, station = CLEAR, NOWHERE
     if rotor.rows.shape[0] > 1 or rotor.limit_bounds.shape[0] > 0:
-        reaction, _, plane = _reaction(rotor, contact, memory, work, rub)
+        reaction, _, station = _reaction(rotor, contact, memory, work, rub)
     if reaction != CLEAR:
-        copy(work.current, work.arrival)
-        outcome, duration = touch(rotor, contact, plane, reaction, 0.0, memory, work, rub), 0.0
+        copy(work.current, work.end)
+        outcome, duration = begin_contact(rotor, contact, station, reaction, 0.0, memory, work, rub), 0.0
     else:
-        outcome, duration, plane = rub_step(rotor, contact, work.current, horizon, memory, rub)
-        copy(work.current, work.arrival)
-    return outcome, duration, plane
+        outcome, duration, station = rub_step(rotor, contact, work.current, horizon, memory, rub)
+        copy(work.current, work.end)
+    return outcome, duration, station
 
 
 @inlined
@@ -352,21 +352,21 @@ def flies(position, speed, force, off, height):
 
 
 @expanded
-def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
+def _wall_reaction(rotor, contact, station, amplitudes, lifting, rub):
     """What a state on the wall does next, and whether it is at rest there.
 
-    It strikes (CONTACT) if its speed is outward.  It lands (LANDING) if it is pressed outward and leaves so slowly that
+    It has an impact (CONTACT) if its speed is outward.  It lands (LANDING) if it is pressed outward and leaves so slowly that
     the whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and ends
     before the normal force ``N`` can vanish.  Otherwise it flies (CLEAR); so does a state at rest whose contact has
     just lost its normal force (``lifting``).
     """
-    rest = RESTING * speed_rounding(rotor, plane, amplitudes)
-    position, speed = displacement(rotor, plane, amplitudes), velocity(rotor, plane, amplitudes)
+    rest = RESTING * speed_rounding(rotor, station, amplitudes)
+    position, speed = displacement(rotor, station, amplitudes), velocity(rotor, station, amplitudes)
     # Nearly all states just fly: for them this saves a root, a division and the rest.
     alone = rotor.rows.shape[0] == 1
     if rotor.limit_bounds.shape[0] > 0:
         alone = alone and not at_limits(rub)
-    if alone and flies(position, speed, acceleration(rotor, plane, amplitudes), 2.0 * rest, CHATTER_HEIGHT):
+    if alone and flies(position, speed, acceleration(rotor, station, amplitudes), 2.0 * rest, CHATTER_HEIGHT):
         return CLEAR, False
     normal = unit(position)
     local = normal.conjugate() * speed
@@ -375,21 +375,21 @@ def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
         return CONTACT, False
     beside = False
     if rotor.rows.shape[0] > 1:
-        beside = leading_plane(rotor, contact) != NOWHERE
+        beside = leading_station(rotor, contact) != NOWHERE
     if rotor.limit_bounds.shape[0] > 0:
         beside = beside or at_limits(rub)
     push, rate = 0.0, 0.0
     if (rotor.rows.shape[0] > 1 or rotor.limit_bounds.shape[0] > 0) and beside:
-        push, rate = press(rotor, contact, plane, amplitudes, rub)
+        push, rate = press(rotor, contact, station, amplitudes, rub)
     else:
-        push = (normal.conjugate() * acceleration(rotor, plane, amplitudes)).real + local.imag * local.imag
+        push = (normal.conjugate() * acceleration(rotor, station, amplitudes)).real + local.imag * local.imag
     if departure > rest and (push <= 0.0 or departure * departure > 2.0 * push * CHATTER_HEIGHT):
         return CLEAR, False
     if not beside:
-        push, rate = wall_push(rotor, plane, amplitudes)
+        push, rate = wall_push(rotor, station, amplitudes)
     if departure <= rest:
-        pressed = push > 0.0 if abs(push) > push_rounding(rotor, plane, amplitudes) else rate > 0.0
+        pressed = push > 0.0 if abs(push) > push_rounding(rotor, station, amplitudes) else rate > 0.0
         return (LANDING if pressed and not lifting else CLEAR), True
-    loss = max(1.0 - rotor.restitution[plane], LEAST_LOSS)
+    loss = max(1.0 - rotor.restitution[station], LEAST_LOSS)
     brief = 2.0 * departure * abs(rate) < 0.5 * push * push * loss
     return (LANDING if brief else CLEAR), False

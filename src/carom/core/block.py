@@ -11,10 +11,10 @@ from carom.core.layout import DEGREE, NODES, TERMS
 
 
 @inlined
-def load_products(rotor, plane, origin, work):
+def load_products(rotor, station, origin, work):
     """Write the real products of amplitudes in which ``f`` is linear."""
     modes = work.current.shape[0]
-    basis_amplitudes(rotor, plane, work.current, work.amplitudes)
+    basis_amplitudes(rotor, station, work.current, work.amplitudes)
     row = 0
     for k in range(modes):
         linear = origin.conjugate() * work.amplitudes[k]
@@ -33,26 +33,26 @@ def load_products(rotor, plane, origin, work):
 
 
 @inlined
-def basis_amplitudes(rotor, plane, amplitudes, out):
-    """Write the factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
+def basis_amplitudes(rotor, station, amplitudes, out):
+    """Write the factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a station."""
     modes = amplitudes.shape[0]
     for k in range(modes):
-        out[k] = rotor.rows[plane, k] * amplitudes[k]
+        out[k] = rotor.rows[station, k] * amplitudes[k]
         if rotor.driven[k]:
-            out[k] += rotor.rows[plane, k - 1] * amplitudes[k - 1]
-            out[k - 1] = (rotor.rows[plane, k] - rotor.gaps[k] * rotor.rows[plane, k - 1]) * amplitudes[k - 1]
+            out[k] += rotor.rows[station, k - 1] * amplitudes[k - 1]
+            out[k - 1] = (rotor.rows[station, k] - rotor.gaps[k] * rotor.rows[station, k - 1]) * amplitudes[k - 1]
             if k > 1 and rotor.driven[k - 1]:
-                _chain_amplitudes(rotor, plane, amplitudes, k, out)
+                _chain_amplitudes(rotor, station, amplitudes, k, out)
 
 
 @inlined
-def _chain_amplitudes(rotor, plane, amplitudes, last, out):
+def _chain_amplitudes(rotor, station, amplitudes, last, out):
     """:func:`basis_amplitudes` of a chain of equal exponents up to a mode: ``tʲ/j! e^{λt}`` appears in the ``j`` last ones."""
     first = chain_start(rotor, last)
     for j in range(last - first + 1):
         total = 0j
         for k in range(first + j, last + 1):
-            total += rotor.rows[plane, k] * amplitudes[k - j]
+            total += rotor.rows[station, k] * amplitudes[k - j]
         out[first + j - 1 if j > 0 else last] = total
 
 
@@ -148,7 +148,7 @@ def two_derivatives(origin, level, change, speed, force):
 
 @inlined
 def move_to(rotor, table, time, work):
-    """Write ``work.arrival`` and ``work.increments``, ``c(time) − c(0)``, by a power series from the nearest node."""
+    """Write ``work.end`` and ``work.increments``, ``c(time) − c(0)``, by a power series from the nearest node."""
     node = nearest_node(table, time)
     rest = time - node * table.spacing
     modes = work.current.shape[0]
@@ -168,7 +168,7 @@ def move_to(rotor, table, time, work):
             increment += _power_series(table.basis_series, k - 1, rest) * work.at_node[k - 1]
         increment += work.increments[k]
         work.increments[k] = increment
-        work.arrival[k] = work.current[k] + increment
+        work.end[k] = work.current[k] + increment
 
 
 @inlined

@@ -1,6 +1,6 @@
 """Close a periodic motion: find the orbit that a motion approaches, and the number of impacts in its least period.
 
-A motion that still spirals slowly towards its orbit may recur to within :data:`~carom.core.layout.NEAR` first after a
+A motion that still spirals slowly towards its orbit may recur to within :data:`~carom.core.layout.RECURRENCE_RTOL` first after a
 multiple of the period, when its turns about the orbit happen to close.  The motion has recurred after some number of
 impacts.  For every divisor of this number, :func:`least_period` therefore tests whether that many impacts have an
 attracting fixed point close by.  A rub may bring irregular bouncing back to the same numbers to the last bit.  Then the
@@ -23,10 +23,10 @@ import numpy as np
 from carom.base.outcome import Outcome
 from carom.core.advance import advance
 from carom.core.compiling.decorators import inlined, kernel, separate
-from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
-from carom.core.layout import NEAR
+from carom.core.layout import RECURRENCE_RTOL
 from carom.core.phases import FLIGHT, lasts
+from carom.core.settling import same_state
 from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.core.wall import unit
 
@@ -39,11 +39,11 @@ REPELLING = 1e-4
 """Relative growth of a difference per period above which an orbit counts as repelling."""
 LOWEST = 1e-6
 """Height, in clearances, below which elastic bounces are assumed to become ever lower: they approach no orbit."""
-AROUND = 1e-3
+CANDIDATE_RTOL = 1e-3
 """Distance, relative to one plus the size of the state, within which the orbit of a recurred motion is searched for."""
-CLOSED = 1e-11
+CLOSED_RTOL = 1e-11
 """The same distance, within which an orbit counts as closed."""
-ALIKE = 1e-8
+EQUAL_IMPACT_RTOL = 1e-8
 """The same distance, within which two impacts of a closed orbit count as equal."""
 STEPS = 12
 """Largest number of steps of either method; each step about squares the distance."""
@@ -51,7 +51,7 @@ SHORT, WATCHED = 64, 256
 """Impacts of the longest orbit tested for a motion that has not recurred, and the impacts it is followed for that."""
 LONGEST = 1e6
 """Time within which a motion must reach its next event."""
-KNOWN = 10.0 * NEAR
+KNOWN_ORBIT_RTOL = 10.0 * RECURRENCE_RTOL
 """The same distance, from a state at a single-impact orbit, within which another state counts as at this orbit."""
 SLOW_EVENTS = 1000
 """Largest number of events up to the next impact, including lasting contact before it."""
@@ -73,7 +73,7 @@ def least_period(rotor, table, state, count, contact, log, memory, work, rub):
         Number of impacts after which it has recurred; zero if it has not.
     contact, log
         State of contact and log for one event, for :func:`~carom.core.advance.advance`; both are overwritten.
-    memory : record of :func:`~carom.core.fate.memory`
+    memory : record of :func:`~carom.core.settling.memory`
         Its ``attracted`` caches the last state found at a single-impact orbit: many motions end at the same orbit.
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
 
@@ -86,7 +86,7 @@ def least_period(rotor, table, state, count, contact, log, memory, work, rub):
         orbit.  0 in all other cases, among them elastic bounces that damping makes ever lower.
     """
     plain = count == 1 and memory.rubbed == 0 and rotor.restitution[0] < 1.0
-    if plain and same_state(memory.attracted, state, KNOWN):
+    if plain and same_state(memory.attracted, state, KNOWN_ORBIT_RTOL):
         return 1
     ahead, longest = (count, count) if count > 0 else (WATCHED, SHORT)
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
@@ -109,15 +109,15 @@ def least_period(rotor, table, state, count, contact, log, memory, work, rub):
     orbit = np.empty((longest + 1, 2), np.complex128)
     closes, passes = False, False
     for impacts in range(1, longest + 1):
-        if count % impacts == 0 and same_state(states[0], states[impacts], AROUND):
+        if count % impacts == 0 and same_state(states[0], states[impacts], CANDIDATE_RTOL):
             copy(states[0], orbit[0])
             found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], contact, log, memory, work, rub)
             if found != OPEN and _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
                 return 0
-            if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
+            if found == ATTRACTS and (count > 0 or _approaches(states, orbit[0], impacts)):
                 return _distinct(orbit, impacts)
-            # At a greater distance the motion would not have recurred to within NEAR.
-            passes = passes or (found == REPELS and same_state(orbit[0], states[0], NEAR / REPELLING))
+            # At a greater distance the motion would not have recurred to within RECURRENCE_RTOL.
+            passes = passes or (found == REPELS and same_state(orbit[0], states[0], RECURRENCE_RTOL / REPELLING))
             closes = impacts == count and found != OPEN
     if passes and count > 0:
         return PASSES
@@ -128,7 +128,7 @@ def least_period(rotor, table, state, count, contact, log, memory, work, rub):
 def _comes_back(states):
     """Whether one of the states is close to the first."""
     i = 1
-    while i < states.shape[0] and not same_state(states[0], states[i], AROUND):
+    while i < states.shape[0] and not same_state(states[0], states[i], CANDIDATE_RTOL):
         i += 1
     return i < states.shape[0]
 
@@ -139,8 +139,8 @@ def _fades(rotor, states, durations):
     if rotor.restitution[0] < 1.0:
         return False
     for i in range(durations.shape[0]):
-        arrival = unit(displacement(rotor, 0, states[i + 1])).conjugate() * velocity(rotor, 0, states[i + 1])
-        if 0.25 * arrival.real * durations[i] > LOWEST:
+        end = unit(displacement(rotor, 0, states[i + 1])).conjugate() * velocity(rotor, 0, states[i + 1])
+        if 0.25 * end.real * durations[i] > LOWEST:
             return False
     return True
 
@@ -149,13 +149,13 @@ def _fades(rotor, states, durations):
 def _distinct(orbit, impacts):
     """Number of distinct impacts of a closed orbit: a motion far from its orbit may first close after two periods."""
     for fewer in range(1, impacts):
-        if impacts % fewer == 0 and same_state(orbit[0], orbit[fewer], ALIKE):
+        if impacts % fewer == 0 and same_state(orbit[0], orbit[fewer], EQUAL_IMPACT_RTOL):
             return fewer
     return impacts
 
 
 @kernel
-def _draws_near(states, goal, impacts):
+def _approaches(states, goal, impacts):
     """Whether the states at each multiple of ``impacts`` are closer to a goal in the later half than in the first."""
     early, late = 0.0, 0.0
     last = states.shape[0] - 1
@@ -191,13 +191,13 @@ def close(rotor, table, orbit, durations, contact, log, memory, work, rub):
     found = OPEN
     for _ in range(STEPS):
         followed, bounces = _follow_impacts(rotor, table, orbit, durations, contact, log, memory, work, rub)
-        if not (followed and same_state(orbit[0], orbit[-1], 10.0 * AROUND)):
+        if not (followed and same_state(orbit[0], orbit[-1], 10.0 * CANDIDATE_RTOL)):
             return OPEN
         if bounces:
             found, done = _newton_step(rotor, orbit, durations)
         else:
             found, done = _aitken_step(rotor, table, orbit, durations, contact, log, memory, work, rub)
-        if not same_state(orbit[0], start, AROUND):
+        if not same_state(orbit[0], start, CANDIDATE_RTOL):
             return OPEN
         if done:
             return found
@@ -260,7 +260,7 @@ def _newton_step(rotor, orbit, durations):
     turned = (unit(position).conjugate() * normal).imag
     apart = normal.conjugate() * velocity(rotor, 0, orbit[-1]) - before
     size = 1.0 + math.sqrt(squared_modulus(before))
-    done = abs(turned) + math.sqrt(squared_modulus(apart)) <= CLOSED * size
+    done = abs(turned) + math.sqrt(squared_modulus(apart)) <= CLOSED_RTOL * size
     found = CLOSES
     if _contracts(jacobian, 1.0):
         found = ATTRACTS
@@ -333,7 +333,7 @@ def _aitken_step(rotor, table, orbit, durations, contact, log, memory, work, rub
         length += squared_modulus(first)
         later += squared_modulus(second)
         product += (first.conjugate() * second).real
-    if math.sqrt(length) <= CLOSED * size:
+    if math.sqrt(length) <= CLOSED_RTOL * size:
         return ATTRACTS, True
     ratio = product / length
     # Part of the later difference that is perpendicular to the first.

@@ -19,11 +19,11 @@ def close_flights(
     to_modes,
     rest,
     kinds,
-    planes,
+    stations,
     targets,
     nodes,
     durations,
-    arrivals,
+    ends,
     values,
     slopes,
     tolerance,
@@ -48,8 +48,8 @@ def close_flights(
     matrix = np.empty((m * width, m * width + 1))
     before = np.inf
     for _ in range(steps):
-        follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes)
-        _assemble(nodes, arrivals, values, slopes, matrix)
+        follow_flights(rotor, basis, to_modes, rest, kinds, stations, targets, nodes, durations, ends, values, slopes)
+        _assemble(nodes, ends, values, slopes, matrix)
         largest, size = 0.0, 1.0
         for row in range(m * width):
             largest = max(largest, abs(matrix[row, m * width]))
@@ -77,16 +77,16 @@ def close_flights(
 
 
 @kernel
-def shooting_equations(nodes, arrivals, values, slopes):
+def shooting_equations(nodes, ends, values, slopes):
     """Derivative of the left sides by nodes and durations, and the left sides as last column; see :func:`close_flights`."""
     size = nodes.shape[0] * slopes.shape[1]
     matrix = np.empty((size, size + 1))
-    _assemble(nodes, arrivals, values, slopes, matrix)
+    _assemble(nodes, ends, values, slopes, matrix)
     return matrix
 
 
 @inlined
-def _assemble(nodes, arrivals, values, slopes, matrix):
+def _assemble(nodes, ends, values, slopes, matrix):
     """Write the equations: each segment ends at the next node, where its condition is fulfilled."""
     m, numbers = nodes.shape
     width = 2 * numbers + 1
@@ -97,7 +97,7 @@ def _assemble(nodes, arrivals, values, slopes, matrix):
             for column in range(width):
                 matrix[i * width + row, i * width + column] += slopes[i, row, column]
         for k in range(numbers):
-            apart = arrivals[i, k] - nodes[after, k]
+            apart = ends[i, k] - nodes[after, k]
             matrix[i * width + k, after * width + k] -= 1.0
             matrix[i * width + numbers + k, after * width + numbers + k] -= 1.0
             matrix[i * width + k, m * width] = apart.real

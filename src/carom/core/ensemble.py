@@ -18,12 +18,12 @@ from carom.core.closing import PASSES, least_period
 from carom.core.compiling.decorators import expanded, inlined, kernel
 from carom.core.counter import next_number
 from carom.core.event_log import EventLog
-from carom.core.fate import doubt, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
-from carom.core.layout import LANES, NEAR
+from carom.core.layout import LANES, RECURRENCE_RTOL
 from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
+from carom.core.settling import discard_candidate, impacts_until_noted, levitates, recurs, reset
 from carom.core.wall import set_on_wall
 
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
@@ -39,8 +39,8 @@ RUN = 64
 """Number of motions that a call takes at a time: neighbouring motions share cache lines."""
 CALM = 10_000
 """Number of free blocks of flight after which the expensive proof of levitation is tried (again)."""
-NEARBY = 1.5 * NEAR
-"""The tolerance of :func:`carom.core.fate.same_state` for recurrence, with a margin."""
+SCREENING_RTOL = 1.5 * RECURRENCE_RTOL
+"""The tolerance of :func:`carom.core.settling.same_state` for recurrence, with a margin."""
 
 
 class Task(NamedTuple):
@@ -143,10 +143,10 @@ def _begin(task, start, lanes, memory, work, lane):
     contact = start.contact
     if contact == FLIGHT:
         set_on_wall(task.rotor, 0, work.current)
-    forget(memory)
+    reset(memory)
     _save_memory(lanes, memory, lane)
     lanes.contact[lane] = contact
-    lanes.struck[lane], lanes.events[lane], lanes.stalled[lane], lanes.calm[lane] = 0, 0, 0, 0
+    lanes.impacts[lane], lanes.events[lane], lanes.stalled[lane], lanes.calm[lane] = 0, 0, 0, 0
     lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
     if contact == FLIGHT and not surely_flies(task.rotor, work.current):
         return SINGLY
@@ -175,7 +175,7 @@ def _act_on_verdict(task, lanes, memory, work, lane):
             return LEVITATED
         # The lane has proved that there is no contact up to this time, on a block that lasts longer.
         move_to(task.rotor, task.table, task.until - lanes.clock[lane], work)
-        copy(work.arrival, work.current)
+        copy(work.end, work.current)
         lanes.clock[lane] = task.until
         return TIME_REACHED
     _count_plain_impacts(lanes, lane)
@@ -183,14 +183,14 @@ def _act_on_verdict(task, lanes, memory, work, lane):
         lanes.contact[lane] = FLIGHT if lanes.level[lane] == 0.0 else AWAY
         return SINGLY
     lanes.events[lane] += 1
-    lanes.struck[lane] += 1
+    lanes.impacts[lane] += 1
     lanes.stalled[lane] = 0
-    _copy_arrival(lanes, lane, work.arrival)
+    _copy_end(lanes, lane, work.end)
     _load_memory(lanes, memory, lane)
-    fades = memory.patience > 0 and fades_to_rolling(memory.proofs, task.rotor, work.arrival)
-    if fades or (memory.patience > 0 and recurs(memory, work.arrival)):
-        lanes.struck[lane] -= 1
-        copy(work.arrival, work.current)
+    fades = memory.patience > 0 and fades_to_rolling(memory.proofs, task.rotor, work.end)
+    if fades or (memory.patience > 0 and recurs(memory, work.end)):
+        lanes.impacts[lane] -= 1
+        copy(work.end, work.current)
         if fades:
             return ROLLING
         return MIXED if memory.rubbed > 0 else BOUNCING
@@ -225,7 +225,7 @@ def _follow_by_events(task, tools, lane):
             and count > 0
             and _changed(tools.log.before[0], tools.log.after[0])
         ):
-            lanes.struck[lane] += 1
+            lanes.impacts[lane] += 1
         lanes.stalled[lane] = lanes.stalled[lane] + 1 if time <= SHORTEST else 0
         if outcome == EVENT_LIMIT and lanes.stalled[lane] == STALLED:
             outcome = GRAZING
@@ -270,7 +270,7 @@ def _count_plain_impacts(lanes, lane):
     lanes.quiet[lane] = 0.0
     lanes.stalled[lane] = 0 if quiet > 0 else lanes.stalled[lane]
     lanes.events[lane] += quiet
-    lanes.struck[lane] += quiet
+    lanes.impacts[lane] += quiet
     lanes.seen[lane] += quiet
     lanes.since[lane] += quiet
 
@@ -293,7 +293,7 @@ def _save_memory(lanes, memory, lane):
     lower, upper, reach = 0j, 0j, -1.0
     if memory.patience > 0:
         lower, upper = memory.reference[0], memory.reference[1]
-        reach = NEARBY * (1.0 + abs(lower) + abs(upper))
+        reach = SCREENING_RTOL * (1.0 + abs(lower) + abs(upper))
     lanes.reference_lower_re[lane], lanes.reference_lower_im[lane] = lower.real, lower.imag
     lanes.reference_upper_re[lane], lanes.reference_upper_im[lane] = upper.real, upper.imag
     lanes.reach[lane] = reach
@@ -311,7 +311,7 @@ def _passes_by_orbit(task, tools, lane):
     copy(state, tools.work.current)
     if memory.period != PASSES:
         return False
-    doubt(memory)
+    discard_candidate(memory)
     lanes.contact[lane] = FLIGHT
     _save_memory(lanes, memory, lane)
     return True
@@ -322,7 +322,7 @@ def _note_end(task, tools, motion, lane, outcome):
     """Store the end of a lane's motion, whose state is in ``work.current``."""
     lanes, memory, work = tools.lanes, tools.memory, tools.work
     motion.outcome, motion.time = outcome, lanes.clock[lane]
-    motion.impacts = lanes.struck[lane] + int(lanes.quiet[lane])
+    motion.impacts = lanes.impacts[lane] + int(lanes.quiet[lane])
     motion.position, motion.velocity = (
         displacement(task.rotor, 0, work.current),
         velocity(task.rotor, 0, work.current),
@@ -345,9 +345,9 @@ def _copy_state(lanes, lane, amplitudes):
 
 
 @inlined
-def _copy_arrival(lanes, lane, amplitudes):
-    amplitudes[0] = complex(lanes.arrival_lower_re[lane], lanes.arrival_lower_im[lane])
-    amplitudes[1] = complex(lanes.arrival_upper_re[lane], lanes.arrival_upper_im[lane])
+def _copy_end(lanes, lane, amplitudes):
+    amplitudes[0] = complex(lanes.end_lower_re[lane], lanes.end_lower_im[lane])
+    amplitudes[1] = complex(lanes.end_upper_re[lane], lanes.end_upper_im[lane])
 
 
 @inlined

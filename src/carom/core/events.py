@@ -65,13 +65,13 @@ SIXTH = 1.0 / 6.0
 
 
 @kernel
-def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
-    """First time at which a flight meets the wall of a plane.
+def first_crossing(rotor, table, station, amplitudes, horizon, start, work):
+    """First time at which a flight reaches the wall of a station.
 
     Parameters
     ----------
     rotor, table : records of :mod:`carom.core.layout`
-    plane : int
+    station : int
     amplitudes : complex array, shape (N,)
         Amplitudes at the start; left unchanged.
     horizon : float
@@ -80,7 +80,7 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
         ``INSIDE``, or ``LEAVING`` if the start lies on the wall: there ``|y|`` is one by definition.  Use
         :func:`carom.core.rub.lift_off` for a start at rest on the wall.
     work : record of :func:`~carom.core.layout.workspace`
-        On return ``work.arrival`` holds the amplitudes at the returned time.
+        On return ``work.end`` holds the amplitudes at the returned time.
 
     Returns
     -------
@@ -89,37 +89,37 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
     time : float
     """
     copy(amplitudes, work.current)
-    return search(rotor, table, plane, horizon, start, work)
+    return search(rotor, table, station, horizon, start, work)
 
 
 @inlined
-def search(rotor, table, plane, horizon, start, work):
+def search(rotor, table, station, horizon, start, work):
     """:func:`first_crossing` of the flight from ``work.current``, which is advanced from block to block."""
     elapsed = 0.0
     while True:
-        outcome, time = _search_block(rotor, table, plane, horizon - elapsed, start, work)
+        outcome, time = _search_block(rotor, table, station, horizon - elapsed, start, work)
         elapsed += time
         if outcome != CLEAR:
             return outcome, elapsed
         move_to(rotor, table, time, work)
         if elapsed >= horizon:
             return CLEAR, horizon
-        copy(work.arrival, work.current)
+        copy(work.end, work.current)
         start = INSIDE
 
 
 @expanded
-def _search_block(rotor, table, plane, horizon, start, work):
+def _search_block(rotor, table, station, horizon, start, work):
     """First crossing on a block from ``work.current``, or a time up to which there is none."""
-    origin = displacement(rotor, plane, work.current)
+    origin = displacement(rotor, station, work.current)
     level = 0.0 if start != INSIDE else squared_modulus(origin) - 1.0
-    spread = _spread(rotor, plane, work.current)
+    spread = _spread(rotor, station, work.current)
     floor = ROUNDING * spread
     if work.current.shape[0] > MOST_IN_POLYNOMIALS:
-        basis_amplitudes(rotor, plane, work.current, work.amplitudes)
+        basis_amplitudes(rotor, station, work.current, work.amplitudes)
         bounds, longest = _bounds(table, work), min(table.durations[0], horizon)
-        return _step_safely(rotor, table, plane, origin, level, start, spread, longest, bounds, work)
-    load_products(rotor, plane, origin, work)
+        return _step_safely(rotor, table, station, origin, level, start, spread, longest, bounds, work)
+    load_products(rotor, station, origin, work)
     bounds = _bounds(table, work)
     for depth in range(LEVELS):
         duration = table.durations[depth]
@@ -130,11 +130,11 @@ def _search_block(rotor, table, plane, horizon, start, work):
         if changes == 1:
             guess = rough_root(work.polynomial, level, first) * duration
             certified, time = _root_on_block(
-                rotor, table, plane, origin, level, guess, bounds[0], floor, remainder, duration, work
+                rotor, table, station, origin, level, guess, bounds[0], floor, remainder, duration, work
             )
             if certified:
                 return (CONTACT, time) if time <= horizon else (CLEAR, horizon)
-    return _step_safely(rotor, table, plane, origin, level, start, spread, min(duration, horizon), bounds, work)
+    return _step_safely(rotor, table, station, origin, level, start, spread, min(duration, horizon), bounds, work)
 
 
 @inlined
@@ -156,15 +156,15 @@ def _bounds(table, work):
 
 
 @inlined
-def _measure(rotor, table, plane, origin, level, time, work):
-    """Move to ``time``: fill ``work.arrival``, return ``f`` and its first three derivatives."""
+def _measure(rotor, table, station, origin, level, time, work):
+    """Move to ``time``: fill ``work.end``, return ``f`` and its first three derivatives."""
     move_to(rotor, table, time, work)
     change, speed, force, jerk = 0j, 0j, 0j, 0j
     for k in range(work.current.shape[0]):
-        change += rotor.rows[plane, k] * work.increments[k]
-        speed += rotor.rate_rows[plane, k] * work.arrival[k]
-        force += rotor.acceleration_rows[plane, k] * work.arrival[k]
-        jerk += rotor.jerk_rows[plane, k] * work.arrival[k]
+        change += rotor.rows[station, k] * work.increments[k]
+        speed += rotor.rate_rows[station, k] * work.end[k]
+        force += rotor.acceleration_rows[station, k] * work.end[k]
+        jerk += rotor.jerk_rows[station, k] * work.end[k]
     return derivatives(origin, level, change, speed, force, jerk)
 
 
@@ -176,19 +176,19 @@ def householder_step(value, slope, bend, third):
 
 
 @inlined
-def _root_on_block(rotor, table, plane, origin, level, guess, curvature, floor, remainder, duration, work):
+def _root_on_block(rotor, table, station, origin, level, guess, curvature, floor, remainder, duration, work):
     """Whether the root close to a guess is certified to be the first on a block of this duration, and the root."""
-    doubt = remainder / duration
-    certified, time = _polish(rotor, table, plane, origin, level, guess, curvature, floor, doubt, work)
+    growth = remainder / duration
+    certified, time = _polish(rotor, table, station, origin, level, guess, curvature, floor, growth, work)
     # The polynomial is valid on the block only: a root beyond its end does not prove the block free of crossings.
     return certified and time <= duration, time
 
 
 @inlined
-def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, work):
+def _polish(rotor, table, station, origin, level, time, curvature, floor, growth, work):
     """Householder steps to a root, from the node nearest to a time; certified by ``|f|`` and ``f'²``.
 
-    The error of the polynomial up to that time is at most ``floor + doubt time``.
+    The error of the polynomial up to that time is at most ``floor + growth time``.
     """
     node = nearest_node(table, time)
     value, slope, bend, third = look_at_node(table, node, origin, level, work)
@@ -197,44 +197,44 @@ def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, w
         # Outside the range of the nodes the series are not valid.
         if not 0.0 <= time <= table.durations[0]:
             return False, time
-        value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
-        if slope * slope <= MARGIN * (floor + doubt * time) * curvature or slope <= 0.0:
+        value, slope, bend, third = _measure(rotor, table, station, origin, level, time, work)
+        if slope * slope <= MARGIN * (floor + growth * time) * curvature or slope <= 0.0:
             return False, time
         step = householder_step(value, slope, bend, third)
         time += step
         if abs(value) * curvature < POLISHED * (slope * slope) and abs(step) < BRIEF * table.spacing:
-            nudge(rotor, work.arrival, step)
+            nudge(rotor, work.end, step)
             return True, time
     return False, time
 
 
 @kernel
-def _probe(rotor, table, plane, origin, level, time, work):
-    """Move to ``time``: fill ``work.arrival``, return ``f``, ``f'`` and ``f''``."""
-    value, slope, bend, _ = _measure(rotor, table, plane, origin, level, time, work)
+def _probe(rotor, table, station, origin, level, time, work):
+    """Move to ``time``: fill ``work.end``, return ``f``, ``f'`` and ``f''``."""
+    value, slope, bend, _ = _measure(rotor, table, station, origin, level, time, work)
     return value, slope, bend
 
 
 @kernel
-def _step_safely(rotor, table, plane, origin, level, start, spread, block, bounds, work):
+def _step_safely(rotor, table, station, origin, level, start, spread, block, bounds, work):
     """Certified steps from the start of a block to its end or to the first crossing."""
     time = 0.0
     curvature, jerk, speed = bounds
     if start != INSIDE:
-        _, slope, bend = _probe(rotor, table, plane, origin, level, 0.0, work)
+        _, slope, bend = _probe(rotor, table, station, origin, level, 0.0, work)
         if slope >= 0.0 and bend >= 0.0:
             return GRAZING, time
         time = _departure(min(slope, 0.0), bend, jerk)
     while time < block:
-        value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
+        value, slope, bend = _probe(rotor, table, station, origin, level, time, work)
         # For a start on the wall f is exact there, and the rounding of y acts only through the later change of y.
         share = 1.0 if start == INSIDE else min(1.0, speed * time)
         rounding = ROUNDING * (spread * share + speed * time)
         if value >= -rounding:
             if slope <= 2.0 * math.sqrt(curvature * rounding):
-                return _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work)
+                return _decide(rotor, table, station, origin, level, time, block, bounds, rounding, work)
             step = -value / slope
-            nudge(rotor, work.arrival, step)
+            nudge(rotor, work.end, step)
             return CONTACT, time + step
         # Steps end half the rounding error below zero: none can pass a crossing that rounding hides.
         # They advance: here 1 ≥ −f > rounding > ROUNDING |ẏ| t and f' ≤ 2|ẏ|, so a step exceeds two spacings of t.
@@ -255,11 +255,11 @@ def _safe_step(value, slope, bend, curvature, jerk):
 
 
 @inlined
-def _spread(rotor, plane, amplitudes):
+def _spread(rotor, station, amplitudes):
     """Sum of the sizes of the terms of a displacement: its rounding error in units of the spacing of doubles."""
-    total = abs(rotor.offsets[plane].real) + abs(rotor.offsets[plane].imag)
+    total = abs(rotor.offsets[station].real) + abs(rotor.offsets[station].imag)
     for k in range(amplitudes.shape[0]):
-        term = rotor.rows[plane, k] * amplitudes[k]
+        term = rotor.rows[station, k] * amplitudes[k]
         total += abs(term.real) + abs(term.imag)
     return total
 
@@ -275,14 +275,14 @@ def _first_root(value, slope, bend):
 
 
 @kernel
-def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work):
+def _decide(rotor, table, station, origin, level, time, block, bounds, rounding, work):
     """Decide whether ``f``, which is zero to rounding and has not crossed before, rises above its rounding error.
 
     ``f`` is followed over intervals on which it provably rises, until the rise exceeds rounding.  The root is then
     found by bisection, because the derivative may be too small for Newton's method.
     """
     first = time
-    value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
+    value, slope, bend = _probe(rotor, table, station, origin, level, time, work)
     while value <= rounding:
         if slope <= 0.0:
             return GRAZING, time
@@ -290,16 +290,16 @@ def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, w
         if later == time:
             return (CLEAR if time == block else GRAZING), time
         time = later
-        value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
+        value, slope, bend = _probe(rotor, table, station, origin, level, time, work)
     middle = 0.5 * (first + time)
     while first < middle < time:
-        value, _, _ = _probe(rotor, table, plane, origin, level, middle, work)
+        value, _, _ = _probe(rotor, table, station, origin, level, middle, work)
         if value < 0.0:
             first = middle
         else:
             time = middle
         middle = 0.5 * (first + time)
-    _probe(rotor, table, plane, origin, level, time, work)
+    _probe(rotor, table, station, origin, level, time, work)
     return CONTACT, time
 
 

@@ -160,29 +160,29 @@ def copy(source, target):
 
 
 @inlined
-def displacement(rotor, plane, amplitudes):
-    """Displacement ``y`` at a plane, in its clearance."""
-    total = rotor.offsets[plane]
+def displacement(rotor, station, amplitudes):
+    """Displacement ``y`` at a station, in its clearance."""
+    total = rotor.offsets[station]
     for k in range(amplitudes.shape[0]):
-        total += rotor.rows[plane, k] * amplitudes[k]
+        total += rotor.rows[station, k] * amplitudes[k]
     return total
 
 
 @inlined
-def velocity(rotor, plane, amplitudes):
-    """Velocity ``ẏ`` at a plane."""
+def velocity(rotor, station, amplitudes):
+    """Velocity ``ẏ`` at a station."""
     total = 0j
     for k in range(amplitudes.shape[0]):
-        total += rotor.rate_rows[plane, k] * amplitudes[k]
+        total += rotor.rate_rows[station, k] * amplitudes[k]
     return total
 
 
 @inlined
-def acceleration(rotor, plane, amplitudes):
-    """Acceleration ``ÿ`` at a plane."""
+def acceleration(rotor, station, amplitudes):
+    """Acceleration ``ÿ`` at a station."""
     total = 0j
     for k in range(amplitudes.shape[0]):
-        total += rotor.acceleration_rows[plane, k] * amplitudes[k]
+        total += rotor.acceleration_rows[station, k] * amplitudes[k]
     if rotor.shaft.shape[0] > 0:
-        total += rotor.unbalance_rows[plane] * unbalance_drive(rotor, amplitudes)
+        total += rotor.unbalance_rows[station] * unbalance_drive(rotor, amplitudes)
     return total

@@ -1,12 +1,12 @@
-"""Many motions of one rotor, one after another, each for the same time: for any number of modes and contact planes."""
+"""Many motions of one rotor, one after another, each for the same time: for any number of modes and contact stations."""
 
 from __future__ import annotations
 
 from carom.base.outcome import Outcome
 from carom.core.advance import advance
 from carom.core.compiling.decorators import kernel
-from carom.core.fate import forget
 from carom.core.limits import set_limits
+from carom.core.settling import reset
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 
@@ -34,7 +34,7 @@ def advance_in_turn(
         Overwritten.
     """
     for i in range(motions.shape[0]):
-        forget(memory)
+        reset(memory)
         if rotor.limit_bounds.shape[0] > 0:
             memory.clock, rub.clock = clocks[i], clocks[i]
             set_limits(rotor, motions[i], rub)

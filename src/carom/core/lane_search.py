@@ -39,14 +39,14 @@ class Departure(NamedTuple):
 class Search(NamedTuple):
     """Result for the block of each lane: whether it ``decides`` and, if so, whether it is ``free`` of a crossing.
 
-    ``guess`` is an approximate root, or the end of a free block; ``doubt`` is the rate at which the error bound grows.
+    ``guess`` is an approximate root, or the end of a free block; ``growth`` is the rate at which the error bound grows.
     """
 
     decides: object
     free: object
     duration: object
     guess: object
-    doubt: object
+    growth: object
 
 
 class Node(NamedTuple):
@@ -90,8 +90,8 @@ def examine(table, depth, start, polynomial, factors):
     given = depth < float(LEVELS)
     number, level = where(given, depth, 0.0), start.level
     _load_polynomial(table.lane_coefficients, number, start, polynomial)
-    doubt, length = _doubt(table.lane_errors, number, start.low, start.high), choose(table.lane_durations, number)
-    remainder = doubt * length
+    growth, length = _growth(table.lane_errors, number, start.low, start.high), choose(table.lane_durations, number)
+    remainder = growth * length
     lowest, share = -start.floor, remainder * (-1.0 / DEGREE)
     last = load(polynomial[DEGREE - 1], 0)
     positive = last >= lowest - remainder
@@ -109,7 +109,7 @@ def examine(table, depth, start, polynomial, factors):
     begins_outside = ((level >= lowest) & ~(level == 0.0)) | (positive & (level >= 0.0))
     none = first == float(DEGREE)
     return Search(
-        given & ~begins_outside & (runs < 2.0), none, length, where(none, length, place * length), doubt,
+        given & ~begins_outside & (runs < 2.0), none, length, where(none, length, place * length), growth,
     )  # fmt: skip
 
 
@@ -134,7 +134,7 @@ def _load_polynomial(coefficients, depth, start, polynomial):
 
 
 @inlined
-def _doubt(errors, depth, low, high):
+def _growth(errors, depth, low, high):
     """Error bound of a block's polynomial, per unit time, by moduli of amplitudes; needs ``|y| ≤ 1`` at the start."""
     of_lower, of_upper = choose(errors[0], depth), choose(errors[1], depth)
     return low * (of_lower + (low * choose(errors[2], depth) + high * choose(errors[3], depth))) + high * (

@@ -17,7 +17,7 @@ from carom.core.advance import CHATTER_HEIGHT, flies
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
-from carom.core.friction import arrival
+from carom.core.friction import velocity_change
 from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
 from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH
 from carom.core.records import record
@@ -51,12 +51,12 @@ A spacing is at most ``5.3/31`` of the time ``1/|λ|`` of the faster mode.
 """
 
 _STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "depth")
-_FATE = (
+_SETTLING = (
     "quiet", "due", "watched",
     "reference_lower_re", "reference_lower_im", "reference_upper_re", "reference_upper_im", "reach",
 )  # fmt: skip
-_ANSWER = ("verdict", "arrival_lower_re", "arrival_lower_im", "arrival_upper_re", "arrival_upper_im")
-_BOOKS = ("motion", "contact", "events", "struck", "stalled", "calm", "seen", "since", "renewal", "candidate", "rubbed")
+_ANSWER = ("verdict", "end_lower_re", "end_lower_im", "end_upper_re", "end_upper_im")
+_BOOK = ("motion", "contact", "events", "impacts", "stalled", "calm", "seen", "since", "renewal", "candidate", "rubbed")
 
 
 def lanes_record() -> np.record:
@@ -69,14 +69,14 @@ def lanes_record() -> np.record:
     - ``quiet`` counts plain impacts.  An impact is NOTED instead when ``due`` is reached, or when the state is within
       ``reach`` of the ``reference``.
     - ``watched`` lanes are examined after each free block.
-    - ``verdict`` says what happened last; ``arrival`` is the state just before an impact.
+    - ``verdict`` says what happened last; ``end`` is the state just before an impact.
     - The integers belong to :mod:`carom.core.ensemble`: number of the motion, its state of contact, events, impacts, events
-      without progress, free blocks, and the values that :func:`carom.core.fate.memory` holds for it besides the
+      without progress, free blocks, and the values that :func:`carom.core.settling.memory` holds for it besides the
       ``reference``.
     """
     return record(
-        **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},
-        **{name: np.zeros(LANES, np.int64) for name in _BOOKS},
+        **{name: np.zeros(LANES) for name in (*_STATE, *_SETTLING, *_ANSWER)},
+        **{name: np.zeros(LANES, np.int64) for name in _BOOK},
         polynomial=np.zeros((DEGREE, WIDTH)),
         factors=np.zeros((DEGREE + 1, WIDTH)),
     )
@@ -109,44 +109,44 @@ def _fly(rotor, table, until, first, lanes):
     lower, upper, rates, (value, slope, bend) = travel(rotor, table, start, node, rest, table.terms)
     step = _halley_step(value, slope, bend)
     time = node.time + (rest + step)
-    error, square = start.floor + search.doubt * time, slope * slope
+    error, square = start.floor + search.growth * time, slope * slope
     certified = (
         (slope > 0.0) & (square > error * start.curvature * MARGIN) & (abs(rest) <= reach)
         & (abs(value) * start.curvature < STEADY * square) & (abs(step) < table.lane_spacing * BRIEF)
         & (time > 0.0) & (time <= search.duration)
     )  # fmt: skip
-    free, strikes = search.decides & search.free, search.decides & ~search.free & certified
-    lower, upper = _nudged(where(strikes, step, 0.0), lower, upper, rates, rotor.exponents[0])
-    end = load(lanes.clock, first) + where(strikes, time, search.duration)
-    return _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper)
+    free, impacting = search.decides & search.free, search.decides & ~search.free & certified
+    lower, upper = _nudged(where(impacting, step, 0.0), lower, upper, rates, rotor.exponents[0])
+    end = load(lanes.clock, first) + where(impacting, time, search.duration)
+    return _move_on(rotor, until, first, lanes, start, depth, free, impacting, end, lower, upper)
 
 
 @inlined
-def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper):
+def _move_on(rotor, until, first, lanes, start, depth, free, impacting, end, lower, upper):
     """Store the end of a free block or the state after an impact; return the lanes to examine, as bits."""
-    decided = free | strikes
+    decided = free | impacting
     late = end > until
-    moves, struck = decided & ~late, strikes & ~late
+    moves, impacts = decided & ~late, impacting & ~late
     position = upper + rotor.offsets[0]
     beyond = squared_modulus(position) - 1.0
     speed = fma(upper, rotor.exponents[1], lower)
     # Put the displacement exactly on the wall; the velocity stays.
-    upper = upper - position * where(strikes, 0.5 * beyond, 0.0)
+    upper = upper - position * where(impacting, 0.5 * beyond, 0.0)
     wall = rigid_wall(rotor.friction[0], rotor.restitution[0], rotor.surface_speed[0])
-    after = lower + position * arrival(position.conjugate() * speed, wall)
+    after = lower + position * velocity_change(position.conjugate() * speed, wall)
     quiet = load(lanes.quiet, first)
-    noted = struck & (_near_reference(lower, upper, first, lanes) | (quiet + 1.0 >= load(lanes.due, first)))
-    plain = struck & ~noted
+    noted = impacts & (_near_reference(lower, upper, first, lanes) | (quiet + 1.0 >= load(lanes.due, first)))
+    plain = impacts & ~noted
     stays = where(decided, LATE, OPEN)
     store(lanes.verdict, first, where(moves, where(free, CLEARED, where(noted, NOTED, STRUCK)), stays))
     store(lanes.quiet, first, where(plain, quiet + 1.0, quiet))
     store(lanes.clock, first, where(moves, end, load(lanes.clock, first)))
     # Low bounces come in series: try the block first that worked for the last one.
-    store(lanes.depth, first, where(decided, where(strikes, depth, 0.0), depth + 1.0))
-    store(lanes.level, first, where(struck, 0.0, where(moves, beyond, start.level)))
-    _store_complex(lanes.arrival_lower_re, lanes.arrival_lower_im, first, lower)
-    _store_complex(lanes.arrival_upper_re, lanes.arrival_upper_im, first, upper)
-    _store_complex(lanes.lower_re, lanes.lower_im, first, where(struck, after, where(moves, lower, start.lower)))
+    store(lanes.depth, first, where(decided, where(impacting, depth, 0.0), depth + 1.0))
+    store(lanes.level, first, where(impacts, 0.0, where(moves, beyond, start.level)))
+    _store_complex(lanes.end_lower_re, lanes.end_lower_im, first, lower)
+    _store_complex(lanes.end_upper_re, lanes.end_upper_im, first, upper)
+    _store_complex(lanes.lower_re, lanes.lower_im, first, where(impacts, after, where(moves, lower, start.lower)))
     _store_complex(lanes.upper_re, lanes.upper_im, first, where(moves, upper, start.upper))
     watched = load(lanes.watched, first) > 0.0
     return lanes_of(~(plain | (free & moves & ~watched) | (~decided & (depth < LEVELS - 1.0))))
@@ -204,7 +204,7 @@ def _nudged(time, lower, upper, rates, exponent):
 
 @inlined
 def _near_reference(lower, upper, first, lanes):
-    """Whether a state may recur (:func:`carom.core.fate.recurs`): a cheap condition that is necessary for it."""
+    """Whether a state may recur (:func:`carom.core.settling.recurs`): a cheap condition that is necessary for it."""
     away = abs(lower.real - load(lanes.reference_lower_re, first)) + abs(
         upper.real - load(lanes.reference_upper_re, first)
     )

@@ -11,7 +11,7 @@ import numpy as np
 from carom.core.compiling.target import has_wide_registers
 from carom.core.records import blank, filled, layout_of
 
-NEAR = 1e-9
+RECURRENCE_RTOL = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
 ORDER = 20
 """Order of the Taylor series of lasting contact."""
@@ -60,9 +60,9 @@ def rotor_record(
     unbalance: np.ndarray | None = None,
     **others: np.ndarray,
 ) -> np.record:
-    """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
+    """A linear rotor with ``N`` moving modes and ``P`` contact stations, as the kernels see it.
 
-    The displacement at plane ``p``, in units of that plane's clearance, is
+    The displacement at station ``p``, in units of that station's clearance, is
     ``y_p(t) = offsets[p] + Σ_k rows[p, k] c_k(t)``, where the amplitudes obey ``ċ_k = λ_k c_k`` for a free-standing
     mode and ``ċ_k = λ_k c_k + c_{k−1}`` for a driven one.  A driven mode and those before it up to one that is not driven
     form a chain.  A pair stays well conditioned when its exponents meet (critical damping); the exponents of a longer chain
@@ -76,63 +76,63 @@ def rotor_record(
     driven : ndarray of bool, shape (N,)
         Whether mode ``k`` is driven by mode ``k − 1``; then ``Re λ_k ≥ Re λ_{k−1}``, and if ``k − 1`` is driven too, ``λ_k = λ_{k−1}``.
     offsets : ndarray of complex, shape (P,)
-        Constant displacement of the planes.
+        Constant displacement of the stations.
     rows : ndarray of complex, shape (P, N)
-        Displacement at the planes per amplitude.
+        Displacement at the stations per amplitude.
     columns : ndarray of complex, shape (N, P)
-        Change of the amplitudes by an impulse at a plane that changes its velocity by one.
+        Change of the amplitudes by an impulse at a station that changes its velocity by one.
     friction, restitution : ndarray, shape (P,)
-        Coulomb friction coefficient and coefficient of restitution of the planes.
+        Coulomb friction coefficient and coefficient of restitution of the stations.
     surface_speed : ndarray, shape (P,)
         Slip velocity of a rotor at rest in this frame, in clearances per unit time.
     law, law_number : ndarray, shape (P,), optional
         Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
     stiffness, loss : ndarray, shape (P,), optional
-        Of walls that give way, per effective mass of the plane.  Zero by default.
+        Of compliant walls, per effective mass of the station.  Zero by default.
     farthest : ndarray, shape (P,), optional
-        Distance of each plane from the centre at which a motion ends, as the model holds no further.  Infinite by default.
+        Distance of each station from the centre at which a motion ends, as the model holds no further.  Infinite by default.
     race : ndarray of int, shape (P,), optional
-        Mode whose real amplitude is the surface speed of the race that turns at a plane; −1, the default, without one.
+        Mode whose real amplitude is the surface speed of the race that turns at a station; −1, the default, without one.
     race_gain : ndarray, shape (P,), optional
-        Change of that speed by a friction impulse, against it, that changes the velocity of the plane by one.  Zero by default.
+        Change of that speed by a friction impulse, against it, that changes the velocity of the station by one.  Zero by default.
     masses : ndarray, shape (P,), optional
-        Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
+        Effective mass ``1/(W M⁻¹ Wᴴ)`` of each station: the impulse that changes its velocity by one.  Ones by default.
     free : ndarray of bool, shape (N,), optional
-        Which modes a disturbance can change; the others are forcing, or fill the room of a larger rotor.  All by default.
+        Which modes a disturbance can change; the others are forcing, or fill the places of a larger rotor.  All by default.
     shaft : ndarray of int, shape (1,), optional
         First of the two modes of a shaft whose speed changes (:mod:`carom.core.shaft`).
     unbalance : ndarray of complex, shape (N,), optional
         Rates of the amplitudes by the unbalance of that shaft at the nominal speed; then ``offsets`` are those without it.
     shaft_gain : ndarray, shape (P,), optional
-        Change of its speed by a friction impulse along growing angle that changes the velocity of the plane by one.
+        Change of its speed by a friction impulse along growing angle that changes the velocity of the station by one.
     drive : ndarray, shape (1,), optional
         Rate of its speed by the torque of its drive, which acts in contact.
-    limit_rows, limit_offsets, limit_bounds, limit_columns, limit_couplings, limit_mirrors : ndarray, optional
+    limit_rows, limit_offsets, limit_bounds, limit_columns, limit_couplings, limit_conjugates : ndarray, optional
         Of ``L`` quantities with a limit along each of two axes of the fixed frame (:mod:`carom.core.limits`): rows (L, N) and offsets
         (L,), complex, by which they follow from the amplitudes; bounds (L,); columns (N, L), rates of the amplitudes by what lies beyond;
-        couplings (L, L), by which what lies beyond one adds to those after it; where there is a ``mirror``, also mirrors (N, L), as
-        ``mirror_columns``.
-    mirror : ndarray of int, shape (1,), optional
-        Mode of the turn of bearings that act differently in two directions (:mod:`carom.core.mirror`).
-    mirror_columns : ndarray of complex, shape (N, P), optional
-        Change of the amplitudes by the conjugate of an impulse at a plane, times that turn.
+        couplings (L, L), by which what lies beyond one adds to those after it; where there is ``anisotropy``, also conjugates (N, L), as
+        ``conjugate_columns``.
+    anisotropy : ndarray of int, shape (1,), optional
+        Mode of the turn of anisotropic bearings (:mod:`carom.core.anisotropy`).
+    conjugate_columns : ndarray of complex, shape (N, P), optional
+        Change of the amplitudes by the conjugate of an impulse at a station, times that turn.
     gap_rows, gap_offsets : ndarray of complex, shapes (G, N) and (G,), optional
-        Displacements at magnets in their air gaps, as those of the planes: a motion ends where one is larger than one.
+        Displacements at magnets in their air gaps, as those of the stations: a motion ends where one is larger than one.
 
     Returns
     -------
     numpy.record
         The arguments and what follows from them: ``gaps`` and ``inverse_gaps`` (``λ_k − λ_{k−1}`` of the pairs),
         ``largest_response`` (bound of their ``|φ|`` over all later time), ``rate_rows``, ``acceleration_rows`` and
-        ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``mobility`` (change of
-        velocity at the planes per unit impulse at each, shape (P, P), ones on its diagonal), ``weights``
-        (``Σ_k |rows|²`` over the free modes), of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed), and of
-        limits ``limit_pulls`` (P, L) (acceleration of the planes by what lies beyond) and ``reach``, a record in which the quantities are planes, in
+        ``jerk_rows`` (first three derivatives of the displacement at the stations per amplitude), ``mobility`` (change of
+        velocity at the stations per unit impulse at each, shape (P, P), ones on its diagonal), ``weights``
+        (``Σ_k |rows|²`` over the free modes), of a shaft ``unbalance_rows`` (acceleration of the stations by its unbalance at the nominal speed), and of
+        limits ``limit_pulls`` (P, L) (acceleration of the stations by what lies beyond) and ``reach``, a record in which the quantities are stations, in
         units of their bounds.
-        The fields of a shaft, of limits, of a mirror and of air gaps have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
+        The fields of a shaft, of limits, of anisotropy and of air gaps have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
-    modes, planes = len(exponents), len(rows)
+    modes, stations = len(exponents), len(rows)
     generator = np.zeros((modes, modes), COMPLEX)
     generator.ravel()[:: modes + 1] = exponents
     values: list[complex] = exponents.tolist()
@@ -149,7 +149,7 @@ def rotor_record(
         "largest_response": _largest_response(values, gaps),
     }
     seen = _seen(generator, rows, offsets)
-    fields = _nothing_more(modes, planes) | own | seen | others
+    fields = _nothing_more(modes, stations) | own | seen | others
     number, scale = len(fields["limit_bounds"]), 1.0 / fields["limit_bounds"]
     reach = (
         own | _seen(generator, fields["limit_rows"] * scale[:, None], fields["limit_offsets"] * scale) | {"shaft": []}
@@ -169,25 +169,25 @@ def rotor_record(
     if unbalance is not None:
         more = {"unbalance": unbalance, "unbalance_rows": seen["rate_rows"].dot(unbalance), "response": np.zeros(modes)}
         fields |= more
-    sizes = len(fields["shaft"]), number, len(fields["mirror"]), len(fields["gap_rows"])
-    layout = _rotor_layout(modes, planes, *sizes)
+    sizes = len(fields["shaft"]), number, len(fields["anisotropy"]), len(fields["gap_rows"])
+    layout = _rotor_layout(modes, stations, *sizes)
     return filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 
 @cache
-def _nothing_more(modes: int, planes: int) -> dict[str, Any]:
-    """Fields of a rotor between rigid walls, without race, shaft, limits, mirror and magnets."""
-    none = np.zeros(planes)
+def _nothing_more(modes: int, stations: int) -> dict[str, Any]:
+    """Fields of a rotor between rigid walls, without race, shaft, limits, anisotropy and magnets."""
+    none = np.zeros(stations)
     names = "law", "law_number", "stiffness", "loss", "race_gain"
     of_shaft = "shaft", "unbalance", "unbalance_rows", "response", "shaft_gain", "drive"
     return {
         **dict.fromkeys(names, none),
-        "farthest": np.full(planes, np.inf),
-        "race": np.full(planes, -1),
-        "masses": np.ones(planes),
+        "farthest": np.full(stations, np.inf),
+        "race": np.full(stations, -1),
+        "masses": np.ones(stations),
         "free": np.ones(modes),
-        **dict.fromkeys((*of_shaft, "mirror", "gap_offsets"), np.zeros(0)),
-        **dict.fromkeys(("mirror_columns", "limit_mirrors", "limit_columns"), np.zeros((modes, 0), COMPLEX)),
+        **dict.fromkeys((*of_shaft, "anisotropy", "gap_offsets"), np.zeros(0)),
+        **dict.fromkeys(("conjugate_columns", "limit_conjugates", "limit_columns"), np.zeros((modes, 0), COMPLEX)),
         **dict.fromkeys(("gap_rows", "limit_rows"), np.zeros((0, modes), COMPLEX)),
         **dict.fromkeys(("limit_bounds", "limit_offsets"), np.zeros(0)),
         "limit_couplings": np.zeros((0, 0), COMPLEX),
@@ -209,7 +209,7 @@ def _seen(generator: np.ndarray, rows: np.ndarray, offsets: np.ndarray) -> dict[
 
 
 @cache
-def _flight_fields(modes: int, planes: int) -> tuple[tuple[str, np.dtype, tuple[int, ...]], ...]:
+def _flight_fields(modes: int, stations: int) -> tuple[tuple[str, np.dtype, tuple[int, ...]], ...]:
     """Fields of what the search of a flight needs to know."""
     of_both = ("rows", "rate_rows", "acceleration_rows", "jerk_rows")
     return (
@@ -218,46 +218,46 @@ def _flight_fields(modes: int, planes: int) -> tuple[tuple[str, np.dtype, tuple[
         ("gaps", COMPLEX, (modes,)),
         ("inverse_gaps", COMPLEX, (modes,)),
         ("largest_response", REAL, (modes,)),
-        ("offsets", COMPLEX, (planes,)),
-        *((name, COMPLEX, (planes, modes)) for name in of_both),
+        ("offsets", COMPLEX, (stations,)),
+        *((name, COMPLEX, (stations, modes)) for name in of_both),
     )
 
 
 @cache
-def _flight_layout(modes: int, planes: int) -> np.dtype:
-    return layout_of((*_flight_fields(modes, planes), ("shaft", np.dtype(np.int64), (0,))))
+def _flight_layout(modes: int, stations: int) -> np.dtype:
+    return layout_of((*_flight_fields(modes, stations), ("shaft", np.dtype(np.int64), (0,))))
 
 
 @cache
-def _rotor_layout(modes: int, planes: int, shafts: int, limits: int, mirrors: int, gaps: int) -> np.dtype:
+def _rotor_layout(modes: int, stations: int, shafts: int, limits: int, anisotropic: int, gaps: int) -> np.dtype:
     return layout_of(
         (
-            *_flight_fields(modes, planes),
-            ("columns", COMPLEX, (modes, planes)),
-            ("mobility", COMPLEX, (planes, planes)),
-            ("weights", REAL, (planes,)),
-            *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
-            ("law", np.dtype(np.int64), (planes,)),
+            *_flight_fields(modes, stations),
+            ("columns", COMPLEX, (modes, stations)),
+            ("mobility", COMPLEX, (stations, stations)),
+            ("weights", REAL, (stations,)),
+            *((name, REAL, (stations,)) for name in ("friction", "restitution", "surface_speed")),
+            ("law", np.dtype(np.int64), (stations,)),
             *(
-                (name, REAL, (planes,))
+                (name, REAL, (stations,))
                 for name in ("law_number", "stiffness", "loss", "farthest", "race_gain", "masses")
             ),
-            ("race", np.dtype(np.int64), (planes,)),
+            ("race", np.dtype(np.int64), (stations,)),
             ("free", np.dtype(np.int8), (modes,)),
             ("shaft", np.dtype(np.int64), (shafts,)),
             *((name, COMPLEX, (shafts * modes,)) for name in ("unbalance", "response")),
-            ("unbalance_rows", COMPLEX, (shafts * planes,)),
-            ("shaft_gain", REAL, (shafts * planes,)),
+            ("unbalance_rows", COMPLEX, (shafts * stations,)),
+            ("shaft_gain", REAL, (shafts * stations,)),
             ("drive", REAL, (shafts,)),
             ("limit_rows", COMPLEX, (limits, modes)),
             ("limit_offsets", COMPLEX, (limits,)),
             ("limit_bounds", REAL, (limits,)),
             ("limit_columns", COMPLEX, (modes, limits)),
             ("limit_couplings", COMPLEX, (limits, limits)),
-            ("limit_pulls", COMPLEX, (planes, limits)),
-            ("mirror", np.dtype(np.int64), (mirrors,)),
-            ("mirror_columns", COMPLEX, (modes, mirrors * planes)),
-            ("limit_mirrors", COMPLEX, (modes, mirrors * limits)),
+            ("limit_pulls", COMPLEX, (stations, limits)),
+            ("anisotropy", np.dtype(np.int64), (anisotropic,)),
+            ("conjugate_columns", COMPLEX, (modes, anisotropic * stations)),
+            ("limit_conjugates", COMPLEX, (modes, anisotropic * limits)),
             ("gap_rows", COMPLEX, (gaps, modes)),
             ("gap_offsets", COMPLEX, (gaps,)),
             ("reach", _flight_layout(modes, limits), ()),
@@ -282,7 +282,7 @@ def workspace(modes: int) -> np.record:
 
 @cache
 def _workspace_layout(modes: int) -> np.dtype:
-    vectors = ("current", "arrival", "departure", "nearest", "increments", "at_node", "amplitudes")
+    vectors = ("current", "end", "departure", "nearest", "increments", "at_node", "amplitudes")
     return layout_of(
         (
             *((name, COMPLEX, (modes,)) for name in vectors),
@@ -292,35 +292,35 @@ def _workspace_layout(modes: int) -> np.dtype:
     )
 
 
-def rub_workspace(modes: int, planes: int = 1, limits: int = 0) -> np.record:
-    """Scratch arrays of contact: Taylor coefficients at the contact planes and of limits, impulses of joint impacts, states of contact."""
-    return blank(_rub_workspace_layout(modes, planes, limits))
+def rub_workspace(modes: int, stations: int = 1, limits: int = 0) -> np.record:
+    """Scratch arrays of contact: Taylor coefficients at the contact stations and of limits, impulses of joint impacts, states of contact."""
+    return blank(_rub_workspace_layout(modes, stations, limits))
 
 
 @cache
-def _rub_workspace_layout(modes: int, planes: int, limits: int) -> np.dtype:
+def _rub_workspace_layout(modes: int, stations: int, limits: int) -> np.dtype:
     return layout_of(
         (
             ("series", COMPLEX, (ORDER + 1, modes)),
-            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("position", "speed", "free", "force")),
-            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("normal", "pressed")),
-            *((name, REAL, (planes, ORDER + 1)) for name in ("push", "slip", "grip")),
-            *((name, REAL, (planes, ORDER + 1)) for name in ("rate", "power", "turning")),
-            ("depth", REAL, (planes, ORDER + 2)),
-            ("eccentricity", COMPLEX, (planes, ORDER + 1)),
+            *((name, COMPLEX, (stations, ORDER + 1)) for name in ("position", "speed", "free", "force")),
+            *((name, COMPLEX, (stations, ORDER + 1)) for name in ("normal", "pressed")),
+            *((name, REAL, (stations, ORDER + 1)) for name in ("push", "slip", "grip")),
+            *((name, REAL, (stations, ORDER + 1)) for name in ("rate", "power", "turning")),
+            ("depth", REAL, (stations, ORDER + 2)),
+            ("eccentricity", COMPLEX, (stations, ORDER + 1)),
             *((name, COMPLEX, (ORDER + 1,)) for name in ("sweep", "whirl", "euler")),
             ("braking", REAL, (ORDER + 1,)),
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
-            ("links", COMPLEX, (planes, planes, ORDER + 1)),
-            ("matrix", REAL, (2 * planes, 2 * planes + 1)),
-            ("couplings", COMPLEX, (planes, planes)),
+            ("links", COMPLEX, (stations, stations, ORDER + 1)),
+            ("matrix", REAL, (2 * stations, 2 * stations + 1)),
+            ("couplings", COMPLEX, (stations, stations)),
             *(
-                (name, COMPLEX, (planes,))
-                for name in ("arrivals", "local", "impulses", "compression", "tried", "tried_after", "levers")
+                (name, COMPLEX, (stations,))
+                for name in ("approaches", "local", "impulses", "compression", "tried", "tried_after", "levers")
             ),
-            *((name, REAL, (planes,)) for name in ("aims", "least")),
-            ("joined", np.dtype(np.int8), (planes,)),
-            ("contact", np.dtype(np.int64), (planes,)),
+            *((name, REAL, (stations,)) for name in ("aims", "least")),
+            ("joined", np.dtype(np.int8), (stations,)),
+            ("contact", np.dtype(np.int64), (stations,)),
             *((name, COMPLEX, (limits, ORDER + 1)) for name in ("asked", "turned", "beyond", "excess")),
             ("turn", COMPLEX, (ORDER + 1,)),
             ("clock", REAL, ()),

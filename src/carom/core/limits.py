@@ -46,7 +46,7 @@ def at_limits(work):
 @inlined
 def keeps_time(rotor):
     """Whether it matters how far the fixed frame has turned: contact then is asked after each whole turn whether it has settled."""
-    return rotor.limit_bounds.shape[0] > 0 or rotor.mirror.shape[0] > 0
+    return rotor.limit_bounds.shape[0] > 0 or rotor.anisotropy.shape[0] > 0
 
 
 @inlined

@@ -1,6 +1,6 @@
 """All periods of single-impact orbits: the roots of ``F₁(T) = 1 + Re(q a₂₂(T))``.
 
-For one contact plane with row ``W``, column ``B`` and flight ``ċ = Mc`` let, in the source paper's notation (4.1),
+For one contact station with row ``W``, column ``B`` and flight ``ċ = Mc`` let, in the source paper's notation (4.1),
 
     a₁₂(T) = W (e^{−MT} − 1)⁻¹ B,     a₂₂(T) = W M (e^{−MT} − 1)⁻¹ B.
 
@@ -49,7 +49,7 @@ MOST_STEPS = 200
 """More than bisection takes to exhaust double precision."""
 DEEPEST = 200
 """Halvings of one interval after which the search is given up: more than there are binary digits."""
-EMPTY, MONOTONE, DOUBTFUL, UNDECIDED = 0, 1, 2, 3
+EMPTY, MONOTONE, UNCERTAIN, UNDECIDED = 0, 1, 2, 3
 """What is known of ``F₁`` on an interval: no root, monotone, not to be distinguished from zero, or not enough."""
 
 
@@ -270,7 +270,7 @@ def _judge(modes, factor, left, right):
         return MONOTONE
     if change < noise:
         # Without damping F₁ has poles.  Next to one the rounding error is large, but there is no root.
-        return DOUBTFUL if noise < 1.0 else EMPTY
+        return UNCERTAIN if noise < 1.0 else EMPTY
     return UNDECIDED if half > ROUNDING * middle else EMPTY
 
 
@@ -290,7 +290,7 @@ def isolate(modes, factor, end, count, most):
     Returns
     -------
     intervals : array, shape (n, 3)
-        Both ends, in ascending order, and whether the interval is doubtful; on the others ``F₁`` is monotone.
+        Both ends, in ascending order, and whether the interval is uncertain; on the others ``F₁`` is monotone.
     complete : bool
         False if more halvings are needed.
     """
@@ -309,7 +309,7 @@ def isolate(modes, factor, end, count, most):
                     return intervals[:found], False
                 waiting[depth] = 0.5 * (left + right)
                 continue
-            if verdict == DOUBTFUL and found and intervals[found - 1, 1] == left and intervals[found - 1, 2] != 0.0:
+            if verdict == UNCERTAIN and found and intervals[found - 1, 1] == left and intervals[found - 1, 2] != 0.0:
                 intervals[found - 1, 1] = right
             elif verdict != EMPTY:
                 if found == len(intervals):
@@ -317,7 +317,7 @@ def isolate(modes, factor, end, count, most):
                     for j in range(found):
                         intervals[j, 0], intervals[j, 1], intervals[j, 2] = shorter[j, 0], shorter[j, 1], shorter[j, 2]
                 intervals[found, 0], intervals[found, 1] = left, right
-                intervals[found, 2] = 1.0 if verdict == DOUBTFUL else 0.0
+                intervals[found, 2] = 1.0 if verdict == UNCERTAIN else 0.0
                 found += 1
             left, depth = right, depth - 1
     return intervals[:found], True

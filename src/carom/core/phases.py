@@ -1,4 +1,4 @@
-"""States of contact of a plane, as integers for kernels."""
+"""States of contact of a station, as integers for kernels."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING, SEPARATED = (
     int(Phase.SEPARATED),
 )
 AWAY = -1
-"""State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.base.outcome.Phase`."""
+"""State of contact of a station that is not on its wall; on the wall it is a :class:`~carom.base.outcome.Phase`."""
 
 
 @inlined
 def lasts(phase):
-    """Whether a plane is in lasting contact."""
+    """Whether a station is in lasting contact."""
     return phase in (FORWARD_SLIP, BACKWARD_SLIP, ROLLING)
 
 
 @inlined
 def stays(phase):
-    """Whether a plane stays at its wall: in lasting contact, or separated from a wall that has not yet come back."""
+    """Whether a station stays at its wall: in lasting contact, or separated from a wall that has not yet come back."""
     return lasts(phase) or phase == SEPARATED
 
 

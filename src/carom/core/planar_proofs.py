@@ -17,8 +17,8 @@ import numpy as np
 
 from carom.core.compiling.decorators import kernel
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.friction import spare_friction
-from carom.core.layout import NEAR
+from carom.core.friction import friction_margin
+from carom.core.layout import RECURRENCE_RTOL
 from carom.core.records import record
 from carom.core.wall import wall_of
 
@@ -68,7 +68,7 @@ def planar_proofs(
 def stays_inside(rotor, amplitudes):
     """Whether a weakly damped flight provably stays inside the wall although the sum of its moduli reaches the wall.
 
-    For a rotor with one plane and a pair of modes of equal decay, ``y = K + s (c₊e^{iω₊t} + c₋e^{iω₋t})`` with
+    For a rotor with one station and a pair of modes of equal decay, ``y = K + s (c₊e^{iω₊t} + c₋e^{iω₋t})`` with
     ``s = e^{−δt}``.  As ``s ≤ 1``, ``|y|`` is at most the greater of ``|K|`` and the modulus without damping.  The
     latter is bounded over one period ``P``, in which the faster mode makes a whole number of turns: by samples, and by
     the second derivative between them.  In each further period the phase of the slower mode, with frequency ``ω``,
@@ -86,7 +86,7 @@ def stays_inside(rotor, amplitudes):
     if abs(slow_rate) > abs(fast_rate):
         slow, fast, slow_rate, fast_rate = fast, slow, fast_rate, slow_rate
     centre = rotor.offsets[0]
-    room = 1.0 - NEAR - math.sqrt(squared_modulus(centre))
+    room = 1.0 - RECURRENCE_RTOL - math.sqrt(squared_modulus(centre))
     reach = math.sqrt(squared_modulus(slow)) + math.sqrt(squared_modulus(fast))
     if room <= 0.0 or reach <= 0.0:
         return False
@@ -95,7 +95,7 @@ def stays_inside(rotor, amplitudes):
     bend = slow_rate * slow_rate * math.sqrt(squared_modulus(slow)) + fast_rate * fast_rate * math.sqrt(
         squared_modulus(fast)
     )
-    least, limit = room, 1.0 - NEAR - SLACK
+    least, limit = room, 1.0 - RECURRENCE_RTOL - SLACK
     for turns in range(1, TURNS + 1):
         span = 2.0 * math.pi * turns / abs(fast_rate)
         lag = abs(_wrapped(slow_rate * span))
@@ -168,13 +168,13 @@ def hastens(proofs, speed):
 
 
 @kernel
-def fades_to_rolling(proofs, rotor, arrival):
+def fades_to_rolling(proofs, rotor, end):
     """Whether the impact of a state stops the slip, and the bounces from there provably fade to rolling."""
     if proofs.fading <= 0.0:
         return False
-    local = displacement(rotor, 0, arrival).conjugate() * velocity(rotor, 0, arrival)
+    local = displacement(rotor, 0, end).conjugate() * velocity(rotor, 0, end)
     wall = wall_of(rotor, 0)
-    return spare_friction(local, wall) >= 0.0 and wall.restitution * local.real <= proofs.fading
+    return friction_margin(local, wall) >= 0.0 and wall.restitution * local.real <= proofs.fading
 
 
 @kernel

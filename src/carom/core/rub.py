@@ -17,7 +17,15 @@ from carom.core.compiling.decorators import inlined, kernel
 from carom.core.compliance import first_release, slip_in_wall
 from carom.core.contact_series import contact_forces, rub_series
 from carom.core.flow import acceleration, displacement, fly, squared_modulus, unbalance_drive, velocity
-from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
+from carom.core.friction import (
+    BACKWARD,
+    FORWARD,
+    STOPPED,
+    friction_ratio,
+    rolling_margin,
+    slip_of,
+    velocity_change_in_sense,
+)
 from carom.core.laws.choice import force
 from carom.core.layout import ORDER
 from carom.core.limits import FREE, set_limits
@@ -32,10 +40,10 @@ from carom.core.phases import (
     sense_of_phase,
     stays,
 )
-from carom.core.rounding import RESTING, position_rounding, push_rounding, speed_rounding, yielding_rounding
+from carom.core.rounding import RESTING, compliant_rounding, position_rounding, push_rounding, speed_rounding
 from carom.core.surfaces import may_change, relative_excess
 from carom.core.taylor import first_fall, series_step, sum_series
-from carom.core.wall import push_plane, rigid_wall, set_on_wall, unit, wall_of, yields
+from carom.core.wall import is_compliant, push_station, rigid_wall, set_on_wall, unit, wall_of
 
 NO_TURN = 1e-15
 """Distance along the wall that counts as zero."""
@@ -71,12 +79,12 @@ def forces_all(rotor, amplitudes, phases, clocks, work):
             work.clock = clocks[i]
             set_limits(rotor, amplitudes[i], work)
         contact_forces(rotor, phases[i], amplitudes[i], work)
-        for plane in range(phases.shape[1]):
-            if lasts(phases[i, plane]):
-                push, grip = work.push[plane, 0], work.grip[plane, 0]
-                if phases[i, plane] != ROLLING:
-                    grip = friction_ratio(sense_of_phase(phases[i, plane]), wall_of(rotor, plane)) * push
-                forces[i, plane, 0], forces[i, plane, 1] = push, grip
+        for station in range(phases.shape[1]):
+            if lasts(phases[i, station]):
+                push, grip = work.push[station, 0], work.grip[station, 0]
+                if phases[i, station] != ROLLING:
+                    grip = friction_ratio(sense_of_phase(phases[i, station]), wall_of(rotor, station)) * push
+                forces[i, station, 0], forces[i, station, 1] = push, grip
     return forces
 
 
@@ -91,10 +99,10 @@ def _same(first, second):
 
 @inlined
 def _stays(contact):
-    """Whether any plane stays at its wall."""
+    """Whether any station stays at its wall."""
     found = False
-    for plane in range(contact.shape[0]):
-        found = found or stays(contact[plane])
+    for station in range(contact.shape[0]):
+        found = found or stays(contact[station])
     return found
 
 
@@ -108,11 +116,11 @@ def _limited(states):
 
 
 @kernel
-def first_transition(rotor, plane, phase, step, work):
+def first_transition(rotor, station, phase, step, work):
     """First time within a step at which the kind of contact changes, and the phase that follows.
 
     Sliding ends where the normal force vanishes (flight follows) or the slip vanishes; rolling ends where the friction
-    it needs leaves the cone.  In a wall that gives way the depth may vanish (flight follows) or the force alone (the plane is separated).
+    it needs leaves the cone.  In a compliant wall the depth may vanish (flight follows) or the force alone (the station is separated).
 
     Returns
     -------
@@ -121,22 +129,22 @@ def first_transition(rotor, plane, phase, step, work):
     phase : int
         The phase that follows; the same if nothing changes, or if :func:`next_phase` must decide.
     undecided : bool
-        Whether :func:`next_phase` must decide: the slip vanishes, or a separated plane meets its wall again.
+        Whether :func:`next_phase` must decide: the slip vanishes, or a separated station reaches its wall again.
     """
-    wall, push = wall_of(rotor, plane), work.push[plane]
-    if yields(rotor, plane):
-        first, following, met = first_release(rotor, plane, phase, step, work)
+    wall, push = wall_of(rotor, station), work.push[station]
+    if is_compliant(rotor, station):
+        first, following, met = first_release(rotor, station, phase, step, work)
         if phase == SEPARATED:
             return first, following, met
-        rounding = yielding_rounding(rotor, plane, work.series[0])
+        rounding = compliant_rounding(rotor, station, work.series[0])
     else:
-        rounding = push_rounding(rotor, plane, work.series[0])
+        rounding = push_rounding(rotor, station, work.series[0])
         first = first_fall(push, step, rounding)
         following = FLIGHT if first < step else phase
     if phase == ROLLING:
         for k in range(ORDER + 1):
-            work.first_margin[k] = spare_grip(push[k], work.grip[plane, k], BACKWARD, wall)
-            work.second_margin[k] = spare_grip(push[k], work.grip[plane, k], FORWARD, wall)
+            work.first_margin[k] = rolling_margin(push[k], work.grip[station, k], BACKWARD, wall)
+            work.second_margin[k] = rolling_margin(push[k], work.grip[station, k], FORWARD, wall)
         rounding *= 1.0 + wall.friction
         backward = first_fall(work.first_margin, first, rounding)
         forward = first_fall(work.second_margin, backward, rounding)
@@ -145,55 +153,55 @@ def first_transition(rotor, plane, phase, step, work):
         if backward < first:
             return backward, BACKWARD_SLIP, False
         return first, following, False
-    if yields(rotor, plane) and wall.friction == 0.0:
+    if is_compliant(rotor, station) and wall.friction == 0.0:
         return first, following, False  # the sense of the slip changes nothing: all of it counts as forward
     sign = -1.0 if phase == BACKWARD_SLIP else 1.0
     for k in range(ORDER + 1):
-        work.first_margin[k] = sign * work.slip[plane, k]
-    stop = first_fall(work.first_margin, first, speed_rounding(rotor, plane, work.series[0]))
+        work.first_margin[k] = sign * work.slip[station, k]
+    stop = first_fall(work.first_margin, first, speed_rounding(rotor, station, work.series[0]))
     if stop < first:
         return stop, phase, True
     return first, following, False
 
 
 @kernel
-def first_contact(rotor, plane, on_wall, step, work):
-    """First time within a step at which a plane without lasting contact comes to the wall, or the step.
+def first_contact(rotor, station, on_wall, step, work):
+    """First time within a step at which a station without lasting contact comes to the wall, or the step.
 
     From ``(|y|²)'' = 2(Re(ȳÿ) + |ẏ|²)``; at rest on the wall see :func:`lift_off`.
     """
-    state, rise = work.series[0], _rise(plane, work)
-    if on_wall and abs(rise) <= 2.0 * RESTING * speed_rounding(rotor, plane, state):
-        return _first_return(rotor, plane, step, work)
-    gap = 0.0 if on_wall else 1.0 - squared_modulus(work.position[plane, 0])
+    state, rise = work.series[0], _rise(station, work)
+    if on_wall and abs(rise) <= 2.0 * RESTING * speed_rounding(rotor, station, state):
+        return _first_return(rotor, station, step, work)
+    gap = 0.0 if on_wall else 1.0 - squared_modulus(work.position[station, 0])
     work.first_margin[0], work.first_margin[1] = gap, rise
     for k in range(ORDER - 1):
-        work.first_margin[k + 2] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
-    return first_fall(work.first_margin, step, 2.0 * position_rounding(rotor, plane, state))
+        work.first_margin[k + 2] = -2.0 * work.push[station, k] / ((k + 1) * (k + 2))
+    return first_fall(work.first_margin, step, 2.0 * position_rounding(rotor, station, state))
 
 
 @inlined
-def _rise(plane, work):
+def _rise(station, work):
     """Rate of ``1 − |y|²`` at the start of a step."""
-    return -2.0 * (work.position[plane, 0].conjugate() * work.speed[plane, 0]).real
+    return -2.0 * (work.position[station, 0].conjugate() * work.speed[station, 0]).real
 
 
 @inlined
-def _first_return(rotor, plane, step, work):
-    """First time within a step at which a plane that starts at rest on its wall is back there, or the step.
+def _first_return(rotor, station, step, work):
+    """First time within a step at which a station that starts at rest on its wall is back there, or the step.
 
     Its distance from there on is ``1 − |y|² = rise t − 2∬N``.  Where it is pulled off by more than rounding, the little
     ``rise`` that counts as rest is kept, and the margin is the distance by ``t``.  Elsewhere it is left out: the margin is
     the distance by ``t²``, which tells a return from the start.
     """
-    rounding = push_rounding(rotor, plane, work.series[0])
-    if work.push[plane, 0] < -rounding:
-        work.first_margin[0] = max(_rise(plane, work), 0.0)
+    rounding = push_rounding(rotor, station, work.series[0])
+    if work.push[station, 0] < -rounding:
+        work.first_margin[0] = max(_rise(station, work), 0.0)
         for k in range(ORDER):
-            work.first_margin[k + 1] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
-        return first_fall(work.first_margin, step, speed_rounding(rotor, plane, work.series[0]))
+            work.first_margin[k + 1] = -2.0 * work.push[station, k] / ((k + 1) * (k + 2))
+        return first_fall(work.first_margin, step, speed_rounding(rotor, station, work.series[0]))
     for k in range(ORDER + 1):
-        work.first_margin[k] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
+        work.first_margin[k] = -2.0 * work.push[station, k] / ((k + 1) * (k + 2))
     return first_fall(work.first_margin, step, rounding)
 
 
@@ -222,51 +230,51 @@ def lift_off(rotor, contact, amplitudes, horizon, work):
 
 
 @kernel
-def turn_ahead(plane, reference, direction, step, work):
-    """Time within a step at which a plane next passes a reference position in the given direction, or the step."""
+def turn_ahead(station, reference, direction, step, work):
+    """Time within a step at which a station next passes a reference position in the given direction, or the step."""
     for k in range(ORDER + 1):
-        work.first_margin[k] = -direction * (reference.conjugate() * work.position[plane, k]).imag
+        work.first_margin[k] = -direction * (reference.conjugate() * work.position[station, k]).imag
     return first_fall(work.first_margin, step, NO_TURN)
 
 
 @kernel
-def rest_on_wall(rotor, plane, amplitudes, rolling):
+def rest_on_wall(rotor, station, amplitudes, rolling):
     """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and those of the rolling condition if it rolls."""
-    set_on_wall(rotor, plane, amplitudes)
-    normal = unit(displacement(rotor, plane, amplitudes))
-    local, surface_speed = normal.conjugate() * velocity(rotor, plane, amplitudes), rotor.surface_speed[plane]
-    surface_speed += relative_excess(rotor, plane, amplitudes)
+    set_on_wall(rotor, station, amplitudes)
+    normal = unit(displacement(rotor, station, amplitudes))
+    local, surface_speed = normal.conjugate() * velocity(rotor, station, amplitudes), rotor.surface_speed[station]
+    surface_speed += relative_excess(rotor, station, amplitudes)
     wall = rigid_wall(0.0, 0.0, surface_speed)
-    change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
-    push_plane(rotor, plane, change, amplitudes, amplitudes)
+    change = normal * velocity_change_in_sense(local, STOPPED if rolling else FORWARD, wall)
+    push_station(rotor, station, change, amplitudes, amplitudes)
 
 
 @kernel
-def meets_wall(rotor, plane, amplitudes):
-    """Whether a plane is at its wall, to rounding."""
-    gap = 1.0 - squared_modulus(displacement(rotor, plane, amplitudes))
-    return gap <= 2.0 * RESTING * position_rounding(rotor, plane, amplitudes)
+def is_at_wall(rotor, station, amplitudes):
+    """Whether a station is at its wall, to rounding."""
+    gap = 1.0 - squared_modulus(displacement(rotor, station, amplitudes))
+    return gap <= 2.0 * RESTING * position_rounding(rotor, station, amplitudes)
 
 
 @kernel
-def wall_push(rotor, plane, amplitudes):
+def wall_push(rotor, station, amplitudes):
     """Normal force that keeps a rotor at rest against the wall, and its rate at zero force."""
-    position = unit(displacement(rotor, plane, amplitudes))
-    speed = velocity(rotor, plane, amplitudes)
+    position = unit(displacement(rotor, station, amplitudes))
+    speed = velocity(rotor, station, amplitudes)
     free, jerk = 0j, 0j
     for m in range(amplitudes.shape[0]):
         rate = rotor.exponents[m] * amplitudes[m]
         if rotor.driven[m]:
             rate += amplitudes[m - 1]
-        free += rotor.acceleration_rows[plane, m] * amplitudes[m]
-        jerk += rotor.acceleration_rows[plane, m] * rate
+        free += rotor.acceleration_rows[station, m] * amplitudes[m]
+        jerk += rotor.acceleration_rows[station, m] * rate
     if rotor.shaft.shape[0] > 0:
         drive = unbalance_drive(rotor, amplitudes)
         turning = complex(0.0, amplitudes[rotor.shaft[0] + 1].real - 1.0)
-        free += rotor.unbalance_rows[plane] * drive
-        jerk += rotor.unbalance_rows[plane] * (turning * drive)
+        free += rotor.unbalance_rows[station] * drive
+        jerk += rotor.unbalance_rows[station] * (turning * drive)
         for m in range(amplitudes.shape[0]):
-            jerk += rotor.acceleration_rows[plane, m] * (rotor.unbalance[m] * drive)
+            jerk += rotor.acceleration_rows[station, m] * (rotor.unbalance[m] * drive)
     inward = (position.conjugate() * free).real
     turning = (position.conjugate() * speed).imag
     change = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * free).real
@@ -274,61 +282,61 @@ def wall_push(rotor, plane, amplitudes):
 
 
 @kernel
-def press(rotor, contact, plane, amplitudes, work):
-    """:func:`wall_push` with the forces of lasting contact at other planes."""
+def press(rotor, contact, station, amplitudes, work):
+    """:func:`wall_push` with the forces of lasting contact at other stations."""
     rub_series(rotor, contact, amplitudes, work)
-    radial = (unit(work.position[plane, 0]).conjugate() * work.speed[plane, 0]).real
-    return work.push[plane, 0] - radial * radial, work.push[plane, 1]
+    radial = (unit(work.position[station, 0]).conjugate() * work.speed[station, 0]).real
+    return work.push[station, 0] - radial * radial, work.push[station, 1]
 
 
 @kernel
-def next_phase(rotor, contact, plane, amplitudes, work):
+def next_phase(rotor, contact, station, amplitudes, work):
     """Phase that follows from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
 
     If the slip is zero, the rotor rolls if the friction needed for that lies within the cone.  Otherwise it slips in
     the direction of the tangential acceleration that friction cannot balance.  With ``μ = 0`` and no such acceleration,
     it continues to slip, in the direction opposite to that of the phase before.
     """
-    position, wall = unit(displacement(rotor, plane, amplitudes)), wall_of(rotor, plane)
-    slip = slip_of(position.conjugate() * velocity(rotor, plane, amplitudes), wall)
-    gives_way = yields(rotor, plane)
+    position, wall = unit(displacement(rotor, station, amplitudes)), wall_of(rotor, station)
+    slip = slip_of(position.conjugate() * velocity(rotor, station, amplitudes), wall)
+    gives_way = is_compliant(rotor, station)
     if gives_way and wall.friction == 0.0:
         return FORWARD_SLIP
     if gives_way:
-        slip = slip_in_wall(rotor, plane, amplitudes)
+        slip = slip_in_wall(rotor, station, amplitudes)
     else:
-        slip += relative_excess(rotor, plane, amplitudes)
-    if abs(slip) > speed_rounding(rotor, plane, amplitudes):
+        slip += relative_excess(rotor, station, amplitudes)
+    if abs(slip) > speed_rounding(rotor, station, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    alone = rotor.rows.shape[0] == 1 and not may_change(rotor, plane) and not gives_way
+    alone = rotor.rows.shape[0] == 1 and not may_change(rotor, station) and not gives_way
     if alone and rotor.limit_bounds.shape[0] == 0:
-        push, _ = wall_push(rotor, plane, amplitudes)
-        pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
+        push, _ = wall_push(rotor, station, amplitudes)
+        pull = (position.conjugate() * acceleration(rotor, station, amplitudes)).imag
     else:
-        push, pull = _rolling_forces(rotor, contact, plane, amplitudes, work)
+        push, pull = _rolling_forces(rotor, contact, station, amplitudes, work)
     begins = FORWARD if pull > 0.0 else BACKWARD
-    if -spare_grip(max(push, 0.0), -pull, begins, wall) > push_rounding(rotor, plane, amplitudes):
+    if -rolling_margin(max(push, 0.0), -pull, begins, wall) > push_rounding(rotor, station, amplitudes):
         return phase_of_slip(begins)
     if wall.friction > 0.0:
         return ROLLING
-    return BACKWARD_SLIP if contact[plane] == FORWARD_SLIP else FORWARD_SLIP
+    return BACKWARD_SLIP if contact[station] == FORWARD_SLIP else FORWARD_SLIP
 
 
 @kernel
-def phase_in_wall(rotor, contact, plane, amplitudes, work):
-    """Phase of a plane that is in a wall that gives way: parted from it where its force would pull."""
-    position = displacement(rotor, plane, amplitudes)
-    rate = (unit(position).conjugate() * velocity(rotor, plane, amplitudes)).real
-    if force(math.sqrt(squared_modulus(position)) - 1.0, rate, wall_of(rotor, plane)) <= 0.0:
+def phase_in_wall(rotor, contact, station, amplitudes, work):
+    """Phase of a station that is in a compliant wall: parted from it where its force would pull."""
+    position = displacement(rotor, station, amplitudes)
+    rate = (unit(position).conjugate() * velocity(rotor, station, amplitudes)).real
+    if force(math.sqrt(squared_modulus(position)) - 1.0, rate, wall_of(rotor, station)) <= 0.0:
         return SEPARATED
-    return next_phase(rotor, contact, plane, amplitudes, work)
+    return next_phase(rotor, contact, station, amplitudes, work)
 
 
 @inlined
-def _rolling_forces(rotor, contact, plane, amplitudes, work):
-    """Normal force if a plane rolls, and the pull along growing angle that friction then has to balance."""
-    before = contact[plane]
-    contact[plane] = ROLLING
+def _rolling_forces(rotor, contact, station, amplitudes, work):
+    """Normal force if a station rolls, and the pull along growing angle that friction then has to balance."""
+    before = contact[station]
+    contact[station] = ROLLING
     rub_series(rotor, contact, amplitudes, work)
-    contact[plane] = before
-    return work.push[plane, 0], -work.grip[plane, 0]
+    contact[station] = before
+    return work.push[station, 0], -work.grip[station, 0]

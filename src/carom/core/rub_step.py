@@ -1,4 +1,4 @@
-"""One step of lasting contact: up to the first change of contact at a plane, or until the rub has settled."""
+"""One step of lasting contact: up to the first change of contact at a station, or until the rub has settled."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from carom.base.outcome import Outcome
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
-from carom.core.fate import (
-    approaches_turn,
-    at_rest,
-    forget_rub,
-    in_step,
-    keeps_step,
-    near_rub,
-    never_repeats,
-    note_turn,
-    same_state,
-)
-from carom.core.layout import NEAR
+from carom.core.layout import RECURRENCE_RTOL
 from carom.core.limits import FREE as FREE_AXIS
 from carom.core.limits import TURN, WHOLE, change_limits, first_limit, keeps_time, pass_time
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
+from carom.core.settling import (
+    approaches_turn,
+    at_rest,
+    in_step,
+    is_turn_periodic,
+    near_rub,
+    never_repeats,
+    note_turn,
+    reset_rub,
+    same_state,
+)
 from carom.core.taylor import margin_step, series_step, sum_series
-from carom.core.wall import set_on_wall, unit, yields
+from carom.core.wall import is_compliant, set_on_wall, unit
 
 CONTACT, GRAZING, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
@@ -35,21 +35,21 @@ FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
     int(Outcome.ROLLING),
 )
 NOWHERE = -1
-"""Instead of a plane: none of them."""
+"""Instead of a station: none of them."""
 SWEEPS = 8
-"""Corrections of the planes in contact, one after another: with a coupling of 0.9 their error falls to a fifth."""
+"""Corrections of the stations in contact, one after another: with a coupling of 0.9 their error falls to a fifth."""
 
 
 @kernel
 def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     """Follow the Taylor series of a motion up to the first change of contact, in place.
 
-    Returns the outcome (CONTACT: the motion continues), the duration, and the plane that has changed, or the first plane
+    Returns the outcome (CONTACT: the motion continues), the duration, and the station that has changed, or the first station
     in lasting contact.
     """
     rub_series(rotor, contact, amplitudes, rub)
-    step, leading = _longest_step(rotor, contact, rub), leading_plane(rotor, contact)
-    if step == 0.0:  # forces at several planes have grown without bound, until there are none (Painlevé)
+    step, leading = _longest_step(rotor, contact, rub), leading_station(rotor, contact)
+    if step == 0.0:  # forces at several stations have grown without bound, until there are none (Painlevé)
         return GRAZING, 0.0, leading
     duration, changed, following, undecided = _first_change(rotor, contact, min(step, horizon), rub)
     axis, at_bound = WHOLE, FREE_AXIS
@@ -91,10 +91,10 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
 def _longest_step(rotor, contact, rub):
     """Longest step of the series; zero if they are not finite."""
     step = series_step(rub)
-    for plane in range(rotor.rows.shape[0]):
-        if yields(rotor, plane) and stays(contact[plane]):
+    for station in range(rotor.rows.shape[0]):
+        if is_compliant(rotor, station) and stays(contact[station]):
             # The distance from the centre is a root: its series may reach less far than those of the amplitudes.
-            step = min(step, margin_step(rub.depth[plane]))
+            step = min(step, margin_step(rub.depth[station]))
     return step
 
 
@@ -102,40 +102,40 @@ def _longest_step(rotor, contact, rub):
 def _end_by_turns(rotor, whole, speed, amplitudes, memory):
     """What contact settles to after a turn along the wall, or a whole turn of the shaft; CONTACT if it goes on."""
     if whole:
-        if not keeps_step(memory, amplitudes):
+        if not is_turn_periodic(memory, amplitudes):
             return CONTACT
         backward = ROLLS_ON if memory.turn_slipped == 0 else BACKWARD_WHIRL
         return backward if speed < -1.0 else FORWARD_RUB
     note_turn(rotor, memory, amplitudes)
-    recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
+    recurred = same_state(memory.turn_state, amplitudes, RECURRENCE_RTOL * min(1.0, memory.turn_time))
     recurred = recurred and in_step(memory, memory.turn_clock, memory.turn_limited)
     # Of a shaft that loses its speed the state changes in each turn until it stands.
     if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):
         backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
         rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
         return rub_outcome if memory.turn_slipped > 0 else ROLLS_ON
-    forget_rub(memory)
+    reset_rub(memory)
     return CONTACT
 
 
 @inlined
 def _remove_rounding(rotor, contact, changed, following, undecided, moved, amplitudes, memory):
     """Remove rounding errors across the walls at the end of a step, and from a slip that has stopped."""
-    # What puts one plane to rest on its wall moves the others: several sweeps leave no more than rounding.
+    # What puts one station to rest on its wall moves the others: several sweeps leave no more than rounding.
     for sweep in range(1 if rotor.rows.shape[0] == 1 else SWEEPS):
-        for plane in range(rotor.rows.shape[0]):
-            phase = contact[plane]
+        for station in range(rotor.rows.shape[0]):
+            phase = contact[station]
             if stays(phase):
-                rolls = phase == ROLLING or (plane == changed and undecided and lasts(phase))
-                if yields(rotor, plane):
-                    leaves = plane == changed and not undecided and following == FLIGHT
-                    stay_in_wall(rotor, plane, rolls, leaves, amplitudes)
+                rolls = phase == ROLLING or (station == changed and undecided and lasts(phase))
+                if is_compliant(rotor, station):
+                    leaves = station == changed and not undecided and following == FLIGHT
+                    stay_in_wall(rotor, station, rolls, leaves, amplitudes)
                 else:
-                    rest_on_wall(rotor, plane, amplitudes, rolls)
+                    rest_on_wall(rotor, station, amplitudes, rolls)
                 if phase != ROLLING:
                     memory.turn_slipped = 1
             elif moved and sweep == 0:
-                contact[plane] = AWAY
+                contact[station] = AWAY
 
 
 @inlined
@@ -155,44 +155,44 @@ def _known_end(rotor, slips, position, speed, memory, rub):
 
 @inlined
 def _first_change(rotor, contact, step, rub):
-    """First change of contact within a step: its time, plane and following phase, and whether the phase is undecided."""
+    """First change of contact within a step: its time, station and following phase, and whether the phase is undecided."""
     duration, changed, following, undecided = step, NOWHERE, FLIGHT, False
-    for plane in range(rotor.rows.shape[0]):
+    for station in range(rotor.rows.shape[0]):
         after, unsure = FLIGHT, False
-        if stays(contact[plane]):
-            if yields(rotor, plane):
-                form = next_form(rotor, plane, duration, rub)
+        if stays(contact[station]):
+            if is_compliant(rotor, station):
+                form = next_form(rotor, station, duration, rub)
                 if form < duration:
                     duration, changed, following, undecided = form, NOWHERE, FLIGHT, False
-            time, after, unsure = first_transition(rotor, plane, contact[plane], duration, rub)
+            time, after, unsure = first_transition(rotor, station, contact[station], duration, rub)
         elif rotor.rows.shape[0] > 1 or rotor.limit_bounds.shape[0] > 0:
-            time = first_contact(rotor, plane, contact[plane] == FLIGHT, duration, rub)
+            time = first_contact(rotor, station, contact[station] == FLIGHT, duration, rub)
         else:
             time = duration
         if time < duration:
-            duration, changed, following, undecided = time, plane, after, unsure
+            duration, changed, following, undecided = time, station, after, unsure
     return duration, changed, following, undecided
 
 
 @inlined
-def leading_plane(rotor, contact):
-    """First plane that stays at its wall, whose turns are watched; NOWHERE if there is none."""
-    for plane in range(rotor.rows.shape[0]):
-        if stays(contact[plane]):
-            return plane
+def leading_station(rotor, contact):
+    """First station that stays at its wall, whose turns are watched; NOWHERE if there is none."""
+    for station in range(rotor.rows.shape[0]):
+        if stays(contact[station]):
+            return station
     return NOWHERE
 
 
 @inlined
-def _change_contact(rotor, contact, plane, following, undecided, amplitudes, memory, rub):
-    """Change the contact of a plane: it lifts off, slips, rolls, or has come to the wall."""
+def _change_contact(rotor, contact, station, following, undecided, amplitudes, memory, rub):
+    """Change the contact of a station: it lifts off, slips, rolls, or has come to the wall."""
     if undecided:
-        following = next_phase(rotor, contact, plane, amplitudes, rub)
-    stayed = stays(contact[plane])
+        following = next_phase(rotor, contact, station, amplitudes, rub)
+    stayed = stays(contact[station])
     if not stayed:
-        set_on_wall(rotor, plane, amplitudes)
+        set_on_wall(rotor, station, amplitudes)
     elif following == FLIGHT:
-        memory.lifting = plane + 1
+        memory.lifting = station + 1
     if rotor.rows.shape[0] > 1 and not (stayed and stays(following)):
-        forget_rub(memory)
-    contact[plane] = following
+        reset_rub(memory)
+    contact[station] = following

@@ -15,14 +15,14 @@ import numpy as np
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, flight_increments, squared_modulus
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
-from carom.core.variation import strike
+from carom.core.variation import apply_impact
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED = range(3)
 """Kinds of impacts, by the slip after them."""
 
 
 @kernel
-def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes):
+def follow_flights(rotor, basis, to_modes, rest, kinds, stations, targets, nodes, durations, ends, values, slopes):
     """Follow each impact and flight from its node, with the derivatives of its end, where the wall is to be met.
 
     Parameters
@@ -32,14 +32,14 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
         State (coordinates, then their rates) per amplitude, and amplitudes per state.
     rest : complex array, shape (S,)
         State whose amplitudes are zero.
-    kinds, planes : int arrays, shape (m,)
-        Kind and plane of the impact with which each segment begins.
+    kinds, stations : int arrays, shape (m,)
+        Kind and station of the impact with which each segment begins.
     targets : int array, shape (m,)
-        Plane at whose wall it ends.
+        Station at whose wall it ends.
     nodes : complex array, shape (m, S)
         States at the beginning: just before the impact.
     durations : array, shape (m,)
-    arrivals : complex array, shape (m, S)
+    impacts : complex array, shape (m, S)
         Overwritten: states at the end.
     values : array, shape (m,)
         Overwritten: value of the condition, ``(|y|² − 1)/2``.
@@ -51,14 +51,14 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
     moved, increments = np.empty((last + 1, modes), np.complex128), np.empty((last + 1, modes), np.complex128)
     rate = np.empty(modes, np.complex128)
     for i in range(kinds.shape[0]):
-        directions = set_out(to_modes, rest, nodes[i], moved)
-        strike(rotor, planes[i], sense_after(kinds[i]), moved[last], directions)
+        directions = perturbation_basis(to_modes, rest, nodes[i], moved)
+        apply_impact(rotor, stations[i], sense_after(kinds[i]), moved[last], directions)
         flight_increments(rotor, moved, durations[i], increments)
         for row in range(last + 1):
             for k in range(modes):
                 moved[row, k] += increments[row, k]
         _flight_rate(rotor, moved[last], rate)
-        hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
+        store_result(basis, rest, moved, rate, ends[i], slopes[i])
         y = displacement(rotor, targets[i], moved[last])
         values[i] = 0.5 * (squared_modulus(y) - 1.0)
         for row in range(last + 1):
@@ -69,7 +69,7 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
 
 
 @inlined
-def set_out(to_modes, rest, node, moved):
+def perturbation_basis(to_modes, rest, node, moved):
     """Write the amplitudes of a unit change of each real and imaginary part of the state, and in the last row those of the state.
 
     Return the rows of the changes.
@@ -84,7 +84,7 @@ def set_out(to_modes, rest, node, moved):
 
 
 @inlined
-def hand_over(basis, rest, moved, rate, arrival, slopes):
+def store_result(basis, rest, moved, rate, end, slopes):
     """Write the state from its amplitudes, and the derivatives of its real and imaginary parts."""
     size, modes = basis.shape
     for j in range(size):
@@ -93,9 +93,9 @@ def hand_over(basis, rest, moved, rate, arrival, slopes):
             for k in range(modes):
                 change += basis[j, k] * (rate[k] if row == 2 * size else moved[row, k])
             slopes[j, row], slopes[size + j, row] = change.real, change.imag
-        arrival[j] = rest[j]
+        end[j] = rest[j]
         for k in range(modes):
-            arrival[j] += basis[j, k] * moved[2 * size, k]
+            end[j] += basis[j, k] * moved[2 * size, k]
 
 
 @inlined

@@ -17,9 +17,9 @@ import numpy as np
 
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus
-from carom.core.friction import arrival_by_law
+from carom.core.friction import velocity_change_by_law
 from carom.core.segments import sense_after
-from carom.core.variation import strike
+from carom.core.variation import apply_impact
 from carom.core.wall import local_velocity, rigid_wall, unit, wall_of
 
 NEGLIGIBLE, MOST_TERMS = 1e-17, 30
@@ -38,7 +38,7 @@ def sensitivity_of_flights(
     restitution,
     surface_speed,
     kinds,
-    planes,
+    stations,
     targets,
     nodes,
     durations,
@@ -47,14 +47,14 @@ def sensitivity_of_flights(
 
     Parameters
     ----------
-    rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations
+    rotor, basis, to_modes, rest, kinds, stations, targets, nodes, durations
         As for :func:`~carom.core.segments.follow_flights`.
     accelerations : complex array, shape (S/2, S)
         Derivative of the accelerations of the coordinates per coordinate, then per rate of a coordinate.
     force : complex array, shape (S/2,)
         Derivative of their constant part.
     friction, restitution, surface_speed : arrays, shape (P,)
-        Derivatives of the contact law of each plane.
+        Derivatives of the contact law of each station.
 
     Returns
     -------
@@ -73,17 +73,17 @@ def sensitivity_of_flights(
     end, end_change = np.empty(modes, np.complex128), np.empty(modes, np.complex128)
     growth, response = np.empty((modes, modes), np.complex128), np.empty((modes, modes + 1), np.complex128)
     for i in range(m):
-        plane = planes[i]
+        station = stations[i]
         for k in range(modes):
             state[k] = 0j
             for j in range(size):
                 state[k] += to_modes[k, j] * (nodes[i, j] - rest[j])
-        normal, sense = unit(displacement(rotor, plane, state)), sense_after(kinds[i])
-        by_law = rigid_wall(friction[plane], restitution[plane], surface_speed[plane])
-        change = arrival_by_law(local_velocity(rotor, plane, state), sense, wall_of(rotor, plane), by_law)
+        normal, sense = unit(displacement(rotor, station, state)), sense_after(kinds[i])
+        by_law = rigid_wall(friction[station], restitution[station], surface_speed[station])
+        change = velocity_change_by_law(local_velocity(rotor, station, state), sense, wall_of(rotor, station), by_law)
         for k in range(modes):
-            changed[k] = rotor.columns[k, plane] * (normal * change)
-        strike(rotor, plane, sense, state, still)
+            changed[k] = rotor.columns[k, station] * (normal * change)
+        apply_impact(rotor, station, sense, state, still)
         _respond(rotor, coupling, durations[i], growth, response)
         for k in range(modes):
             end[k], end_change[k] = 0j, response[k, modes]

@@ -1,4 +1,4 @@
-"""How small changes of a state propagate through an impact, a flight and the next arrival at the wall."""
+"""How small changes of a state propagate through an impact, a flight and up to the next impact."""
 
 from __future__ import annotations
 
@@ -8,94 +8,96 @@ import numpy as np
 
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
-from carom.core.friction import arrival_change, arrival_in_sense, sense_of
+from carom.core.friction import sense_of, velocity_change_by_speed, velocity_change_in_sense
 from carom.core.wall import local_velocity, unit, wall_of
 
 
 @kernel
-def carry_through_impact(rotor, plane, before, directions):
+def carry_through_impact(rotor, station, before, directions):
     """Replace changes of the amplitudes just before an impact by those just after it.
 
     Parameters
     ----------
     rotor : record of :func:`~carom.core.layout.rotor_record`
-    plane : int
+    station : int
     before : complex array, shape (N,)
         Amplitudes just before the impact.
     directions : complex array, shape (D, N)
         Changes of the amplitudes, along the wall; overwritten.
     """
-    carry_through_blow(rotor, plane, wall_of(rotor, plane), sense_of_impact(rotor, plane, before), before, directions)
+    impact_derivatives(
+        rotor, station, wall_of(rotor, station), sense_of_impact(rotor, station, before), before, directions
+    )
 
 
 @inlined
-def carry_through_blow(rotor, plane, wall, sense, before, directions):
-    """:func:`carry_through_impact` for a given sense of the slip; returns the change of the plane's velocity.
+def impact_derivatives(rotor, station, wall, sense, before, directions):
+    """:func:`carry_through_impact` for a given sense of the slip; returns the change of the station's velocity.
 
     The directions need not lie along the wall.
     """
-    position = displacement(rotor, plane, before)
+    position = displacement(rotor, station, before)
     normal, radius = unit(position), math.sqrt(squared_modulus(position))
-    local = normal.conjugate() * velocity(rotor, plane, before)
-    change = arrival_in_sense(local, sense, wall)
+    local = normal.conjugate() * velocity(rotor, station, before)
+    change = velocity_change_in_sense(local, sense, wall)
     for row in range(directions.shape[0]):
-        moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
+        moved = displacement(rotor, station, directions[row]) - rotor.offsets[station]
         turn = (normal.conjugate() * moved).imag / radius
-        swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turn * local
-        varied = normal * (arrival_change(local, sense, wall, swing) + 1j * turn * change)
+        swing = normal.conjugate() * velocity(rotor, station, directions[row]) - 1j * turn * local
+        varied = normal * (velocity_change_by_speed(local, sense, wall, swing) + 1j * turn * change)
         for k in range(before.shape[0]):
-            directions[row, k] += rotor.columns[k, plane] * varied
+            directions[row, k] += rotor.columns[k, station] * varied
     return normal * change
 
 
 @kernel
-def strike(rotor, plane, sense, state, directions):
+def apply_impact(rotor, station, sense, state, directions):
     """Impact with a given sense of the slip, in place, whether or not it is possible; the directions go along."""
-    blow(rotor, plane, wall_of(rotor, plane), sense, state, directions)
+    apply_impact_with(rotor, station, wall_of(rotor, station), sense, state, directions)
 
 
 @inlined
-def blow(rotor, plane, wall, sense, state, directions):
-    """:func:`strike` at a wall with numbers of its own."""
-    change = carry_through_blow(rotor, plane, wall, sense, state, directions)
+def apply_impact_with(rotor, station, wall, sense, state, directions):
+    """:func:`apply_impact` at a wall with numbers of its own."""
+    change = impact_derivatives(rotor, station, wall, sense, state, directions)
     for k in range(state.shape[0]):
-        state[k] += rotor.columns[k, plane] * change
+        state[k] += rotor.columns[k, station] * change
 
 
 @kernel
-def carry_to_wall(rotor, plane, duration, arrival, directions, delays):
-    """Replace changes at the start of a flight by the changes at its arrival at the wall.
+def saltation_step(rotor, station, duration, end, directions, delays):
+    """Replace changes at the start of a flight by the changes at its end on the wall.
 
-    A changed flight arrives later by ``δt = −Re(ȳ δy)/Re(ȳ ẏ)`` (earlier if negative), which moves its arrival by
+    A changed flight arrives later by ``δt = −Re(ȳ δy)/Re(ȳ ẏ)`` (earlier if negative), which moves its end by
     ``ċ δt``: the saltation term.
 
     Parameters
     ----------
     rotor : record of :func:`~carom.core.layout.rotor_record`
-    plane : int
+    station : int
     duration : float
         Length of the unchanged flight.
-    arrival : complex array, shape (N,)
+    impact : complex array, shape (N,)
         Amplitudes of the unchanged flight where it meets the wall.
     directions : complex array, shape (D, N)
         Changes of the amplitudes; overwritten.
     delays : array, shape (D,)
         On return ``δt`` of each change.
     """
-    position = displacement(rotor, plane, arrival)
-    outward = (position.conjugate() * velocity(rotor, plane, arrival)).real
+    position = displacement(rotor, station, end)
+    outward = (position.conjugate() * velocity(rotor, station, end)).real
     increments = np.empty_like(directions)
     flight_increments(rotor, directions, duration, increments)
     for i in range(directions.shape[0]):
-        for k in range(arrival.shape[0]):
+        for k in range(end.shape[0]):
             directions[i, k] += increments[i, k]
-        position_change = displacement(rotor, plane, directions[i]) - rotor.offsets[plane]
+        position_change = displacement(rotor, station, directions[i]) - rotor.offsets[station]
         delays[i] = -(position.conjugate() * position_change).real / outward
-    shift(rotor, arrival, directions, delays)
+    shift(rotor, end, directions, delays)
 
 
 @kernel
-def carry_through_impacts(rotor, planes, arrivals, afters, durations, directions):
+def carry_through_impacts(rotor, stations, befores, afters, durations, directions):
     """Replace changes at the start of a sequence of flights and impacts by the changes at its end, at the same time.
 
     Returns the largest distance of amplitudes after an impact from those of an impact on this touchdown bearing alone.
@@ -103,9 +105,9 @@ def carry_through_impacts(rotor, planes, arrivals, afters, durations, directions
     Parameters
     ----------
     rotor : record of :func:`~carom.core.layout.rotor_record`
-    planes : int array, shape (n,)
+    stations : int array, shape (n,)
         Touchdown bearing of each impact; −1 where one flight goes over into the next.
-    arrivals, afters : complex arrays, shape (n, N)
+    impacts, afters : complex arrays, shape (n, N)
         Amplitudes before and after each impact.
     durations : array, shape (n + 1,)
         Length of each flight.
@@ -114,11 +116,11 @@ def carry_through_impacts(rotor, planes, arrivals, afters, durations, directions
     """
     delays, increments, apart = np.empty(directions.shape[0]), np.empty_like(directions), 0.0
     for i in range(durations.shape[0]):
-        if i < planes.shape[0] and planes[i] >= 0:
-            carry_to_wall(rotor, planes[i], durations[i], arrivals[i], directions, delays)
-            carry_through_impact(rotor, planes[i], arrivals[i], directions)
-            after = arrivals[i].copy()
-            strike(rotor, planes[i], sense_of_impact(rotor, planes[i], arrivals[i]), after, directions[:0])
+        if i < stations.shape[0] and stations[i] >= 0:
+            saltation_step(rotor, stations[i], durations[i], befores[i], directions, delays)
+            carry_through_impact(rotor, stations[i], befores[i], directions)
+            after = befores[i].copy()
+            apply_impact(rotor, stations[i], sense_of_impact(rotor, stations[i], befores[i]), after, directions[:0])
             for k in range(after.shape[0]):
                 apart = max(apart, squared_modulus(after[k] - afters[i, k]))
             for row in range(delays.shape[0]):
@@ -133,10 +135,10 @@ def carry_through_impacts(rotor, planes, arrivals, afters, durations, directions
 
 
 @inlined
-def sense_of_impact(rotor, plane, before):
+def sense_of_impact(rotor, station, before):
     """Sense of the slip in an impact, from the amplitudes just before it."""
-    wall = wall_of(rotor, plane)
-    return sense_of(local_velocity(rotor, plane, before), wall)
+    wall = wall_of(rotor, station)
+    return sense_of(local_velocity(rotor, station, before), wall)
 
 
 @kernel
@@ -171,7 +173,7 @@ def section_jacobian(rotor, orbit, durations, jacobian):
     set_amplitude_change(rotor, 0j, 1j * position, directions[2])
     for i in range(durations.shape[0]):
         carry_through_impact(rotor, 0, orbit[i], directions)
-        carry_to_wall(rotor, 0, durations[i], orbit[i + 1], directions, delays)
+        saltation_step(rotor, 0, durations[i], orbit[i + 1], directions, delays)
     normal = unit(displacement(rotor, 0, orbit[-1]))
     local = normal.conjugate() * velocity(rotor, 0, orbit[-1])
     for i in range(3):

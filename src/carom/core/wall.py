@@ -1,4 +1,4 @@
-"""Walls: their numbers, and planes at them: the velocity there, and how to put them exactly on it."""
+"""Walls: their numbers, and stations at them: the velocity there, and how to put them exactly on it."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from carom.core.flow import displacement, squared_modulus, velocity
 
 
 class Wall(NamedTuple):
-    """What the laws need to know of a contact plane.
+    """What the laws need to know of a contact station.
 
     Attributes
     ----------
     friction, restitution : float
-        Coefficients ``μ``, and ``d`` of slow arrivals.
+        Coefficients ``μ``, and ``d`` of slow impacts.
     surface_speed : float
         Slip velocity of a rotor at rest in the co-rotating frame, ``s + 1``, in clearances per unit time.
     law : int
@@ -23,9 +23,9 @@ class Wall(NamedTuple):
     law_number : float
         The law's own number.
     stiffness, loss : float
-        Of a wall that gives way, per effective mass of the plane; a wall without stiffness does not.
+        Of a compliant wall, per effective mass of the station; a wall without stiffness does not.
     farthest : float
-        Distance of the plane from the centre, in clearances, up to which a motion is followed in a wall that gives way.
+        Distance of the station from the centre, in clearances, up to which a motion is followed in a compliant wall.
     """
 
     friction: float
@@ -39,17 +39,17 @@ class Wall(NamedTuple):
 
 
 @formula
-def wall_of(rotor, plane):
-    """Numbers of the wall at a plane of a rotor."""
+def wall_of(rotor, station):
+    """Numbers of the wall at a station of a rotor."""
     return Wall(
-        rotor.friction[plane],
-        rotor.restitution[plane],
-        rotor.surface_speed[plane],
-        rotor.law[plane],
-        rotor.law_number[plane],
-        rotor.stiffness[plane],
-        rotor.loss[plane],
-        rotor.farthest[plane],
+        rotor.friction[station],
+        rotor.restitution[station],
+        rotor.surface_speed[station],
+        rotor.law[station],
+        rotor.law_number[station],
+        rotor.stiffness[station],
+        rotor.loss[station],
+        rotor.farthest[station],
     )
 
 
@@ -60,9 +60,9 @@ def rigid_wall(friction, restitution, surface_speed):
 
 
 @inlined
-def yields(rotor, plane):
-    """Whether the wall at a plane gives way."""
-    return rotor.stiffness[plane] > 0.0
+def is_compliant(rotor, station):
+    """Whether the wall at a station is compliant."""
+    return rotor.stiffness[station] > 0.0
 
 
 @inlined
@@ -73,34 +73,34 @@ def unit(z):
 
 
 @inlined
-def local_velocity(rotor, plane, amplitudes):
-    """Velocity ``ṙ + iθ̇`` of a plane in the frame of its contact."""
-    return unit(displacement(rotor, plane, amplitudes)).conjugate() * velocity(rotor, plane, amplitudes)
+def local_velocity(rotor, station, amplitudes):
+    """Velocity ``ṙ + iθ̇`` of a station in the frame of its contact."""
+    return unit(displacement(rotor, station, amplitudes)).conjugate() * velocity(rotor, station, amplitudes)
 
 
 @inlined
-def set_on_wall(rotor, plane, amplitudes):
-    """Move a plane to the nearest point of the wall by the smallest change of the amplitudes."""
-    position = displacement(rotor, plane, amplitudes)
-    move_plane(rotor, plane, unit(position) - position, amplitudes)
+def set_on_wall(rotor, station, amplitudes):
+    """Move a station to the nearest point of the wall by the smallest change of the amplitudes."""
+    position = displacement(rotor, station, amplitudes)
+    move_station(rotor, station, unit(position) - position, amplitudes)
 
 
 @inlined
-def move_plane(rotor, plane, shift, amplitudes):
-    """Move a plane by the smallest change of the amplitudes of free modes: forces do not depend on where it is."""
-    scale = 1.0 / rotor.weights[plane]
+def move_station(rotor, station, shift, amplitudes):
+    """Move a station by the smallest change of the amplitudes of free modes: forces do not depend on where it is."""
+    scale = 1.0 / rotor.weights[station]
     scaled = complex(scale * shift.real, scale * shift.imag)
     for k in range(amplitudes.shape[0]):
         if rotor.free[k]:
-            amplitudes[k] += rotor.rows[plane, k].conjugate() * scaled
+            amplitudes[k] += rotor.rows[station, k].conjugate() * scaled
 
 
 @inlined
-def push_plane(rotor, plane, change, before, after):
-    """Amplitudes after an impulse at a plane that changes its velocity by so much; before and after may be one array."""
+def push_station(rotor, station, change, before, after):
+    """Amplitudes after an impulse at a station that changes its velocity by so much; before and after may be one array."""
     for k in range(after.shape[0]):
-        after[k] = before[k] + rotor.columns[k, plane] * change
-    if rotor.mirror.shape[0] > 0:
-        mirrored = change.conjugate() * after[rotor.mirror[0]]
+        after[k] = before[k] + rotor.columns[k, station] * change
+    if rotor.anisotropy.shape[0] > 0:
+        conjugated = change.conjugate() * after[rotor.anisotropy[0]]
         for k in range(after.shape[0]):
-            after[k] += rotor.mirror_columns[k, plane] * mirrored
+            after[k] += rotor.conjugate_columns[k, station] * conjugated

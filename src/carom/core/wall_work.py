@@ -10,10 +10,10 @@ from carom.core.friction import friction_ratio
 from carom.core.laws.choice import force, stored_energy
 from carom.core.layout import ORDER
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
-from carom.core.wall import wall_of, yields
+from carom.core.wall import is_compliant, wall_of
 
 COLUMNS = 9
-NORMAL, FRICTION, HEAT, LOST, DRIVEN, FORCE, FORCE_TIME, DEPTH, POWER = range(COLUMNS)
+NORMAL, FRICTION, HEAT, DAMPED, DRIVEN, FORCE, FORCE_TIME, DEPTH, POWER = range(COLUMNS)
 """What is found of a step: impulses of normal force and friction, heat of friction, work lost in the wall's damper, integral of the friction times
 the speed of the shaft; largest normal force and its time, largest depth and largest power of friction."""
 _COUNT = 8
@@ -27,9 +27,9 @@ _NEWTON_STEPS = 5
 
 @kernel
 def contact_works_all(rotor, segments, amplitudes, phases, limited, clocks, durations, work, found):
-    """What contact does at all planes in chosen segments (k,) of a motion, each of a duration (k,) and from an instant (k,).
+    """What contact does at all stations in chosen segments (k,) of a motion, each of a duration (k,) and from an instant (k,).
 
-    ``amplitudes``, ``phases`` and ``limited`` are those of all segments.  ``found`` (k, P, 9) receives the columns above; of a plane that
+    ``amplitudes``, ``phases`` and ``limited`` are those of all segments.  ``found`` (k, P, 9) receives the columns above; of a station that
     has parted from its wall the depth alone, zero of one in flight.
     """
     found[:] = 0.0
@@ -39,25 +39,25 @@ def contact_works_all(rotor, segments, amplitudes, phases, limited, clocks, dura
             work.clock = clocks[i]
             work.limited[:] = limited[segment]
         rub_series(rotor, phases[segment], amplitudes[segment], work)
-        for plane in range(phases.shape[1]):
-            phase = phases[segment, plane]
-            if stays(phase) and yields(rotor, plane):
-                found[i, plane, DEPTH] = _highest(work.depth[plane], durations[i])[0]
+        for station in range(phases.shape[1]):
+            phase = phases[segment, station]
+            if stays(phase) and is_compliant(rotor, station):
+                found[i, station, DEPTH] = _highest(work.depth[station], durations[i])[0]
             if lasts(phase):
-                _contact(rotor, plane, phase, durations[i], work, found[i, plane])
+                _contact(rotor, station, phase, durations[i], work, found[i, station])
 
 
 @inlined
-def _contact(rotor, plane, phase, duration, work, found):
-    """Add up what a plane in contact does in a step."""
-    wall, mass, soft = wall_of(rotor, plane), rotor.masses[plane], yields(rotor, plane)
+def _contact(rotor, station, phase, duration, work, found):
+    """Add up what a station in contact does in a step."""
+    wall, mass, soft = wall_of(rotor, station), rotor.masses[station], is_compliant(rotor, station)
     if phase != ROLLING:
         ratio = friction_ratio(sense_of_phase(phase), wall)
         for k in range(ORDER + 1):
-            work.grip[plane, k] = ratio * work.push[plane, k]
+            work.grip[station, k] = ratio * work.push[station, k]
     for j in range(1, POINTS.shape[0] - 1):
         time, share = duration * POINTS[j], mass * duration * SHARES[j]
-        push, grip = _sum(work.push[plane], time), _sum(work.grip[plane], time)
+        push, grip = _sum(work.push[station], time), _sum(work.grip[station], time)
         shaft = 1.0
         if rotor.shaft.shape[0] > 0:
             shaft = _sum(work.series[:, rotor.shaft[0] + 1], time).real
@@ -65,17 +65,17 @@ def _contact(rotor, plane, phase, duration, work, found):
         found[FRICTION] += share * grip
         found[DRIVEN] += share * grip * shaft
         if phase != ROLLING:
-            found[HEAT] -= share * grip * _sum(work.slip[plane], time)
+            found[HEAT] -= share * grip * _sum(work.slip[station], time)
         if soft:
-            lost = push - force(_sum(work.depth[plane], time), 0.0, wall)
-            found[LOST] += share * lost * _sum(work.rate[plane], time)
-    top, time = _highest(work.push[plane], duration)
+            lost = push - force(_sum(work.depth[station], time), 0.0, wall)
+            found[DAMPED] += share * lost * _sum(work.rate[station], time)
+    top, time = _highest(work.push[station], duration)
     found[FORCE], found[FORCE_TIME] = mass * top, time
     if phase != ROLLING:
         for k in range(ORDER + 1):
             power = 0.0
             for j in range(k + 1):
-                power -= work.grip[plane, j] * work.slip[plane, k - j]
+                power -= work.grip[station, j] * work.slip[station, k - j]
             work.first_margin[k] = power
         found[POWER] = mass * _highest(work.first_margin, duration)[0]
 
@@ -114,10 +114,10 @@ def _sum(series, time):
 
 
 @kernel
-def stored_energies_all(rotor, plane, depths):
-    """Energy of the spring of the wall at a plane, (M,), at depths (M,)."""
-    wall = wall_of(rotor, plane)
+def stored_energies_all(rotor, station, depths):
+    """Energy of the spring of the wall at a station, (M,), at depths (M,)."""
+    wall = wall_of(rotor, station)
     energies = np.empty_like(depths)
     for i in range(depths.shape[0]):
-        energies[i] = rotor.masses[plane] * stored_energy(depths[i], wall)
+        energies[i] = rotor.masses[station] * stored_energy(depths[i], wall)
     return energies

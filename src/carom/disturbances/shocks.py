@@ -27,10 +27,10 @@ import numpy as np
 
 from carom.base.outcome import Outcome
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
+from carom.core.settling import memory
 from carom.models import Force, Rotor, System
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS

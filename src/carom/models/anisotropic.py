@@ -1,4 +1,4 @@
-"""Rotors whose bearings are anisotropic, as systems of twice as many modes (:mod:`carom.core.mirror`).
+"""Rotors whose bearings are anisotropic, as systems of twice as many modes (:mod:`carom.core.anisotropy`).
 
 In the fixed frame, with matrices ``D′`` and ``K′`` of what depends on the direction,
 
@@ -58,8 +58,8 @@ def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
         inverse=np.concatenate([by_position, by_rate], axis=1),
         rows=turned(arrays["rows"], planes @ ellipse),
         columns=np.append(arrays["columns"][free], np.zeros((1, len(planes))), axis=0),
-        mirror=np.array([modes]),
-        mirror_columns=by_conjugate_rate @ pushes.conj(),
+        anisotropy=np.array([modes]),
+        conjugate_columns=by_conjugate_rate @ pushes.conj(),
         conjugate_modes=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
         races=[each.race for each in given.touchdowns],
         translation=given.translation,

@@ -33,7 +33,7 @@ APART = 1e-4
 """The same where otherwise modes would nearly coincide: twelve of sixteen digits are left."""
 FADING = 1e-7
 """Rate, relative to the same, at which a mode fades beside a force: from there on it has settled to the force, not been driven away."""
-ALIKE = -1
+NO_TURN = -1
 """Instead of the mode of a turn."""
 ONE = 1e-7
 """Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
@@ -78,7 +78,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     for exponent, together in _merged(pushes):
         push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
-    turns = modes.mirror > ALIKE
+    turns = modes.turn > NO_TURN
     made = modal_system(
         exponents=modes.exponents,
         driven=modes.driven,
@@ -96,9 +96,9 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         columns=modes.left[:, :planes],
         limit_rows=modes.right[planes:first],
         limit_columns=modes.left[:, planes:first],
-        limit_mirrors=modes.left[:, last + planes : last + first],
-        mirror=np.array([modes.mirror] if turns else [], int),
-        mirror_columns=modes.left[:, last : last + planes],
+        limit_conjugates=modes.left[:, last + planes : last + first],
+        anisotropy=np.array([modes.turn] if turns else [], int),
+        conjugate_columns=modes.left[:, last : last + planes],
         conjugate_modes=modes.left[:, last + first :] if turns else None,
         **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields, *_OF_LIMITS)},
     )
@@ -130,8 +130,8 @@ class _Modes:
     forced: np.ndarray
     right: np.ndarray
     left: np.ndarray
-    mirror: int
-    """Which is the turn of anisotropic bearings; ALIKE where there is none."""
+    turn: int
+    """Which is the turn of anisotropic bearings; NO_TURN where there is none."""
 
     @classmethod
     def of(cls, system: System) -> _Modes:
@@ -143,11 +143,11 @@ class _Modes:
             kept[place : place + 2] = False
         right = np.concatenate([arrays["rows"], arrays["limit_rows"], system.shapes])
         left = np.concatenate([arrays["columns"], arrays["limit_columns"], system.to_modes], axis=1)
-        mirror = ALIKE
+        turn = NO_TURN
         if system.is_anisotropic:
-            acting = arrays["mirror_columns"], arrays["limit_mirrors"], system.conjugate_modes
+            acting = arrays["conjugate_columns"], arrays["limit_conjugates"], system.conjugate_modes
             left = np.concatenate([left, *acting], axis=1)
-            mirror = int(kept[: arrays["mirror"][0]].sum())
+            turn = int(kept[: arrays["anisotropy"][0]].sum())
         return cls(
             exponents=arrays["exponents"][kept],
             driven=arrays["driven"].astype(bool)[kept],
@@ -155,7 +155,7 @@ class _Modes:
             forced=forced[kept],
             right=right[:, kept],
             left=left[kept],
-            mirror=mirror,
+            turn=turn,
         )
 
     def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
@@ -261,5 +261,5 @@ class _Modes:
             np.insert(self.forced, place, amplitude),
             np.insert(self.right, place, self.right @ shares, axis=1),
             np.insert(self.left, place, 0.0, axis=0),
-            self.mirror + (self.mirror > ALIKE and self.mirror >= place),
+            self.turn + (self.turn > NO_TURN and self.turn >= place),
         )

@@ -18,7 +18,9 @@ SMALLEST = 2
 
 
 _ALONG_MODES = {
-    **dict.fromkeys(("driven", "free", "columns", "mirror_columns", "limit_columns", "limit_mirrors", "unbalance"), 0),
+    **dict.fromkeys(
+        ("driven", "free", "columns", "conjugate_columns", "limit_columns", "limit_conjugates", "unbalance"), 0
+    ),
     **dict.fromkeys(("rows", "limit_rows", "gap_rows"), 1),
 }
 """Fields with a number for each mode, and along which axis."""

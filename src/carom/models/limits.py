@@ -32,8 +32,8 @@ _KEPT = (
     "free",
     "gap_rows",
     "gap_offsets",
-    "mirror",
-    "mirror_columns",
+    "anisotropy",
+    "conjugate_columns",
 )
 _VECTORS = ("displacement", "velocity", "accelerations", "rates")
 
@@ -136,7 +136,7 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
         "limit_couplings": couplings * turns[:, None] / turns,
     }
     if system.is_anisotropic:
-        own["limit_mirrors"] = system.conjugate_modes @ pushes.conj()
+        own["limit_conjugates"] = system.conjugate_modes @ pushes.conj()
     return replace(system, arrays=rotor_record(**{name: arrays[name] for name in _KEPT}, **own))
 
 

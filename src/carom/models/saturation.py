@@ -34,6 +34,6 @@ def saturates(system: System, amplitudes: np.ndarray, forced: np.ndarray | None 
     whirl, sag = np.abs(rows @ amplitudes + system.arrays["limit_offsets"]), np.zeros(system.limits, complex)
     if forced is not None:
         # Anisotropic bearings stretch the whirl.
-        whirl += np.abs(rows[:, system.arrays["mirror"]]).sum(axis=1)
+        whirl += np.abs(rows[:, system.arrays["anisotropy"]]).sum(axis=1)
         sag = rows @ forced
     return bool((np.maximum(np.abs(sag.real), np.abs(sag.imag)) + whirl >= bounds).any())

@@ -140,7 +140,7 @@ class System(ModeArrays):
     def _turn(self) -> np.ndarray:
         """The turn of anisotropic bearings at time zero, zeros elsewhere; shape (N,)."""
         turn = np.zeros(self.modes, complex)
-        turn[self.arrays["mirror"]] = 1.0
+        turn[self.arrays["anisotropy"]] = 1.0
         return turn
 
     @property
@@ -177,7 +177,7 @@ class System(ModeArrays):
         outer[self.race_modes] = 0.0
         for place in self.arrays["shaft"].tolist():
             outer[place : place + 2] = 0.0
-        outer[self.arrays["mirror"]] = 0.0
+        outer[self.arrays["anisotropy"]] = 0.0
         return outer
 
     @cached_property
@@ -201,7 +201,7 @@ class System(ModeArrays):
         away = states - self.states_of(forced[None])
         found = np.einsum("nk,mk->mn", self.to_modes, away) + forced
         if self.conjugate_modes is not None:
-            found += np.einsum("nk,mk->mn", self.conjugate_modes, away.conj()) * forced[self.arrays["mirror"]]
+            found += np.einsum("nk,mk->mn", self.conjugate_modes, away.conj()) * forced[self.arrays["anisotropy"]]
         return found
 
     def states_of(self, amplitudes: np.ndarray) -> np.ndarray:

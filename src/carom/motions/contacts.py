@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.base.outcome import Phase
 from carom.core.friction import rebound
-from carom.core.wall_work import DEPTH, DRIVEN, FORCE, FORCE_TIME, FRICTION, HEAT, LOST, NORMAL
+from carom.core.wall_work import DAMPED, DEPTH, DRIVEN, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL
 from carom.motions.kinematics import PRESSING, is_compliant, polar, shaft_speed, slip_velocity
 from carom.motions.tables import NUMBERED, Table, column
 from carom.motions.wall_works import ContactWorks, contact_works, lost_on_parting
@@ -221,7 +221,7 @@ def _contacts_in_wall(motion: Trajectory, works: ContactWorks) -> ContactLog:
         peak_time=bounds[segments[hardest]] + at[FORCE_TIME, hardest],
         deepest=np.maximum.reduceat(at[DEPTH], begins),
         heat=total(HEAT),
-        normal_loss=total(LOST) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
+        normal_loss=total(DAMPED) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
         drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(DRIVEN),
         scales=motion.scales,
         **_states(motion, planes, motion.segment_amplitudes[first], motion.ends_of(after - 1)),

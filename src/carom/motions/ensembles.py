@@ -137,7 +137,7 @@ def settle(
     patience : int
         Impacts without recurrence after which bouncing counts as aperiodic.  With 0 all motions are followed to
         ``until``, settled or not; otherwise each ends as soon as its outcome is known (criteria in
-        :mod:`carom.core.fate`).
+        :mod:`carom.core.settling`).
     max_events : int
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional

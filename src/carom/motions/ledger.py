@@ -10,7 +10,7 @@ from numpy.polynomial import legendre
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Phase
-from carom.core.wall_work import LOST
+from carom.core.wall_work import DAMPED
 from carom.models import Matrices, Rotor
 from carom.models.anisotropic import TURN
 from carom.models.saturation import saturation_accelerations, saturation_of
@@ -237,7 +237,7 @@ def _walls(trajectory: Trajectory) -> np.ndarray:
             stored(motion, motion.last_amplitudes[None], motion.segment_phases[-1:, plane]),
         )
         lost[1:-1] -= lost_on_parting(motion)
-        lost[works.segments + 1] -= works.found[:, plane, LOST]
+        lost[works.segments + 1] -= works.found[:, plane, DAMPED]
     return np.stack([held, np.cumsum(lost)])
 
 

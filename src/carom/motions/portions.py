@@ -14,10 +14,10 @@ from carom.base.progress import Reporter
 from carom.core.counter import fresh_counter, next_number
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.event_log import EventLog
-from carom.core.fate import forget
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
+from carom.core.settling import reset
 from carom.models import Stage
 from carom.motions.budget import START, Purse
 from carom.motions.settling import PER_SLICE, Progress, begin_limits, fresh_memory, settled, time_limit
@@ -133,7 +133,7 @@ def _settle_part(part: Part, limits: Limits) -> int:
 def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) -> int:
     """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
     rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
-    yields = rotor.system.arrays["stiffness"] > 0.0
+    compliant = rotor.system.arrays["stiffness"] > 0.0
     planes, limits_of_bearings = len(rotor.system.arrays["rows"]), rotor.system.limits
     most_events = min(limits.max_events, part.purse.longest)
     scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, planes, limits_of_bearings)
@@ -145,7 +145,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         end = min(until - elapsed, part.stage.trigger.time)
         start = State.of(motion.position, motion.velocity, time=float(motion.time))
         amplitudes, contact = amplitudes_of(rotor, start)
-        forget(memory)
+        reset(memory)
         memory.resting = not rubs_known
         begin_limits(rotor.system, amplitudes, start.time, memory)
         motion.time, motion.impacts, outcome, progress = 0.0, 0, Outcome.EVENT_LIMIT, Progress()
@@ -155,7 +155,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
             outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory, scratch)
             motion.time += time
-            motion.impacts += np.count_nonzero(log.first(count).arrivals(before, yields))
+            motion.impacts += np.count_nonzero(log.first(count).contact_beginnings(before, compliant))
             # A slice of flight has no event.
             events, cost = events + count, cost + (count if count or outcome is not Outcome.EVENT_LIMIT else PER_SLICE)
             outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)

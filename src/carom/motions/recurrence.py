@@ -6,12 +6,12 @@ import numpy as np
 
 from carom.base.outcome import Outcome
 from carom.core.advance import advance
-from carom.core.arrivals import SHORTEST_LAP
 from carom.core.closing import PASSES
+from carom.core.contact_events import SHORTEST_LAP
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import FLIGHT
+from carom.core.settling import memory
 from carom.models import System
 
 FOLLOWED, MOST_IMPACTS = 16, 4000
@@ -66,7 +66,7 @@ def _states_at_impacts(
         begun = np.maximum(touching, FLIGHT)
         outcome, time, noted = advance(arrays, table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
         new = log.first(noted)
-        for event in np.flatnonzero(new.arrivals(begun, arrays["stiffness"] > 0.0)).tolist():
+        for event in np.flatnonzero(new.contact_beginnings(begun, arrays["stiffness"] > 0.0)).tolist():
             if planes == 1 or passed + new.times[event] - last > SHORTEST_LAP:
                 found.append(new.before[event].copy())
                 last = passed + new.times[event]

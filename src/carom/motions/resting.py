@@ -1,7 +1,7 @@
 """How a rotor that weighs something stays on its touchdown bearing: it goes round, or lies there, seen from the fixed frame.
 
 Weight that turns in the frame of the rotor keeps whirl from repeating itself, and changes it less from turn to turn than what
-:mod:`carom.core.fate` takes for a change that lasts.  So it counts as whirl that goes on after as many turns, whatever it changes.
+:mod:`carom.core.settling` takes for a change that lasts.  So it counts as whirl that goes on after as many turns, whatever it changes.
 
 In the frame that turns with the shaft a rotor that lies at the bottom of the wall goes round it once per turn, backward: a turn
 that repeats is found there as whirl.  Without damping it does not come to rest but rocks about the place where it leans, for on a
@@ -17,9 +17,9 @@ import numpy as np
 from carom.base.outcome import Outcome, Phase
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
-from carom.core.fate import BLOCK, NO_TURN, TURNS, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import lasts
+from carom.core.settling import BLOCK, NO_TURN, TURNS, memory
 from carom.models import Rotor
 
 STEADY = 1e-3
@@ -71,7 +71,7 @@ def lies(rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, recollection
     amplitudes : ndarray of complex, shape (N,)
     contact : ndarray of int, shape (P,)
         State of contact at each plane.
-    recollection : record of :func:`carom.core.fate.memory`
+    recollection : record of :func:`carom.core.settling.memory`
     """
     touching = np.array([lasts(int(each)) for each in contact])
     if rotor.weight is None or not touching.any():

@@ -12,10 +12,10 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import PASSES, least_period
 from carom.core.event_log import EventLog
-from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.limits import set_limits
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
+from carom.core.settling import discard_candidate, memory
 from carom.models import Rotor, System
 from carom.models.stages import NEVER, Trigger
 from carom.motions.recurrence import least_recurrence
@@ -132,7 +132,7 @@ def settled(
         State of contact there.
     outcome : Outcome
         What :func:`carom.core.advance.advance` has found.
-    recollection : record of :func:`carom.core.fate.memory`
+    recollection : record of :func:`carom.core.settling.memory`
         Where a motion only passes by an orbit or a rub, this is noted there.
 
     Returns
@@ -156,7 +156,7 @@ def settled(
         return outcome, 0
     if not recollection.period and rotor.system.is_planar and _fade(rotor, amplitudes):
         if recollection.contact_time < np.inf:  # which triggers there
-            doubt(recollection)
+            discard_candidate(recollection)
             return Outcome.EVENT_LIMIT, 0
         return Outcome.ROLLING, 0
     recurred = int(recollection.period)
@@ -166,7 +166,7 @@ def settled(
         count = least_recurrence(rotor.system, amplitudes, contact, recurred, recollection)
     if count != PASSES:
         return outcome, count
-    doubt(recollection)
+    discard_candidate(recollection)
     return Outcome.EVENT_LIMIT, 0
 
 

@@ -63,7 +63,7 @@ def simulate(
         Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
         for :func:`~carom.motions.settling.longest_time`, which is 1,500 turns of the shaft after a drop.
     settle : bool
-        End as soon as the final motion is known (criteria in :mod:`carom.core.fate`); by default only without ``until``.
+        End as soon as the final motion is known (criteria in :mod:`carom.core.settling`); by default only without ``until``.
     stop_at_chatter : bool
         End with ``CHATTER`` and the exact state when impacts accumulate.
     patience : int
@@ -188,7 +188,7 @@ def _follow_stage(
             multiplicity=multiplicity,
             segment_starts=np.append(begun, log.times),
             segment_phases=np.concatenate([first[0][None], log.phases]),
-            event_planes=log.planes.copy(),
+            event_planes=log.stations.copy(),
             segment_amplitudes=np.concatenate([first[1][None], log.after]),
             arrivals=log.before.copy(),
             segment_limits=np.concatenate([first[2][None], log.limited]),

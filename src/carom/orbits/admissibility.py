@@ -6,10 +6,10 @@ import numpy as np
 
 from carom.base.outcome import Outcome, Phase
 from carom.core.events import INSIDE, LEAVING, first_crossing
-from carom.core.friction import slip_of, spare_friction
+from carom.core.friction import friction_margin, slip_of
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import lift_off, wall_push
-from carom.core.variation import strike
+from carom.core.variation import apply_impact
 from carom.models import Rotor
 from carom.orbits.shooting import TOLERANCE, Start
 from carom.orbits.word import Kind, Word
@@ -45,7 +45,7 @@ def slip_stays_forward(rotor: Rotor) -> bool:
 def departure(rotor: Rotor, kind: Kind, node: np.ndarray) -> np.ndarray:
     """Amplitudes just after the impact at the beginning of a segment."""
     after = node.copy()
-    strike(rotor.system.arrays, 0, kind.sense, after, np.empty((0, len(node)), complex))
+    apply_impact(rotor.system.arrays, 0, kind.sense, after, np.empty((0, len(node)), complex))
     return after
 
 
@@ -66,7 +66,7 @@ def _why_no_impact(rotor: Rotor, kind: Kind, node: np.ndarray, duration: float) 
     _, local = contact.local(node)
     if local.real <= AT_REST:
         return "it would meet the wall from outside (radial speed not above 0)"
-    stops = spare_friction(local, wall) >= 0.0
+    stops = friction_margin(local, wall) >= 0.0
     if kind is Kind.IMPACT_STOPPED:
         if not stops:
             return "friction would not stop the slip during the impact"

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.base.outcome import Phase
-from carom.core.arrivals import SHORTEST_LAP
+from carom.core.contact_events import SHORTEST_LAP
 from carom.core.event_log import flying
 from carom.core.limits import LOWER, UPPER
 from carom.core.margins import local_motion

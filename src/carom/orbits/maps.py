@@ -12,7 +12,7 @@ from carom.base.outcome import InputError, Outcome, Phase, shown
 from carom.base.results import Result
 from carom.core import variation
 from carom.core.event_log import EventLog
-from carom.core.fate import memory
+from carom.core.settling import memory
 from carom.models import Subject, rotor_of
 from carom.motions.simulation import follow
 from carom.motions.starts import LARGEST_SPEED, State

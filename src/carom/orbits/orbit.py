@@ -11,7 +11,7 @@ import numpy as np
 from carom.base.arguments import Reals, Whole, checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.core.closing import ALIKE
+from carom.core.closing import EQUAL_IMPACT_RTOL
 from carom.core.margins import least_margins
 from carom.models import Rotor, Subject, exact_rotor_of
 from carom.motions.simulation import simulate
@@ -315,7 +315,7 @@ def shortest(word: Word, nodes: np.ndarray) -> int:
     """Number of segments after which an orbit repeats."""
     for k in range(word.least, len(word), word.least):
         apart = np.abs(nodes - np.roll(nodes, -k, axis=0)).max()
-        if len(word) % k == 0 and apart <= ALIKE * (1.0 + np.abs(nodes).max()):
+        if len(word) % k == 0 and apart <= EQUAL_IMPACT_RTOL * (1.0 + np.abs(nodes).max()):
             return k
     return len(word)
 
@@ -333,4 +333,4 @@ def same_orbit(first: Orbit | SimulatedOrbit, second: Orbit | SimulatedOrbit) ->
             isinstance(first, SimulatedOrbit) and isinstance(second, SimulatedOrbit) and same_simulated(first, second)
         )
     turns = (first.start.turned(places).nodes for places in first.word.turns_to(second.word))
-    return any(np.abs(nodes - second.nodes).max() <= 1e2 * ALIKE for nodes in turns)
+    return any(np.abs(nodes - second.nodes).max() <= 1e2 * EQUAL_IMPACT_RTOL for nodes in turns)

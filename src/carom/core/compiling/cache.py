@@ -24,7 +24,7 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
 from carom.base.files import write_whole
-from carom.core.compiling.cache_directory import cache_directory, tell_once
+from carom.core.compiling.cache_directory import cache_directory, warn_once
 from carom.core.compiling.choice import compiles_plainly
 from carom.core.compiling.names import source_of
 
@@ -83,14 +83,14 @@ class KernelCache(_Cache):  # type: ignore[misc]
         if not self._enabled or data.library.has_dynamic_globals:  # addresses that are valid in this process only
             return
         if self.directory is None:
-            tell_once()
+            warn_once()
             return
         origin = self._origin(sig, data.codegen)
         content = dumps((list(getattr(data.library, "needs", ())), data._reduce()))
         try:
             write_whole(self.directory / self._name(origin), _checksum(origin, content) + content, self.directory)
         except OSError:
-            tell_once()
+            warn_once()
 
     def enable(self) -> None:
         """Use the cache."""

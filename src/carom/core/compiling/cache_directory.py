@@ -62,7 +62,7 @@ def cache_directory() -> Path | None:
 
 
 @cache
-def tell_once() -> None:
+def warn_once() -> None:
     """Warn, once per process, that compiled kernels are not cached."""
     warnings.warn(
         "compiled kernels cannot be kept on the disk, so each run compiles them anew; "

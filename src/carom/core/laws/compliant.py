@@ -1,4 +1,4 @@
-"""What compliant laws have in common: an arrival has no impulse, a force acts while the plane is in the wall."""
+"""What compliant laws have in common: no impulse at the impact, a force acts while the station is in the wall."""
 
 from __future__ import annotations
 
@@ -7,5 +7,5 @@ from carom.core.compiling.decorators import formula
 
 @formula
 def no_impulse(speed, wall):
-    """Impulse of an arrival, and its derivatives."""
+    """Impulse of an impact, and its derivatives."""
     return 0.0 * speed

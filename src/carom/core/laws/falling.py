@@ -1,4 +1,4 @@
-"""A restitution that falls with the speed ``ṙ`` of the arrival: ``d/(1 + ṙ/v)``, as of a wall that yields more the harder it is hit.
+"""A restitution that falls with the speed ``ṙ`` of the impact: ``d/(1 + ṙ/v)``, as of a wall that dissipates more in a faster impact.
 
 The law's own number is ``1/v``.  No rebound is faster than ``dv``.
 """
@@ -15,7 +15,7 @@ from carom.core.laws.law import FromZeroToOne, Law
 
 @formula
 def impulse(speed, wall):
-    """Impulse of an arrival with a radial speed."""
+    """Impulse of an impact with a radial speed."""
     return speed + wall.restitution * impulse_by_restitution(speed, wall)
 
 
@@ -35,14 +35,14 @@ def impulse_by_restitution(speed, wall):
 @checked
 @dataclass(frozen=True)
 class FallingRestitution(Law):
-    """A wall that yields more the harder it is hit: a restitution ``d/(1 + ṙ/v)`` .
+    """A wall that dissipates more in a faster impact: a restitution ``d/(1 + ṙ/v)`` .
 
     Attributes
     ----------
     restitution : float
-        Coefficient of restitution ``d`` of slow arrivals, from 0 to 1.
+        Coefficient of restitution ``d`` of slow impacts, from 0 to 1.
     speed : float
-        Speed ``v`` of the arrival at which it is half of that, in ``c_r Ω``.
+        Speed ``v`` of the impact at which it is half of that, in ``c_r Ω``.
     """
 
     restitution: FromZeroToOne

@@ -1,4 +1,4 @@
-"""A Hunt–Crossley wall: the force ``κδⁿ(1 + χδ̇)`` on a plane that is ``δ`` deep in the wall, which vanishes with the depth.
+"""A Hunt–Crossley wall: the force ``κδⁿ(1 + χδ̇)`` on a station that is ``δ`` deep in the wall, which vanishes with the depth.
 
 The wall's ``loss`` is ``χ`` and the law's own number is ``n``.
 
@@ -22,14 +22,14 @@ impulse = impulse_by_speed = impulse_by_restitution = no_impulse
 ONSET = 1e-9
 """Depth in clearances below which a parabola takes the place of the power."""
 AT_EDGE = 5e-5
-"""Distance from the onset, relative to its depth, within which a plane counts as there."""
+"""Distance from the onset, relative to its depth, within which a station counts as there."""
 
 
 @formula
 def edge(depth, rate, wall):
-    """Depth at which the series of the force takes another form, negative if the plane is deeper; zero if there is none.
+    """Depth at which the series of the force takes another form, negative if the station is deeper; zero if there is none.
 
-    At the edge, to far more than the rounding error of a depth, the plane is on the side to which it moves.  That must be less than
+    At the edge, to far more than the rounding error of a depth, the station is on the side to which it moves.  That must be less than
     what the search for the edge takes for none (:data:`carom.core.compliance.SHARP`), or it stops where it starts.
     """
     if wall.law_number == 1.0:

@@ -1,4 +1,4 @@
-"""A Kelvin–Voigt wall without tension: the force ``κδ + cδ̇`` while that is positive, on a plane that is ``δ`` deep in the wall.
+"""A Kelvin–Voigt wall without tension: the force ``κδ + cδ̇`` while that is positive, on a station that is ``δ`` deep in the wall.
 
 Where the force vanishes before the depth does, wall and rotor separate: the wall comes back more slowly than the rotor leaves it.
 """

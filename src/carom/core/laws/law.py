@@ -32,7 +32,7 @@ class Law(ABC):
     parameters : dict
         Attributes that can be varied, by the names under which the rotor has them.
     is_compliant : bool
-        Whether a force acts while the rotor is in the wall, instead of an impulse at its arrival.
+        Whether a force acts while the rotor is in the wall, instead of an impulse at the impact.
     """
 
     law: ClassVar[str]

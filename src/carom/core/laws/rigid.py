@@ -1,4 +1,4 @@
-"""The rigid wall with Newton's restitution: the rebound has a constant share of the speed of the arrival."""
+"""The rigid wall with Newton's restitution: the rebound has a constant share of the speed of the impact."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from carom.core.laws.law import FromZeroToOne, Law
 
 @formula
 def impulse(speed, wall):
-    """Impulse of an arrival with a radial speed."""
+    """Impulse of an impact with a radial speed."""
     return (1.0 + wall.restitution) * speed
 
 
@@ -31,7 +31,7 @@ def impulse_by_restitution(speed, wall):
 @checked
 @dataclass(frozen=True)
 class Rigid(Law):
-    """A rigid wall: each arrival ends with a rebound at a constant share of its speed .
+    """A rigid wall: each rebound has a constant share of its speed .
 
     Attributes
     ----------

@@ -9,7 +9,7 @@ from carom.base.outcome import Phase
 from carom.core.contact_series import contact_forces, rub_series
 from carom.core.layout import rub_workspace
 from carom.core.taylor import sum_series
-from carom.core.wall import push_plane
+from carom.core.wall import push_station
 from carom.models import KelvinVoigt, Touchdown, from_matrices
 from carom.models.limits import Limit, with_limits
 
@@ -46,7 +46,7 @@ def test_an_impulse_changes_the_state_as_it_changes_velocities():
     system = system_of()
     before = system.amplitudes(POSITION, VELOCITY, BEGINS)
     after, change = np.empty_like(before), 0.4 - 0.7j
-    push_plane(system.arrays, 0, change, before, after)
+    push_station(system.arrays, 0, change, before, after)
     (place, speed), (moved, faster) = (system.state(each) for each in (before, after))
     assert moved == pytest.approx(place, abs=1e-13)
     gained = np.linalg.solve(MASS, ROW) / (ROW @ np.linalg.solve(MASS, ROW)) * change

@@ -13,16 +13,16 @@ from machines import PAPER, random_parameters
 from carom.attractors import find_attractors
 from carom.base.outcome import Outcome, Phase
 from carom.closed_forms.equilibria import find_equilibria
-from carom.core.fate import (
+from carom.core.layout import RECURRENCE_RTOL, rotor_record, workspace
+from carom.core.settling import (
     approaches_turn,
-    forget_rub,
     levitates,
     memory,
     near_rub,
     recurs,
+    reset_rub,
     same_state,
 )
-from carom.core.layout import NEAR, rotor_record, workspace
 from carom.models import Rotor, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -166,7 +166,7 @@ def test_periods_are_found_and_are_the_least(period, transient):
 @pytest.mark.parametrize("period", [1, 2, 3])
 @pytest.mark.parametrize("rate", [0.5, -0.5, 0.99])
 def test_a_motion_that_nears_its_cycle_is_periodic_once_it_is_near(period, rate):
-    """It has to come within ``NEAR`` of itself, so the distance left to the cycle is at most that over its loss."""
+    """It has to come within ``RECURRENCE_RTOL`` of itself, so the distance left to the cycle is at most that over its loss."""
     random = np.random.default_rng(period)
     places = np.arange(20_000)
     sequence = np.tile(random.normal(size=period), 20_000)[:20_000] + 0.1 * np.abs(rate) ** places * np.sign(rate) ** (
@@ -176,7 +176,7 @@ def test_a_motion_that_nears_its_cycle_is_periodic_once_it_is_near(period, rate)
     assert found in (period, 2 * period)  # with its sign changing, it first recurs after two periods
     size = 1.0 + np.abs(states(sequence)[taken]).sum()
     left = 0.1 * abs(rate) ** (taken - 2 * found)
-    assert left < 4.0 * NEAR * size / (1.0 - abs(rate))
+    assert left < 4.0 * RECURRENCE_RTOL * size / (1.0 - abs(rate))
 
 
 def test_what_never_recurs_is_given_up_after_the_patience():
@@ -208,8 +208,8 @@ def test_states_are_the_same_relative_to_their_size():
     state = np.array([3.0 + 4.0j, 1.0j])
     size = 1.0 + 5.0 + 1.0
     for share, same in ((0.99, True), (1.01, False)):
-        moved = state + np.array([0.0, share * NEAR * size])
-        assert bool(same_state(moved, state, NEAR)) is same
+        moved = state + np.array([0.0, share * RECURRENCE_RTOL * size])
+        assert bool(same_state(moved, state, RECURRENCE_RTOL)) is same
 
 
 # ------------------------------------------------------------------------------------------------ along the wall
@@ -219,9 +219,9 @@ def test_near_the_rub_in_place_and_speed():
     place = cmath.rect(1.0, 0.7)
     recollection = memory(2, rub_position=place)
     assert near_rub(recollection, place, 0.0)
-    assert near_rub(recollection, place * cmath.rect(1.0, 0.4 * NEAR), -0.5 * NEAR)
-    assert not near_rub(recollection, place * cmath.rect(1.0, 0.6 * NEAR), -0.5 * NEAR)
-    assert not near_rub(recollection, place, 1.1 * NEAR)
+    assert near_rub(recollection, place * cmath.rect(1.0, 0.4 * RECURRENCE_RTOL), -0.5 * RECURRENCE_RTOL)
+    assert not near_rub(recollection, place * cmath.rect(1.0, 0.6 * RECURRENCE_RTOL), -0.5 * RECURRENCE_RTOL)
+    assert not near_rub(recollection, place, 1.1 * RECURRENCE_RTOL)
     assert not near_rub(memory(2), place, 0.0)
 
 
@@ -240,7 +240,7 @@ def test_a_turn_is_awaited_in_its_last_quarter(direction):
     assert recollection.turn_position == pytest.approx(cmath.rect(1.0, start))
     assert recollection.turn_state.tolist() == [1.0 + 0.0j, 2.0j]
     # Looked for anew, it starts here.
-    forget_rub(recollection)
+    reset_rub(recollection)
     assert not approaches_turn(recollection, cmath.rect(1.0, 3.0), amplitudes, direction)
     assert recollection.turn_position == pytest.approx(cmath.rect(1.0, 3.0))
 
@@ -273,7 +273,7 @@ def test_a_rotor_at_its_rub_stays_there():
     later = simulate(rotor, motion.final, 2000.0)
     assert {contact.phase for contact in later.lasting_contacts} == {Phase.FORWARD_SLIP}
     assert len(later.contacts) == 0
-    assert np.abs(later.position(np.linspace(0.0, 2000.0, 500)) - rub.position).max() < 2.0 * NEAR
+    assert np.abs(later.position(np.linspace(0.0, 2000.0, 500)) - rub.position).max() < 2.0 * RECURRENCE_RTOL
 
 
 def test_a_rolling_rotor_rolls_on():

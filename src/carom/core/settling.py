@@ -1,16 +1,16 @@
 """Criteria that decide to which end a motion settles, and the memory they need.
 
-- *Levitated*: at every contact plane, the sum of the moduli of the modes is smaller than the distance between the
+- *Levitated*: at every contact station, the sum of the moduli of the modes is smaller than the distance between the
   contact-free equilibrium and the wall.  This sum is a bound for all later time: a proof.
-- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding, or, if the rubs of a rotor
-  are not known, changes by less than ``NEAR`` per unit time.
+- *Forward rub*: the state slides within ``RECURRENCE_RTOL`` of the synchronous rub that attracts sliding, or, if the rubs of a rotor
+  are not known, changes by less than ``RECURRENCE_RTOL`` per unit time.
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a full turn without flight the state has
-  changed by less than ``NEAR`` and by less than ``NEAR`` per unit time, so a slow change is not taken for none.
+  changed by less than ``RECURRENCE_RTOL`` and by less than ``RECURRENCE_RTOL`` per unit time, so a slow change is not taken for none.
 - The same, but never repeating: twice :data:`TURNS` full turns without an impact, in the later of which the state changes from turn
   to turn on average at least half as much as in the earlier, and by a thousandth at least.  Stick and slip of a rotor with
   several coordinates need not keep time with its turns.
 - At the limits of magnetic bearings also: contact that lasts, whose state after a whole turn of the shaft is that of the turn before.
-- *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
+- *Periodic*: the state at an impact recurs to within ``RECURRENCE_RTOL`` twice in a row after the same number of impacts.  The
   reference state is replaced after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has
   recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
 - *Aperiodic*: ``patience`` impacts have passed without recurrence.
@@ -29,12 +29,12 @@ import numpy as np
 from carom.core.block import basis_amplitudes
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus
-from carom.core.layout import NEAR
+from carom.core.layout import RECURRENCE_RTOL
 from carom.core.limits import FREE
 from carom.core.planar_proofs import planar_proofs
 from carom.core.records import record
 
-NO_TURN, SET_OUT, ROUND = 0, 1, 2
+NO_TURN, STARTED, ROUND = 0, 1, 2
 NO_CONTACT = -1.0
 """Instead of the time for which contact has persisted: there has been none."""
 PATIENCE_AT_LIMITS = 2000
@@ -42,7 +42,7 @@ PATIENCE_AT_LIMITS = 2000
 TURNS = 512
 """Full turns along the wall whose changes are added up, to compare them with those of as many before."""
 BLOCK = 64
-"""Full turns along the wall of which the mean duration, and the mean sum of the radii at all planes, are kept."""
+"""Full turns along the wall of which the mean duration, and the mean sum of the radii at all stations, are kept."""
 UNLIKE = 1e-3
 """Mean change from turn to turn, relative to the size of the state, above which they never repeat if it lasts.
 
@@ -125,8 +125,8 @@ def memory(
         contact_time=np.asarray(contact_time),
         contact_gap=np.asarray(contact_gap),
         impact_speed=np.asarray(impact_speed),
-        struck=np.asarray(0.0),
-        touching=np.asarray(NO_CONTACT),
+        hardest_impact=np.asarray(0.0),
+        contact_so_far=np.asarray(NO_CONTACT),
         flown=np.asarray(0.0),
         parted=np.asarray(0, np.int64),
         clock=np.asarray(0.0),
@@ -145,9 +145,9 @@ def memory(
 def levitates(rotor, amplitudes, work):
     """Whether the rotor can provably never reach any wall again."""
     modes = amplitudes.shape[0]
-    for plane in range(rotor.rows.shape[0]):
-        basis_amplitudes(rotor, plane, amplitudes, work.amplitudes)
-        reach = math.sqrt(squared_modulus(rotor.offsets[plane]))
+    for station in range(rotor.rows.shape[0]):
+        basis_amplitudes(rotor, station, amplitudes, work.amplitudes)
+        reach = math.sqrt(squared_modulus(rotor.offsets[station]))
         for k in range(modes):
             if rotor.exponents[k].real > 0.0 or (k > 1 and rotor.driven[k] and rotor.driven[k - 1]):
                 return False
@@ -162,7 +162,7 @@ def levitates(rotor, amplitudes, work):
                 if rotor.gaps[k] != 0.0:
                     size = min(size, apart)
             reach += size
-        if reach >= 1.0 - NEAR:
+        if reach >= 1.0 - RECURRENCE_RTOL:
             return False
     return True
 
@@ -173,7 +173,7 @@ def recurs(memory, amplitudes):
     memory.events += 1
     if memory.events > 1:
         memory.since += 1
-        recurred = same_state(memory.reference, amplitudes, NEAR)
+        recurred = same_state(memory.reference, amplitudes, RECURRENCE_RTOL)
         if recurred and in_step(memory, memory.reference_clock, memory.reference_limited):
             if memory.candidate == memory.since:
                 memory.period = memory.since
@@ -230,7 +230,7 @@ def in_step(memory, clock, limited_steps):
     if memory.limited_steps == limited_steps:
         return True
     quarters = (memory.clock - clock) * 2.0 / math.pi
-    return abs(quarters - math.floor(quarters + 0.5)) <= NEAR
+    return abs(quarters - math.floor(quarters + 0.5)) <= RECURRENCE_RTOL
 
 
 @inlined
@@ -263,8 +263,8 @@ def never_repeats(memory, amplitudes):
 def note_turn(rotor, memory, amplitudes):
     """Add a turn along the wall to the means of the present block of turns; call it before :func:`never_repeats`."""
     radii = 0.0
-    for plane in range(rotor.rows.shape[0]):
-        radii += math.sqrt(squared_modulus(displacement(rotor, plane, amplitudes)))
+    for station in range(rotor.rows.shape[0]):
+        radii += math.sqrt(squared_modulus(displacement(rotor, station, amplitudes)))
     if memory.turns % BLOCK == 0:
         memory.block[:] = 0.0
     memory.block[0] += memory.turn_time / BLOCK
@@ -280,7 +280,7 @@ def near_rub(memory, position, speed):
     """Whether a sliding state has reached the synchronous rub that attracts it."""
     if memory.rub_position == 0.0:
         return False
-    return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < NEAR
+    return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < RECURRENCE_RTOL
 
 
 @kernel
@@ -289,14 +289,14 @@ def at_rest(rotor, work):
     size, rate = 1.0, 0.0
     for m in range(work.series.shape[1]):
         moves = rotor.free[m] != 0
-        for plane in range(rotor.race.shape[0]):
-            moves = moves or rotor.race[plane] == m
+        for station in range(rotor.race.shape[0]):
+            moves = moves or rotor.race[station] == m
         if rotor.shaft.shape[0] > 0:
             moves = moves or m == rotor.shaft[0] or m == rotor.shaft[0] + 1
         if moves:
             size += math.sqrt(squared_modulus(work.series[0, m]))
             rate += math.sqrt(squared_modulus(work.series[1, m]))
-    return rate <= NEAR * size
+    return rate <= RECURRENCE_RTOL * size
 
 
 @kernel
@@ -309,7 +309,7 @@ def approaches_turn(memory, position, amplitudes, speed):
         memory.turn_clock, memory.turn_limited = memory.clock, memory.limited_steps
         for k in range(amplitudes.shape[0]):
             memory.turn_state[k] = amplitudes[k]
-        memory.turning = SET_OUT
+        memory.turning = STARTED
         return False
     ahead = memory.turn_position.conjugate() * position
     if ahead.real < 0.0:
@@ -319,37 +319,37 @@ def approaches_turn(memory, position, amplitudes, speed):
 
 
 @kernel
-def forget(memory):
+def reset(memory):
     """Reset a memory for another motion of the same rotor."""
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning, memory.turns, memory.rounds, memory.limited_steps = NO_TURN, 0, 0, 0
     memory.stalled, memory.stood, memory.lap = 0, 0.0, math.inf
-    memory.struck, memory.touching, memory.flown, memory.parted = 0.0, NO_CONTACT, 0.0, 0
+    memory.hardest_impact, memory.contact_so_far, memory.flown, memory.parted = 0.0, NO_CONTACT, 0.0, 0
 
 
 @kernel
 def until_triggered(memory, rubs):
     """Time after which contact that goes on as it does will have persisted long enough to trigger."""
-    left = memory.contact_time - max(memory.touching, 0.0)
+    left = memory.contact_time - max(memory.contact_so_far, 0.0)
     if rubs:
         return left
-    return left - memory.flown if memory.touching >= 0.0 and left <= memory.contact_gap else math.inf
+    return left - memory.flown if memory.contact_so_far >= 0.0 and left <= memory.contact_gap else math.inf
 
 
 @kernel
-def triggers(memory, rubs, touches, duration):
-    """Note that a flight or a stretch of contact has ended with an event, which may be no touch; return whether this triggers."""
+def triggers(memory, rubs, makes_contact, duration):
+    """Note that a flight or a stretch of contact has ended with an event, which may be no contact; return whether this triggers."""
     memory.flown = 0.0 if rubs else memory.flown + duration
     if rubs:
-        memory.touching = max(memory.touching, 0.0) + duration
-    elif touches:
-        if memory.touching >= 0.0 and memory.flown <= memory.contact_gap:
-            memory.touching += memory.flown
+        memory.contact_so_far = max(memory.contact_so_far, 0.0) + duration
+    elif makes_contact:
+        if memory.contact_so_far >= 0.0 and memory.flown <= memory.contact_gap:
+            memory.contact_so_far += memory.flown
         else:
-            memory.touching, memory.parted = 0.0, 1
+            memory.contact_so_far, memory.parted = 0.0, 1
         memory.flown = 0.0
-    return memory.struck >= memory.impact_speed or memory.touching >= memory.contact_time
+    return memory.hardest_impact >= memory.impact_speed or memory.contact_so_far >= memory.contact_time
 
 
 @kernel
@@ -359,21 +359,21 @@ def persists(memory, duration):
 
 
 @kernel
-def doubt(memory):
+def discard_candidate(memory):
     """Discard a recurrence and look for another one: the motion only passes by a repelling orbit."""
     memory.candidate, memory.period = 0, 0
 
 
 @kernel
-def forget_rub(memory):
+def reset_rub(memory):
     """Restart the search for full turns along the wall, and for turns of the shaft."""
     memory.turning, memory.rounds = NO_TURN, 0
 
 
 @kernel
-def keeps_step(memory, amplitudes):
+def is_turn_periodic(memory, amplitudes):
     """Note the state after a whole turn of the shaft in lasting contact; return whether it is that of the turn before."""
-    same = memory.rounds > 0 and same_state(memory.round_state, amplitudes, NEAR)
+    same = memory.rounds > 0 and same_state(memory.round_state, amplitudes, RECURRENCE_RTOL)
     memory.rounds += 1
     for k in range(amplitudes.shape[0]):
         memory.round_state[k] = amplitudes[k]
