@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -156,34 +154,6 @@ def test_a_size_that_is_no_double_is_refused_by_machines():
 
 
 FIELDS = {name: getattr(Machine.from_parameters(PAPER, Scales(50.0, 7e-4, 184.2)), name) for name in MACHINE_FIELDS}
-
-
-def test_annotations_are_read_as_they_stand():
-    @checked
-    def take(
-        several: Sequence[float] = (),
-        names: Iterable[str] = (),
-        pair: tuple[float, str] | None = None,
-        table: Mapping[str, int] | None = None,
-        side: Literal["up", 1] = "up",
-        call: Callable[[], None] | None = None,
-        *rest: float,
-        **others: bool,
-    ) -> tuple[object, ...]:
-        return (several, names, pair, table, side, call, rest, others)
-
-    for fine in (
-        {"several": np.ones(2)}, {"several": [1, 2.5, np.float32(1.0)]}, {"names": {"a"}}, {"names": iter("ab")}, {"pair": (1, "a")},
-        {"pair": None}, {"table": {"a": np.int64(1)}}, {"side": 1}, {"call": len}, {"more": np.True_},
-    ):  # fmt: skip
-        assert take(**fine)
-    for name, bad in (
-        ("several", "ab"), ("several", np.float64(1.0)), ("several", [1j]), ("names", "ab"), ("names", {"a": 1}), ("names", [1]),
-        ("pair", (1.0,)), ("pair", ("a", 1.0)), ("table", {1: 1}), ("table", {"a": 0.5}), ("side", True), ("side", "down"),
-        ("call", 3), ("more", 1),
-    ):  # fmt: skip
-        assert refused(lambda: take(**{name: bad})).field == name  # noqa: B023
-    assert refused(lambda: take((), (), None, None, "up", None, math.nan)).field == "rest"
 
 
 def test_a_set_of_results_is_a_sequence_of_them():

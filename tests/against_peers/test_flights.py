@@ -16,7 +16,7 @@ from carom.core.layout import workspace
 from carom.models import jeffcott
 from carom.parameters import Parameters
 
-from .bouncing import Flight, HeyokaFlights, ScipyFlights, arrival_matrix, flight_error, stiffness_and_force
+from .bouncing import Flight, HeyokaFlights, arrival_matrix, flight_error, stiffness_and_force
 
 DAMPING = {"underdamped": 0.3, "critical": 2.0, "nearly critical": 2.0 * (1.0 + 1e-10), "overdamped": 7.0}
 """``γ/ω``; ``random`` draws machines of every damping."""
@@ -94,13 +94,3 @@ def test_flights_end_as_heyoka_says(damping):
     assert hits > 0.375 * count
     assert clear > 0.05 * count
     assert hits + clear > 0.975 * count
-
-
-@pytest.mark.jit_only
-@pytest.mark.parametrize("damping", ["random", *DAMPING])
-def test_flights_end_as_scipy_says(damping):
-    random, count = np.random.default_rng(32), sized(16, 16, 40)
-    hits, clear = fly_many(random, damping, count, lambda p: ScipyFlights(p, 1e-12, longest_step=0.05, careful=True))
-    assert hits > 0.3 * count
-    assert clear > 0
-    assert hits + clear > 0.925 * count

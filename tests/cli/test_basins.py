@@ -7,7 +7,6 @@ import json
 import numpy as np
 import pytest
 
-from carom.base.outcome import Outcome
 from carom.basins import Basin, GainMap
 
 pytestmark = pytest.mark.jit_only
@@ -82,24 +81,6 @@ def test_table_and_files(carom, machine, tmp_path):
     assert document["gains"]["parameters"] == ["stiffness", "damping"]
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("--disturbance", "kick-plane, 30 mm/s", "--grid", "6x6"),
-        ("--shock", "6 g, 5 ms", "--grid", "5x6"),
-        ("--blade-loss", "0.1 mm", "--grid", "6"),
-        ("--disturbance", "release, rotating", "--grid", "9"),
-        pytest.param(("--disturbance", "slice", "--grid", "8x8"), marks=pytest.mark.deep),
-        ("--disturbance", "state, 64 mm/s", "--starts", "30"),
-    ],
-)
-def test_every_disturbance(carom, machine, tmp_path, words):
-    code, shown, err = carom("basins", machine, *words, "--out", tmp_path / "out")
-    assert (code, err.count("\n")) == (0, 1)
-    assert "Back to levitation" in shown
-    assert (tmp_path / "out" / "figures" / "basins.png").stat().st_size > 10_000
-
-
 def test_gravities_are_not_grams(carom, machine):
     words = ("basins", machine, "--grid", "2x2", "--json")
     peaks = [
@@ -141,15 +122,6 @@ def test_inputs_that_cannot_be_used(carom, machine, words, complaint):
     assert (code, out) == (2, "")
     assert len(err.strip().splitlines()) == 1
     assert complaint in err
-
-
-def test_levitation_is_not_needed_for_releases(carom, machine):
-    code, out, _ = carom("basins", machine, "--set", "gamma=0.05", "--disturbance", "release", "--grid", "6", "--json")
-    document = json.loads(out)
-    assert code == 0
-    assert document["smallest_unrecovered_kick"] is None
-    assert document["harmless_kick"] == 0.0
-    assert Outcome.LEVITATED.label not in document["fractions"]
 
 
 RIG = "examples/tum-test-rig.toml"

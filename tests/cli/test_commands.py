@@ -1,16 +1,14 @@
 """What the commands print."""
 
-import cmath
 import json
 import math
-from pathlib import Path
 
 import pytest
 from studies import QUICK
 
 from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import BaseShock, BladeLoss
+from carom.disturbances import BaseShock
 from carom.loading import load
 from carom.models import jeffcott
 from carom.motions import simulate
@@ -112,21 +110,6 @@ def test_simulate_follows_a_motion_to_its_end(carom, machine):
     assert value["contacts"][-1]["end"] == value["time"]
 
 
-def test_a_lost_blade_is_followed_in_the_machine_after_it(carom, machine):
-    quiet = ("--set", "eccentricity=10 um", "--set", "damping=3000 N s/m")
-    value = document(carom("simulate", machine, *quiet, "--blade-loss", "15000 g mm,30 deg", "--json"))
-
-    case = load(machine, ["eccentricity=10 um", "damping=3000 N s/m"])
-    rotor, state = BladeLoss(3 / 7).apply(case, math.radians(30.0))
-    motion = simulate(rotor, state, settle=True)
-    assert value["parameters"]["rho"] == pytest.approx(
-        abs(case.parameters.rho + 3 / 7 * cmath.exp(1j * math.radians(30.0)))
-    )
-    assert value["start"]["U"] == pytest.approx([state.position.real, state.position.imag])
-    assert value["outcome"] == motion.outcome.label
-    assert len(value["impacts"]) == len(motion.contacts)
-
-
 def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
     case, options = load(machine), ("simulate", machine, "--shock")
     value = document(carom(*options, "20 g, 11 ms, 30 deg", "--json"))
@@ -159,50 +142,6 @@ def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
         assert code == 2
         assert err.startswith("carom: --shock = ")
         assert err.count("\n") == 1
-
-
-def test_loads_are_compared_with_stated_limits(carom, machine, tmp_path):
-    path = tmp_path / "bearing.toml"
-    text = Path(machine).read_text(encoding="utf-8")
-    path.write_text(f'{text}\n[limits]\nimpulse = "5 N s"\nheat = "1 kJ"\n', encoding="utf-8")
-    value = document(carom("simulate", path, "--kick", "12.894 mm/s,2 rad", "--json"))
-    _, out, _ = carom("simulate", path, "--kick", "12.894 mm/s,2 rad")
-
-    (bearing,) = value["touchdown_bearings"]
-    impulse, heat = bearing["limits"]
-    assert (impulse["name"], impulse["limit_si"], impulse["exceeded"]) == ("impulse", 5.0, False)
-    assert impulse["value_si"] == bearing["loads"]["impulse_si"] < 5.0
-    assert (heat["name"], heat["exceeded"], heat["endless"]) == ("heat", True, True)
-    assert heat["reached_after_si"] == pytest.approx(
-        (1000.0 - bearing["loads"]["heat_si"]) / bearing["loads"]["lasting_power_si"]
-    )
-    words = " ".join(out.split())
-    assert "heating goes on with 1.01 kW" in words
-    assert "ormal impulse of an impact: 3.04 N s, limit 5 N s: kept" in words
-    (unlimited,) = document(carom("simulate", machine, "--kick", "12.894 mm/s,2 rad", "--json"))["touchdown_bearings"]
-    assert unlimited["limits"] == []
-
-
-@pytest.mark.parametrize("options", [("--kick", "13 mm/s"), ("--start", "0,0,0,0")])
-def test_one_start_at_a_time(carom, machine, options):
-    code, _, err = carom("simulate", machine, "--blade-loss", "0.4", *options)
-
-    assert code == 2
-    assert "give one of --start" in err
-
-
-def test_start_with_units_is_the_same_start(carom, machine):
-    speed = 0.7e-3 * 184.2
-    plain = f"0.5,-0.25,{0.02 / speed!r},0"
-    in_units = "0.35 mm,-175 um,2 cm/s,0 m/s"
-
-    first = document(carom("simulate", machine, "--start", plain, "--until", "36.84", "--json"))
-    second = document(carom("simulate", machine, "--start", in_units, "--until", "0.2 s", "--json"))
-
-    assert second["time"] == pytest.approx(first["time"], rel=1e-14)
-    assert len(second["impacts"]) == len(first["impacts"])
-    assert second["start"]["U"] == pytest.approx(first["start"]["U"], rel=1e-14)
-    assert second["start"]["V"] == pytest.approx(first["start"]["V"], rel=1e-14)
 
 
 def test_simulate_for_people(carom, machine):

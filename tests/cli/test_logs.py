@@ -48,14 +48,6 @@ def test_csv_holds_impacts_and_lasting_contacts_in_order(motion, tmp_path):
     assert times == sorted(times)
 
 
-def test_csv_of_a_dimensionless_machine(dimensionless, tmp_path):
-    motion = simulate(jeffcott(load(dimensionless).parameters), kick(0.4, 0.2), 50.0)
-    write_csv(motion, str(tmp_path / "log.csv"))
-
-    rows = rows_of(tmp_path / "log.csv")
-    assert [float(row["radial_speed [c_r Omega]"]) for row in rows] == motion.contacts.radial_speed.tolist()
-
-
 def test_netcdf_holds_the_same_with_units(motion, tmp_path):
     write_netcdf(motion, str(tmp_path / "log.nc"))
 
@@ -89,16 +81,6 @@ def test_contacts_with_a_wall_that_gives_way(tmp_path):
     with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf", decode_times=False) as read:
         assert np.array_equal(read["deepest"], touches.deepest * scales.length)
         assert len(read["lasting_phase"]) == len(motion.lasting_contacts)
-
-
-def test_motion_without_contact(machine, tmp_path):
-    motion = simulate(jeffcott(load(machine).parameters), kick(0.001), 10.0)
-    write_csv(motion, str(tmp_path / "log.csv"))
-    write_netcdf(motion, str(tmp_path / "log.nc"))
-
-    assert rows_of(tmp_path / "log.csv") == []
-    with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf") as read:
-        assert read.sizes == {"contact": 0, "lasting": 0}
 
 
 def test_failed_write_leaves_the_old_file(motion, tmp_path, monkeypatch):

@@ -82,16 +82,6 @@ def test_kicks_are_proven_and_verified(capsys, tmp_path):
     assert recover["enclosures"]["speed_si"] == ["0.105", "0.105"]
 
 
-def test_all_states_are_proven_and_verified(capsys, tmp_path):
-    assert main(["prove", SPINDLE, "--states-up-to", "100 mm/s", "--out", str(tmp_path)]) == 0
-    assert "undecided" not in capsys.readouterr().out
-    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--json"]) == 0
-    recover, lost, whole = json.loads(capsys.readouterr().out)["claims"]
-    assert recover["enclosures"]["speed_si"] == ["0.1", "0.1"]
-    assert "runs away to rolling" in lost["statement"]
-    assert whole["status"] == "proven"
-
-
 def test_changed_certificate_is_refused(capsys, tmp_path):
     assert main(["prove", PAPER, "--out", str(tmp_path)]) == 0
     path = tmp_path / "proof.json"
@@ -108,14 +98,6 @@ def test_without_flint_one_line_names_the_extra():
 
     assert done.returncode == 2
     assert done.stderr == 'carom: proofs need python-flint; install it with: pip install "carom[proof]"\n'
-
-
-def test_value_of_the_parameter_along_which_is_proven_is_not_assumed(capsys):
-    ends = ["--along", "gamma", "--from", "0.1", "--to", "0.10001"]
-    assert main(["prove", PAPER, "--set", "gamma=0.3", *ends]) == 0
-    printed = capsys.readouterr().out
-    assert "gamma from 0.1 to 0.10001" in printed
-    assert "gamma = 0.3" not in printed
 
 
 @pytest.mark.parametrize(

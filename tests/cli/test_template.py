@@ -81,15 +81,6 @@ def test_what_stands_beside_as_another_way_works(tmp_path, text, block):
     assert cm.load(path).parameters.system.decay > 0.0
 
 
-def test_the_table_of_a_support_loads(tmp_path, text):
-    path = tmp_path / "mine.toml"
-    block = text[text.index("# [[support]]") :].partition("\n\n")[0]
-    path.write_text(text.replace(block, re.sub("^# ", "", block, flags=re.MULTILINE)), encoding="utf-8")
-    (support,) = cm.rotors.load_machine(path).supports
-    assert support.kxx == 2e4
-    assert all(getattr(support, name) for name in PARTS["support"].entries if name not in ("node", "position"))
-
-
 def test_every_line_that_may_be_used_loads(tmp_path, text):
     """Entries that go with all others, by taking their mark away one by one."""
     path = tmp_path / "mine.toml"

@@ -6,10 +6,10 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, exact_return, flight_matrix, random_parameters
+from machines import PAPER, exact_return, random_parameters
 from scipy.linalg import expm
 
-from carom.core.periods import ROUNDING, curvature_bound, flight_return, isolate, longest_period, returns, roots_on
+from carom.core.periods import ROUNDING, flight_return, isolate, longest_period, returns, roots_on
 from carom.core.planar import planar_exponents
 
 
@@ -67,24 +67,6 @@ def test_the_error_of_a_sum_is_as_large_as_its_terms():
             exact = complex(exact_return(parameters, period)[0][1, 1])
         worst = max(worst, abs(a22 - exact) / (ROUNDING * (1.0 + size)))
     assert worst < 0.5
-
-
-def test_returns_settle_at_periods_where_the_free_motion_has_died_out_or_grown_without_bound():
-    for gamma, omega in ((3.0, 0.5), (1.0, 2.0), (8.0, 4.0)):
-        for period in (300.0, 800.0, 1e5):
-            assert np.abs(returns(*planar_exponents(gamma, omega), period)[:3]).max() < 1e-8
-            a12, a22, rate, _ = returns(*planar_exponents(-gamma, omega), period)
-            assert np.abs([a12, a22 + 1.0, rate]).max() < 1e-8
-
-
-@pytest.mark.parametrize("gamma", [0.1, 0.9, 8.0, -0.3])
-def test_a_pair_agrees_with_its_two_modes_by_themselves(gamma):
-    parameters = PAPER.replace(gamma=gamma)
-    times = np.linspace(0.02, 30.0, 200)
-    pair, singles = (flight_returns(modes, times) for modes in (pair_of(parameters), singles_of(parameters)))
-    np.testing.assert_allclose(pair[:, 1:], singles[:, 1:], rtol=1e-10, atol=1e-12)
-    # The two modes differ by their poles at T = 0.
-    np.testing.assert_allclose(pair[:, 0], singles[:, 0], rtol=1e-10, atol=1e-12 / times.min())
 
 
 def test_any_number_of_modes_agrees_with_matrices():
@@ -152,11 +134,6 @@ def test_intervals_hold_all_roots_and_tell_the_doubtful():
     assert not starts_below
 
 
-def test_a_search_ends_where_it_needs_more_halvings_than_allowed():
-    modes, factor = pair_of(PAPER.replace(gamma=0.178)), factor_of(PAPER)
-    assert not isolate(modes, factor, 3.0, 12, 10)[1]
-
-
 def test_a_root_at_zero_is_told_apart():
     for gamma, below in ((0.1, True), (0.31, False)):
         parameters = PAPER.replace(d=1.0, gamma=gamma)
@@ -165,25 +142,3 @@ def test_a_root_at_zero_is_told_apart():
             found, _, starts_below = roots_on(modes, factor, isolate(modes, factor, 30.0, 120, 1000)[0])
         assert starts_below == below
         assert len(found) == int(below)
-
-
-def test_curvature_is_below_its_bound_for_pairs_and_modes_by_themselves():
-    for gamma in (0.05, 0.6, 1.5, 1.52, 1.6, 6.0):
-        parameters = PAPER.replace(gamma=gamma)
-        factor, matrix = factor_of(parameters), flight_matrix(parameters)
-        for middle, half in ((0.3, 0.2), (2.0, 0.5), (7.0, 0.1), (20.0, 3.0)):
-            bends = []
-            for time in np.linspace(middle - half, middle + half, 9):
-                flown = expm(matrix * time)
-                inverse = np.linalg.inv(np.eye(2) - flown)
-                second = matrix @ matrix @ flown @ (np.eye(2) + flown) @ inverse @ inverse @ inverse
-                bends.append(abs((factor * second[1, 1]).real))
-            written = [pair_of(parameters), *([] if gamma == 1.52 else [singles_of(parameters)])]
-            for modes in written:
-                assert max(bends) <= curvature_bound(modes, factor, middle, half)
-            assert curvature_bound(pair_of(parameters), factor, middle, half) < 1e4
-
-
-def test_without_damping_there_is_no_longest_period():
-    modes = pair_of(PAPER.replace(gamma=0.0))
-    assert longest_period(modes, 1.9 + 0.2j) == np.inf

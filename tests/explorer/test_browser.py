@@ -72,21 +72,6 @@ def test_the_machine_is_copied(page, kind, part):
     assert part in said(page, "navigator.clipboard.readText()")
 
 
-def test_a_wrong_value_is_one_line_and_the_page_goes_on(page):
-    page.locator("#box-damping").fill("a lot <b>")
-    page.keyboard.press("Enter")
-    problem = page.locator("#problem")
-    expect(problem).to_be_visible()
-    assert problem.inner_text().startswith("damping = a lot <b>: must be a damping in N s/m, ")
-    assert "wrong" in page.locator("#box-damping").get_attribute("class")
-    page.locator("#box-damping").fill("3.5e3")
-    page.keyboard.press("Enter")
-    expect(problem).to_be_hidden()
-    answered(page, "basin", said(page, "carom.number"))
-    page.locator("#reset").click()
-    expect(page.locator("#box-damping")).to_have_value("1400")
-
-
 @pytest.mark.parametrize(
     ("name", "text", "value"),
     [
@@ -109,17 +94,6 @@ def test_typed_units_place_slider_and_cursor(page, name, text, value):
     assert float(page.locator(f'[data-name="{name}"] .slider').input_value()) == pytest.approx(
         1000 * share, abs=1
     )  # its steps
-
-
-def test_two_pages_are_independent(page, open_page):
-    before, second = said(page, "carom.number"), open_page()
-    second.locator("#box-damping").fill("6000")
-    second.keyboard.press("Enter")
-    answered(second, "basin", 2)
-    expect(second.locator("#share")).to_have_text("100 %", timeout=SOON)
-    assert said(page, "document.getElementById('share').textContent") != "100 %"
-    assert said(page, "carom.number") == before
-    second.close()
 
 
 def test_what_was_set_is_in_the_address(open_page):
@@ -160,70 +134,3 @@ def test_a_server_that_stops_and_comes_back(open_page):
             )
             expect(page.locator("#share")).to_have_text("100 %", timeout=SOON)
         page.close()
-
-
-def test_a_connection_that_breaks_within_a_message(open_page):
-    connections, breaks = [], []
-
-    def link(browser):
-        server = browser.connect_to_server()
-        connections.append(server)
-
-        def bring(fragment):
-            if breaks and isinstance(fragment, bytes):
-                breaks.clear()
-                browser.close()
-                server.close()
-            else:
-                browser.send(fragment)
-
-        browser.on_message(server.send)
-        server.on_message(bring)
-
-    page = open_page(link=link)
-    breaks.append("at the next array")
-    page.locator("#box-damping").fill("6000")
-    page.keyboard.press("Enter")
-    page.wait_for_function("() => document.getElementById('share').textContent === '100 %'")
-    expect(page.locator("#box-damping")).to_have_value("6000")
-    assert len(connections) == 2
-    page.close()
-
-
-def test_malformed_messages_are_not_told_in_the_terminal(open_page):
-    with served(MACHINE) as (process, where):
-        page = open_page("", where)
-        for token, text in (("junk", "nonsense"), ("", "nonsense"), ("", "[")):
-            closed = page.evaluate(
-                """async ([address, token, text]) => {
-                  token ||= (await (await fetch(".")).text()).match(/"token":"([^"]+)"/)[1];
-                  const socket = new WebSocket(address, ["bokeh", token]);
-                  return new Promise((done) => {
-                    socket.onmessage = () => { for (let part = 0; part < 3; part += 1) socket.send(text); };
-                    socket.onclose = () => done("closed");
-                  });
-                }""",
-                [where.replace("http", "ws") + "ws", token, text],
-            )
-            assert closed == "closed"
-        page.locator("#box-damping").fill("6000")
-        page.keyboard.press("Enter")
-        answered(page, "basin", 2)
-        page.close()
-        process.terminate()
-        assert process.stderr.read() == ""
-
-
-def test_a_foreign_page_gets_nothing(browser, address):
-    context = browser.new_context()
-    page = context.new_page()
-    refused = page.goto(address.replace("127.0.0.1", "evil.test"))
-    assert refused.status == 403
-    # On a page of its own, an attacker reaches neither the page nor the connection.
-    page.route("http://attacker.test/*", lambda route: route.fulfill(body="<p>hello</p>", content_type="text/html"))
-    page.goto("http://attacker.test/")
-    assert said(page, f"fetch('{address}').then(() => 'read', () => 'refused')") == "refused"
-    socket = address.replace("http", "ws") + "ws"
-    opening = f"new Promise(done => {{ const s = new WebSocket('{socket}'); s.onopen = () => done('open'); s.onerror = () => done('refused'); }})"
-    assert said(page, opening) == "refused"
-    context.close()

@@ -27,17 +27,6 @@ def test_pointing_and_clicking_fly_what_comes_back_as_1_and_what_is_lost_as_2(pa
     answered(page, "exports", 0)
 
 
-def test_arrow_keys_move_the_kick(page):
-    answered(page, "motion", said(page, "carom.number"))
-    active = said(page, "carom.basin.active")
-    before = said(page, f"carom.basin.kicks[{active}].first")
-    page.locator("#basin").focus()
-    page.keyboard.press("ArrowRight")
-    page.wait_for_function(
-        "([active, before]) => carom.flights[active].message.kick.first > before", arg=[active, before]
-    )
-
-
 def pull(page, share: float, *, done: bool = True) -> None:
     """Pull the ring to a share of the largest."""
     ring = said(page, "carom.basin.ring / carom.basin.message.largest")
@@ -71,26 +60,6 @@ def test_the_smallest_lost_kick_is_a_ring_that_can_be_pulled(page):
     page.wait_for_function("size => carom.basin.ring < size", arg=size)
     page.locator("#reset").click()
     expect(page.locator("#legend")).to_contain_text("smallest kick that does not come back: 67.9 mm/s")
-
-
-@pytest.mark.parametrize(("kind", "unit", "noun"), [("shock", "g", "shock"), ("blade-loss", "g mm", "loss")])
-def test_shocks_and_losses_of_a_blade_have_a_range_of_their_own(page, kind, unit, noun):
-    page.locator("#kind").select_option(kind)
-    number = said(page, "carom.number")
-    for answer in ("basin", "motion", "beside", "loss"):
-        answered(page, answer, number)
-    assert said(page, "[carom.basin.message.kind, carom.basin.message.unit]") == [kind, unit]
-    expect(page.locator("#range-words")).to_contain_text(f" {unit}")
-    expect(page.locator("#lost-title")).to_have_text(f"smallest {noun} that does not come back")
-    expect(page.locator("#lost")).to_contain_text(unit)
-    expect(page.locator("#motion-words")).to_contain_text(f" {unit}")
-    before = said(page, "carom.basin.message.largest")
-    page.locator("#range").focus()
-    page.keyboard.press("PageDown")
-    page.wait_for_function("before => carom.basin.message.largest < before", arg=before)
-    page.wait_for_function(
-        "kind => location.hash.includes(`show=${kind}`) && location.hash.includes('range=')", arg=kind
-    )
 
 
 def test_each_step_is_undone_and_all_of_them_reset(page):

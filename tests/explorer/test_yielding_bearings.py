@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import shlex
-import threading
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import carom
-from carom.cli import main
 from carom.explorer.computing.controls import controls_of, values_of, with_settings
-from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python
+from carom.explorer.computing.exports import Origin, as_options
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import case_of, rotor_of
+from carom.models import rotor_of
 
 MACHINE = """
 [machine]
@@ -48,8 +43,6 @@ KINDS = {
     "rigid": 'law = "rigid"\nmount_mass = "1.5 kg"\nmount_stiffness = "2e7 N/m"\nmount_damping = "3000 N s/m"\n',
     "drive": LINEAR + 'restitution = 0.8\n\n[drive]\npolar_inertia = "0.02 kg m^2"\n',
 }
-GROUNDED = {"damping": "300"}
-"""A setting with which levitation would lie outside the bearing."""
 
 
 @pytest.fixture(scope="module")
@@ -70,10 +63,6 @@ def origin(folder):
         return Origin(path, (), carom.load(path))
 
     return of
-
-
-def kick_of(case, rotor, size=0.8):
-    return Kick(planes_of(case)[0], rest_of(rotor), size, 0.25 * size, 1.5)
 
 
 @pytest.mark.parametrize(
@@ -118,59 +107,6 @@ def test_options_and_file_lead_to_the_same_machine(origin, kind, changes, tmp_pa
     assert values_of(again) == values_of(case)
 
 
-@pytest.mark.jit_only
-@pytest.mark.parametrize(
-    ("kind", "changes"),
-    [
-        ("restitution", {}),
-        ("restitution", GROUNDED),
-        ("mount", {}),
-        ("mount", GROUNDED),
-        pytest.param("drive", {}, marks=pytest.mark.deep),
-        ("race", {}),
-        ("rigid", {}),
-    ],
-)
-def test_the_program_and_the_command_follow_what_is_shown(origin, kind, changes, capsys, monkeypatch, tmp_path):
-    given = origin(kind)
-    case = with_settings(given.case, changes)
-    rotor = rotor_of(case)
-    kick = kick_of(given.case, rotor)
-    motion = carom.simulate(rotor, kick.state, settle=True)
-    program = as_python(given, changes, rotor, kick, controls_of(given.case)[1])
-    assert ("find_orbits(machine, impacts=1)" in program) == (kind != "drive")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(carom.basins.Basin, "plot", lambda self: SimpleNamespace(savefig=len))
-    monkeypatch.setattr(carom.motions.Trajectory, "plot", lambda self: SimpleNamespace(savefig=len))
-    names: dict = {}
-    exec(program.partition("\nresponse =")[0].replace("(120, 120)", "(3, 3)"), names)
-    assert names["motion"].outcome == motion.outcome
-    # Sizes and angles of kicks are written with nine digits.
-    np.testing.assert_allclose(names["motion"].start.velocity, motion.start.velocity, atol=1e-8)
-    np.testing.assert_allclose(names["motion"].start.position, motion.start.position, atol=1e-8)
-    capsys.readouterr()
-    if command := as_command(given, changes, rotor, kick):
-        assert main([*shlex.split(command)[1:], "--json"]) == 0
-        assert json.loads(capsys.readouterr().out)["outcome"] == motion.outcome.label
-    else:
-        assert kind == "mount"
-
-
-@pytest.mark.parametrize("kind", ["restitution", "mount", "drive"])
-@pytest.mark.parametrize("changes", [{}, GROUNDED])
-def test_kicks_of_the_picture_are_those_that_are_followed(origin, kind, changes):
-    case = with_settings(origin(kind).case, changes)
-    rotor, rest = rotor_of(case), rest_of(rotor_of(case))
-    assert rest.levitates == (not changes)
-    parts = np.array([0.5, -0.2]), np.array([0.25, 0.6])
-    starts = rest.kicks(1.0).starts(rotor, *parts)
-    for place, pair in enumerate(zip(*parts, strict=True)):
-        state = rest.kicked(*pair)
-        np.testing.assert_allclose(starts.positions[place], state.position, atol=1e-14)
-        np.testing.assert_allclose(starts.velocities[place], state.velocity, atol=1e-14)
-        assert abs(rest.velocity(*pair)) == pytest.approx(np.hypot(*pair), rel=1e-14)
-
-
 def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
     case = with_settings(origin("restitution").case, {"touchdown_stiffness": "2e7"})
     rotor, kicks = rotor_of(case), planes_of(case)[0]
@@ -186,55 +122,3 @@ def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
     assert words in kicked.words
     assert " of the clearance." in kicked.words
     assert follow_kick(rotor, kicks, 1e-4, 0.0).words.endswith("ends in levitation without contact.")
-
-
-def test_steady_motions_are_listed_and_what_is_left_out_is_named(origin):
-    rotor = rotor_of(origin("restitution").case)
-    table = table_of(rotor)
-    assert [(row.name, row.state) for row in table.rows] == [
-        ("levitation", "stable"),
-        ("synchronous rub", "stable"),
-        ("synchronous rub", "unstable"),
-    ]
-    assert not any(row.remark for row in table.rows)
-    assert "carom orbits searches them" in table.argument
-
-
-def test_steady_motions_on_a_race_that_turns_are_listed(origin):
-    assert table_of(rotor_of(origin("race").case)).rows[0].name == "levitation"
-
-
-def test_a_model_has_the_case_of_its_bearing(origin):
-    found = case_of(rotor_of(origin("drive").case))
-    # A figure in a notebook begins with it.
-    assert values_of(with_settings(found, {"touchdown_stiffness": "2e8"}))["touchdown_stiffness"] == 2e8
-
-
-@pytest.mark.jit_only
-def test_a_session_answers_with_everything(origin, monkeypatch):
-    from carom.explorer.page import questions
-    from carom.explorer.page.session import Session
-
-    monkeypatch.setattr(questions, "COARSE", 8)
-    monkeypatch.setattr(questions, "COARSEST", 4)
-    monkeypatch.setattr(questions, "FINE", 9)
-    monkeypatch.setattr("carom.explorer.computing.judgement.DIRECTIONS", 1)
-    monkeypatch.setattr(questions, "judge", lambda case, tell: SimpleNamespace(lead="No.", advice="", survived=()))
-    ready, done, answers = threading.Event(), threading.Event(), {}
-    ready.set()
-
-    def answer(name, value):
-        answers[name] = value
-        if name == "verdict":
-            done.set()
-
-    session = Session(origin("restitution"), answer, ready)
-    session.show({"number": 1, "settings": {"touchdown_stiffness": "5e7 N/m"}, "held": False})
-    assert done.wait(120.0)
-    session.close()
-    assert answers["reply"]["values"]["touchdown_stiffness"] == 5e7
-    assert not [name for name, value in answers.items() if "refused" in (value or {})]
-    assert "diagram" not in answers  # it has no orbits in closed form
-    assert answers["response"]["touchdowns"]
-    assert "[touchdown]" in answers["exports"]["toml"]
-    assert answers["motion"]["planes"][0]["hardest"] >= 0.0

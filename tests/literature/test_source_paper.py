@@ -7,14 +7,11 @@ with more digits, each of them computed here from public functions and compared 
 
 from __future__ import annotations
 
-import cmath
-import math
 from decimal import Decimal
 
 import numpy as np
 import pytest
-from machines import PAPER, flight_matrix, rest_position
-from scipy.linalg import expm
+from machines import PAPER
 from scipy.optimize import bisect, brentq, minimize_scalar
 
 from carom import find_equilibria, find_orbits
@@ -224,100 +221,3 @@ def test_regions(place, status, admissible):
 
 
 # --------------------------------------------------------------------------------------------------- misprints
-
-
-def exponents() -> tuple[complex, complex]:
-    """``λ±`` of (3.5)."""
-    root = cmath.sqrt(4.0 * PAPER.omega**2 - PAPER.gamma**2)
-    return (-PAPER.gamma + 1j * (-2.0 + root)) / 2.0, (-PAPER.gamma + 1j * (-2.0 - root)) / 2.0
-
-
-@pytest.mark.parametrize("period", [0.3, 0.7611785497, 2.8635671446, 9.0])
-def test_matrix_after_4_1(period):
-    """The diagonal of ``(e^{−AT} − 1)⁻¹`` needs ``(v₋ − v₊)e^{ΛT}`` where ``e^{AT}`` is printed."""
-    upper, lower = exponents()
-    corner = 1.0 - PAPER.omega**2 - 1j * PAPER.gamma
-    v_upper, v_lower = -upper / corner, -lower / corner
-    up, down = cmath.exp(upper * period), cmath.exp(lower * period)
-    kappa = 1.0 / ((1.0 - down) * (1.0 - up) * (v_lower - v_upper))
-
-    def matrix(last: complex) -> np.ndarray:
-        return kappa * np.array(
-            [
-                [v_lower * up - v_upper * down - last, v_upper * v_lower * (down - up)],
-                [up - down, v_lower * down - v_upper * up - last],
-            ]
-        )
-
-    exact = np.linalg.inv(expm(-flight_matrix(PAPER) * period) - np.eye(2))
-    np.testing.assert_allclose(matrix((v_lower - v_upper) * up * down), exact, atol=1e-12)
-    assert np.abs(matrix(up * down) - exact).max() > 0.1
-    condition = PeriodCondition.of(jeffcott(PAPER).system)
-    found = [condition.a12(np.asarray(period)), condition.a22(np.asarray(period))]
-    np.testing.assert_allclose(found, exact[:, 1], atol=1e-12)
-
-
-def second_form(periods: np.ndarray, share: float, sign_of_phase: int) -> np.ndarray:
-    """(4.6), second form, with ``cos(s₄T ± ζ)``, ``ζ = 2 arctan(s₅/(share s₃ + s₂))`` and an ``s₄`` free of ``T``."""
-    gamma, omega, mu = PAPER.gamma, PAPER.omega, PAPER.mu
-    s1 = math.sqrt(4.0 * omega**2 - gamma**2)
-    half = np.exp(gamma * periods / 2.0)
-    total = np.zeros_like(periods)
-    for sign in (-1, 1):
-        s2, s3 = 2.0 + sign * s1 + gamma * mu, math.sqrt((1.0 + mu**2) * (1.0 + omega**2 + sign * s1))
-        s4, s5 = (2.0 * sign + s1) / 2.0, -sign * gamma + (2.0 * sign + s1) * mu
-        zeta = sign_of_phase * 2.0 * math.atan(s5 / (share * s3 + s2))
-        top = s2 * half - 2.0 * s3 * half**2 * np.cos(s4 * periods + zeta)
-        total -= sign * top / (1.0 + half**2 - 2.0 * half * np.cos(s4 * periods))
-    return 1.0 + (1.0 + PAPER.d) / (2.0 * s1 * half) * total
-
-
-def test_first_form_of_4_6():
-    """The first form is ``1 + Re(q a₂₂)``."""
-    periods = np.linspace(0.05, 20.0, 400)
-    upper, lower = exponents()
-    parts = [value * np.exp(value * periods) / np.expm1(value * periods) for value in (upper, lower)]
-    factor = (1.0 + PAPER.d) * complex(1.0, PAPER.mu) / (upper - lower)
-    first = 1.0 - (factor * (parts[0] - parts[1])).real
-    np.testing.assert_allclose(period_condition(jeffcott(PAPER), periods), first, atol=1e-12)
-
-
-def test_second_form_of_4_6():
-    """Right is ``cos(s₄T − ζ)`` with ``ζ = 2 arctan(s₅/(2s₃ + s₂))``, as ``s₂² + s₅² = 4s₃²``.
-
-    Printed are ``+ζ`` and no factor 2, and the definition of ``s₄`` holds a ``T`` too many.
-    """
-    periods = np.linspace(0.05, 20.0, 400)
-    values = period_condition(jeffcott(PAPER), periods)
-    np.testing.assert_allclose(second_form(periods, 2.0, -1), values, atol=1e-12)
-    for share, sign in ((1.0, 1), (1.0, -1), (2.0, 1)):
-        assert np.abs(second_form(periods, share, sign) - values).max() > 0.1
-
-
-def test_velocity_in_4_2():
-    """The velocity at the impact is ``(ṙ + iθ̇)U₀``; printed is ``ṙ + iθ̇U₀``."""
-    orbit = orbits_at(0.1)["B1,d"]
-    step = 1e-6
-    before = orbit.path(np.array([orbit.period - 3 * step, orbit.period - 2 * step, orbit.period - step]))
-    # Parabola through the last three places, taken at the impact.
-    velocity = (before[0] - 4.0 * before[1] + 3.0 * before[2]) / (2.0 * step) + (
-        before[0] - 2.0 * before[1] + before[2]
-    ) / step
-    right = complex(orbit.radial_speed, orbit.angular_speed) * orbit.position
-    assert velocity == pytest.approx(right, abs=1e-8)
-    assert abs(velocity - (orbit.radial_speed + 1j * orbit.angular_speed * orbit.position)) > 0.01
-
-
-def test_speeds_of_4_9_and_admissibility_of_proposition_4_1():
-    """Below ``γ*`` the two speeds of each period have opposite signs; they are (4.9)."""
-    orbits = orbits_at(0.05)
-    condition = PeriodCondition.of(orbits.rotor.system)
-    rest = abs(rest_position(PAPER.replace(gamma=0.05)))
-    for low, high in ((orbits[f"B{n},{a}"], orbits[f"B{n},{c}"]) for n in (1, 2) for a, c in ("ac", "bd")):
-        a12 = complex(condition.a12(np.asarray(low.period)))
-        g = (1.0 + PAPER.d) * (a12.real - PAPER.mu * a12.imag)
-        square = abs(condition.factor) ** 2 * abs(a12) ** 2
-        root = math.sqrt(g**2 - square * (1.0 - rest**2))
-        assert low.radial_speed == pytest.approx((-g - root) / square, rel=1e-12)
-        assert high.radial_speed == pytest.approx((-g + root) / square, rel=1e-12)
-        assert low.radial_speed < 0.0 < high.radial_speed

@@ -6,13 +6,11 @@ import mpmath
 import numpy as np
 import pytest
 
-from carom.base.outcome import InputError
 from carom.models import Rotor, jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.admissibility import why_virtual
-from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, margins_of, orbit_near, same_orbit
+from carom.orbits.orbit import Orbit, margins_of, orbit_near
 from carom.orbits.recognising import impacts_between, orbit_of_motion
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
@@ -68,23 +66,6 @@ def test_multipliers_are_those_of_the_product_of_one_impact_derivatives():
         product = impact_map(orbit.rotor, section).jacobian @ product
     expected = sorted(np.linalg.eigvals(product), key=lambda value: (-abs(value), -value.imag))
     assert np.abs(orbit.multipliers.values - expected).max() < 1e-10
-
-
-def test_multipliers_agree_with_differences_of_a_simulation():
-    orbit = two_impacts()
-    here = orbit.section
-
-    def image(change: np.ndarray) -> np.ndarray:
-        at = type(here)(here.angle + change[0], here.radial_speed + change[1], here.angular_speed + change[2])
-        for _ in range(2):
-            at = impact_map(orbit.rotor, at).image
-        return np.array([at.angle, at.radial_speed, at.angular_speed])
-
-    step = 1e-5
-    columns = [(image(step * unit) - image(-step * unit)) / (2.0 * step) for unit in np.eye(3)]
-    expected = sorted(np.linalg.eigvals(np.array(columns).T), key=lambda value: (-abs(value), -value.imag))
-    # Third derivatives of about 10² times the square of the step.
-    assert np.abs(orbit.multipliers.values - expected).max() < 1e-7
 
 
 def test_the_orbit_closes_in_thirty_digits():
@@ -152,17 +133,6 @@ def test_where_the_word_is_not_what_the_machine_does():
     assert "before its period is over" in doubled
 
 
-def test_a_repeated_orbit_is_told_as_the_short_one():
-    one = find_orbits(PAPER)["B1,d"]
-    again = orbit_near(one.rotor, one.word.repeated(3), Start(np.repeat(one.nodes, 3, 0), np.repeat(one.durations, 3)))
-    assert again is not None
-    assert len(again.word) == 1
-    assert same_orbit(again, one)
-    assert not same_orbit(again, two_impacts())
-    assert again.name == "P1,1"
-    assert again.name == CountedName(1, 1)
-
-
 def test_margins_of_the_doubled_orbit():
     orbit = two_impacts()
     assert orbit.margins.approach == pytest.approx(min(section.radial_speed for section in orbit.sections), rel=1e-12)
@@ -174,17 +144,6 @@ def test_margins_of_the_doubled_orbit():
     assert orbit.margins.radius == pytest.approx(1.0 - radii[1:-1][inner].max() ** 2, abs=1e-6)
     motion = orbit.trajectory(2.0)
     assert np.abs(np.abs(motion.position(times)) - radii).max() < 1e-9
-
-
-def test_a_start_of_another_shape_is_refused():
-    one = find_orbits(PAPER)["B1,d"]
-    with pytest.raises(InputError, match="start"):
-        orbit_near(PAPER, one.word.repeated(2), Start(one.nodes, one.durations))
-
-
-def test_newton_fails_without_an_orbit():
-    one = find_orbits(PAPER)["B1,d"]
-    assert converged(one.rotor, one.word, Start(np.full((1, 2), np.nan + 0j), one.durations)) is None
 
 
 def test_the_compiled_iteration_ends_where_the_other_ends():

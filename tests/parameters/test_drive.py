@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 import carom as cm
@@ -68,28 +67,3 @@ def test_bad_input_gets_one_line(tmp_path, tables, words):
         load(tmp_path, *tables)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
-
-
-@pytest.mark.jit_only
-def test_a_drive_beside_a_rigid_wall_is_that_of_a_linear_rotor(tmp_path):
-    """The same impacts as of a rotor given by its matrices, and the speed that friction leaves."""
-    path = tmp_path / "machine.toml"
-    rigid = MACHINE.replace("[gravity]", "restitution = 0.9")
-    path.write_text(rigid + "[drive]\npolar_inertia = 0.01\n")
-    machine = cm.load(path)
-    model = cm.models.rotor_of(machine)
-    at, scales = model.parameters, model.scales
-    rotor = cm.models.from_matrices(
-        mass=[[1.0]],
-        damping=[[at.gamma]],
-        stiffness=[[at.omega**2]],
-        forcing=[at.rho * np.exp(1j * at.phi)],
-        touchdowns=[cm.models.Touchdown([1.0], cm.models.Rigid(0.9), at.mu, at.radius_ratio + 1.0)],
-        shaft=cm.models.Shaft(0.01 / (scales.mass * scales.length**2)),
-    )
-    start = cm.kick(2.0).stages(rotor)[1]
-    found, expected = (cm.simulate(each, start, 20.0) for each in (machine, rotor))
-    assert len(found.contacts) >= 2
-    assert found.final.shaft == pytest.approx(expected.final.shaft, rel=1e-12)
-    assert found.final.shaft[0] < 1.0
-    assert found.final.position == pytest.approx(expected.final.position, abs=1e-11)

@@ -8,7 +8,7 @@ from carom.disturbances import VelocityKick
 from carom.disturbances.single import Single
 from carom.models import jeffcott
 from carom.parameters import Parameters, Scales
-from carom.parameters.formats import format_angle, format_quantity, number, rounded_down
+from carom.parameters.formats import format_quantity, number, rounded_down
 from carom.studies.wording import Wording
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
@@ -30,12 +30,6 @@ def test_sizes_are_told_in_the_units_of_people(value, kind, text):
     assert format_quantity(value, kind, SCALES) == text
 
 
-def test_without_scales_units_are_those_of_the_equations():
-    assert format_quantity(0.5, "velocity", None) == "0.5 c_r Ω"
-    assert format_quantity(0.5, "acceleration", None) == "0.5 c_r Ω²"
-    assert format_quantity(0.5, "time", None) == "0.5/Ω"
-
-
 @pytest.mark.parametrize(
     ("value", "least"),
     [(109.5703, 109.5), (0.17310591, 0.1731), (99.9999, 99.99), (219.7, 219.7), (1.0, 1.0), (0.3, 0.3)],
@@ -43,11 +37,6 @@ def test_without_scales_units_are_those_of_the_equations():
 def test_what_is_proven_is_rounded_down(value, least):
     assert rounded_down(value) == pytest.approx(least, rel=1e-12)
     assert float(number(rounded_down(value))) == least
-
-
-def test_angles_and_numbers():
-    assert format_angle(0.5235987755982988) == "30°"
-    assert number(1400.0) == "1,400"
 
 
 @pytest.mark.parametrize("scales", [None, SCALES])

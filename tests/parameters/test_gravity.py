@@ -7,7 +7,7 @@ import pytest
 
 from carom.base.outcome import InputError
 from carom.loading import load
-from carom.parameters import Case, Gravity, Scales, Zones
+from carom.parameters import Case, Gravity, Zones
 
 REAL, PURE, HEAVY = "examples/keogh-cole.toml", "examples/source-paper.toml", "examples/dropped-rotor.toml"
 
@@ -31,11 +31,6 @@ def test_values_with_units_and_their_defaults(write):
     assert gravity.words == "1.62 m/s² at -60°"
 
 
-def test_gravity_of_zero_is_none(write):
-    assert load(write("[gravity]\nacceleration = 0")).gravity is None
-    assert load(HEAVY, ["gravity=0"]).gravity is None
-
-
 def test_it_is_set_like_other_values(write):
     path = write('[gravity]\ndirection = "-60 deg"')
     moon = load(path, ["gravity=1.62 m/s^2", "damping=900"])
@@ -43,21 +38,6 @@ def test_it_is_set_like_other_values(write):
     assert moon == load(path).replace(gravity="1.62 m/s^2", damping=900)
     assert load(REAL, ["gravity=9.81"]).gravity == Gravity()
     assert moon.replace(speed="3000 rpm").gravity == moon.gravity
-
-
-def test_written_gravity_is_read_as_the_same(write):
-    gravity = Gravity(0.1 + 0.2, -1.1)
-    assert load(write(gravity.to_toml())).gravity == gravity
-
-
-def test_a_case_says_what_acts_on_the_rotor():
-    assert ("gravity", "9.81 m/s² at -90°") in load(HEAVY).rows()
-    assert "gravity" not in dict(load(REAL).rows())
-
-
-def test_in_units_of_the_equations_it_points_where_it_says():
-    scales = Scales(5.0, 0.25e-3, 1000.0)
-    assert Gravity().pull(scales) == pytest.approx(-1j * 9.81 / 250.0)
 
 
 @pytest.mark.parametrize(
@@ -93,8 +73,3 @@ def test_it_needs_a_machine(write):
         load(PURE).replace(gravity=9.81)
     with pytest.raises(InputError, match=allowed):
         Case("pure", load(PURE).parameters, None, Zones(), gravity=Gravity())
-
-
-def test_a_setting_that_is_none_is_told_by_its_name():
-    with pytest.raises(InputError, match=r"^gravity = heavy: must be an acceleration in m/s\^2"):
-        load(REAL, ["gravity=heavy"])

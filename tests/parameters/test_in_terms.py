@@ -10,7 +10,6 @@ from compilation import sized
 
 from carom.base.outcome import InputError
 from carom.loading import load
-from carom.models import case_of
 from carom.parameters import Case, Machine, Zones, in_terms_of
 
 REAL, PAPER, RIG = (f"examples/{name}.toml" for name in ("keogh-cole", "source-paper", "tum-test-rig"))
@@ -100,22 +99,6 @@ def test_text_unit_and_secondary_terms():
     assert in_terms_of(load(REAL), "damping", 0.0).setting == "damping=0 N s/m"
 
 
-def test_what_was_set_by_a_dimensionless_number_is_stated_by_the_field():
-    assert in_terms_of(load(REAL, ["gamma=0.2"]), "gamma", 0.3, "up").entry == "damping"
-    assert in_terms_of(load(RIG, ["damping=500 N s/m"]), "gamma", 0.3).entry == "damping"
-    assert in_terms_of(load(RIG), "gamma", 0.3).entry == "derivative_gain"
-
-
-def test_without_a_machine_the_parameter_states_itself():
-    one = in_terms_of(load(PAPER), "gamma", 0.31234, "up")
-    assert (one.entry, one.text, one.setting, one.reached) == ("gamma", "0.3124", "gamma=0.3124", 0.3124)
-    assert one.beside == ("damping ratio 0.206",)
-    assert load(PAPER, [one.setting]).parameters.gamma == 0.3124
-    scaled = case_of(load(REAL).parameters)
-    assert in_terms_of(scaled, "omega", 0.9).setting == "omega=0.9"
-    assert in_terms_of(scaled, "damping", 2000.0, "up").setting in ("damping=2000 N s/m", "damping=2001 N s/m")
-
-
 @pytest.mark.parametrize(
     ("path", "name", "value", "words"),
     [
@@ -129,16 +112,3 @@ def test_without_a_machine_the_parameter_states_itself():
 def test_what_the_machine_cannot_have_is_refused(path, name, value, words):
     with pytest.raises(InputError, match=words):
         in_terms_of(load(path), name, value)
-
-
-@pytest.mark.parametrize("bad", [None, True, -1, 0.5, math.inf, [1.0], 10**400, "", np.ones(2)])
-def test_bad_arguments_are_refused(bad):
-    case = load(REAL)
-    for make in (
-        lambda: in_terms_of(bad, "damping", 1.0),
-        lambda: in_terms_of(case, bad, 1.0),
-        lambda: in_terms_of(case, "damping", 1.0, bad),
-        lambda: in_terms_of(case, "damping", 1.0, "up", bad),
-    ):
-        with pytest.raises(InputError):
-            make()

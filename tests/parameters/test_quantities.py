@@ -4,7 +4,6 @@ import decimal
 import subprocess
 import sys
 from dataclasses import replace
-from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -18,12 +17,8 @@ from carom.parameters import (
     ENTRIES,
     MACHINE_FIELDS,
     SETTABLE,
-    Machine,
-    Scales,
-    Size,
     quantities,
     read_quantity,
-    read_size,
     unknown_name,
 )
 from carom.parameters.common_units import COMMON_UNITS
@@ -120,15 +115,6 @@ def test_angles_and_speeds_are_rounded_once(field, unit, in_si, number):
     assert read_quantity(MACHINE_FIELDS[field], f"{number!r} {unit}") == expected
 
 
-@given(number=st.floats(1e-6, 1e5, allow_subnormal=False), scale=st.sampled_from([("mm", 3), ("um", 6), ("cm", 2)]))
-def test_lengths_are_rounded_once(number, scale):
-    unit, places = scale
-
-    read = read_quantity(MACHINE_FIELDS["eccentricity"], f"{number!r} {unit}")
-
-    assert read == float(Fraction(repr(number)) / 10**places)
-
-
 @pytest.mark.parametrize("text", ["30 1/s", "30 s^-1", "1759 min^-1", "0.03 1/ms"])
 def test_speed_without_turns_or_radians_is_ambiguous(text):
     error = error_of(lambda: read_quantity(MACHINE_FIELDS["speed"], text))
@@ -208,10 +194,6 @@ def fields_of_errors(text):
             assert field.contains(number)
 
 
-def test_units_of_entries_with_current_are_common_too():
-    assert {field.unit for field in ENTRIES.values()} <= COMMON_UNITS.keys()
-
-
 @given(st.one_of(st.text(max_size=80), st.text("0123456789 ,.'’Ggm/HzrAN-_", max_size=30)))
 def test_no_text_brings_anything_but_a_number_or_an_input_error(text):
     for candidate in (text, f"5 {text}"):
@@ -274,11 +256,6 @@ def test_thousands_may_be_separated(gap):
         assert without_separators(text) == number
 
 
-def test_a_size_with_separated_thousands_and_no_unit_is_in_units_of_the_equations():
-    assert read_size("peak", "1 000", "acceleration", None) == Size(1000.0, False, "acceleration")
-    assert read_size("until", "1 000 s", "time", Scales(1.0, 1.0, 2.0)) == Size(1000.0, True, "time")
-
-
 @pytest.mark.parametrize(
     ("name", "text", "number"),
     [
@@ -332,22 +309,6 @@ def test_any_other_comma_is_refused(name, text, advice):
         assert "\n" not in str(error)
 
 
-@pytest.mark.parametrize(
-    ("text", "metres"),
-    [("3/4 in", "381/20000"), ("0.01 inch", "127/500000"), ("10 thou", "127/500000"), ("10 mil", "127/500000")],
-)
-def test_an_inch_is_exact(text, metres):
-    assert read_exact(ENTRIES["clearance"], text).rational == Fraction(metres)
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["12 00", "1 0000", "0 123", "12  000", "12 000'000", "1 2345", "1'000 000", "12' 000", "12 000 00", "' 000"],
-)
-def test_other_groups_are_no_numbers(text):
-    error_of(lambda: read_decimal(MACHINE_FIELDS["mass"], f"{text} kg"))
-
-
 # ------------------------------------------------------------------------------------------ names
 
 
@@ -378,13 +339,3 @@ def test_no_name_is_suggested_that_means_something_else(written):
 
     assert "did you mean" not in error.allowed
     assert error.allowed.startswith("unknown name in [machine]; allowed: gamma, omega")
-
-
-def test_several_unknown_names_list_those_allowed_once():
-    with pytest.raises(InputError) as caught:
-        Machine(ki="70 N/A", ks="210 N/mm", p_gain="10 A/mm")
-    lines = str(caught.value).splitlines()
-
-    assert [line.split(" = ")[0] for line in lines[:3]] == ["ki", "ks", "p_gain"]
-    assert [line.count("allowed: mass, damping") for line in lines[:3]] == [1, 0, 0]
-    assert lines[2].endswith("unknown name in [machine]; did you mean proportional_gain?")

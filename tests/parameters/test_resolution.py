@@ -88,22 +88,6 @@ def test_a_factor_that_is_set_moves_what_follows_from_it(in_terms):
     assert (damping.stiffness, damping.damping) == (1e6, 1600.0)
 
 
-def test_a_ratio_counts_the_stiffness_that_is_set_with_it():
-    for settings_ in (["damping_ratio=0.1", "omega=0.5"], ["omega=0.5", "damping_ratio=0.1"]):
-        parameters = load(REAL, settings_).parameters
-        assert parameters.gamma == pytest.approx(2 * 0.1 * 0.5, rel=1e-14)
-
-
-def test_a_rated_speed_lasts(tmp_path):
-    path = tmp_path / "rated.toml"
-    path.write_text(IN_TERMS.replace('unbalance = "15000 g mm"', 'balance_grade = 2.5\nrated_speed = "500 rad/s"'))
-
-    assert load(path).machine.eccentricity == 5e-6
-    assert load(path, ["balance_grade=G 5"]).machine.eccentricity == 1e-5
-    assert load(path, ["rated_speed=250 rad/s"]).machine.eccentricity == 1e-5
-    assert load(path, ["speed=900 rad/s"]).machine.eccentricity == 5e-6
-
-
 @pytest.mark.parametrize(
     ("settings_", "start"),
     [
@@ -174,12 +158,3 @@ def test_a_machine_in_terms_is_written_and_read_back_in_every_bit(in_terms, tmp_
             name, _, value = line.partition(" = ")
             shown = value if value.startswith('"') or name == "magnetic_bearings" else repr(float(value))
             assert f"{name} = {shown}  #" in found.to_toml()
-
-
-def test_limits_belong_to_the_machine_and_do_not_move_it(in_terms):
-    limited = load(in_terms, ["force_limit=500 N", "current_limit=5 A"]).machine
-
-    assert (limited.force_limit, limited.current_limit, limited.magnetic_bearings) == (500.0, 5.0, 2.0)
-    assert limited.parameters == load(in_terms).machine.parameters
-    assert limited != load(in_terms).machine
-    assert limited.controller_gains == {"proportional_gain": 1e4, "derivative_gain": 10.0}

@@ -64,25 +64,3 @@ def test_parameters_keep_their_range(name, value):
 
 def test_damping_may_be_negative_behind_the_door():
     assert Parameters(**{**NUMBERS, "gamma": -0.497}).gamma == -0.497
-
-
-def test_undamped_resonance_is_refused():
-    error = error_of(lambda: Parameters(**{**NUMBERS, "gamma": 0.0, "omega": 1.0}))
-
-    assert error.field == "gamma"
-    assert "omega = 1" in error.allowed
-    Parameters(**{**NUMBERS, "gamma": 1e-6, "omega": 1.0})
-    Parameters(**{**NUMBERS, "gamma": 0.0, "omega": 0.76})
-
-
-def test_parameters_are_replaced_by_name():
-    scales = Scales(50, 0.7e-3, 184.2)
-    parameters = Parameters(**NUMBERS).replace(gamma=0.2, scales=scales)
-
-    assert parameters.as_dict() == {**NUMBERS, "gamma": 0.2}
-    assert parameters.scales is scales
-    assert error_of(lambda: parameters.replace(gama=0.2)).allowed.startswith(
-        "unknown name in the parameters; did you mean gamma?"
-    )
-    assert error_of(lambda: parameters.replace(scales=3)).field == "scales"
-    assert error_of(lambda: parameters.replace(self=3)).field == "self"

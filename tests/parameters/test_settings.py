@@ -73,14 +73,6 @@ def test_physical_settings_change_what_depends_on_them():
     assert case.parameters.mu == 0.2
 
 
-def test_physical_settings_come_before_dimensionless_ones():
-    case = load(REAL, ["gamma=0.1", "speed=1500 rpm"])
-
-    assert case.parameters.gamma == 0.1
-    assert case.machine.damping == pytest.approx(0.1 * 50 * 1500 * math.pi / 30, rel=1e-15)
-    assert case == load(REAL, ["speed=1500 rpm", "gamma=0.1"])
-
-
 @pytest.mark.parametrize("path", [REAL, PAPER])
 @pytest.mark.parametrize(
     ("settings", "start"),
@@ -122,21 +114,3 @@ def test_nonsense_settings_are_named(path, settings, start):
 )
 def test_settings_that_no_machine_can_have_are_named(setting, start):
     assert str(error_of(REAL, setting)).startswith(start)
-
-
-@pytest.mark.parametrize("setting", ["damping=2000 N s/m", "mass=3 kg"])
-def test_physical_settings_need_a_machine(setting):
-    error = error_of(PAPER, setting)
-    assert error.field == setting.partition("=")[0]
-    assert "as mass, clearance and speed are not known" in error.allowed
-
-
-def test_a_dimensionless_file_may_have_negative_damping():
-    assert load(PAPER, ["gamma=-0.2"]).parameters.gamma == -0.2
-
-
-def test_a_broken_file_is_not_mended_by_a_setting(tmp_path):
-    path = tmp_path / "broken.toml"
-    path.write_text(REAL.read_text(encoding="utf-8").replace('"50 kg"', "-1"), encoding="utf-8")
-
-    assert error_of(path, "mass=50 kg").value == "-1"

@@ -2,16 +2,10 @@
 
 import math
 import tomllib
-from decimal import Decimal
-from fractions import Fraction
-from pathlib import Path
 
 import mpmath
 import numpy as np
 import pytest
-from compilation import sized
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
 
 from carom.base.outcome import InputError
 from carom.parameters import (
@@ -25,7 +19,6 @@ from carom.parameters import (
 from carom.parameters.quantities import read_decimal
 from carom.parameters.terms import field_to_vary
 
-REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 PLAIN = {
     "mass": "50 kg",
     "damping": "1400 N s/m",
@@ -52,11 +45,6 @@ def error_of(call):
         call()
     assert str(caught.value).isprintable()
     return caught.value
-
-
-def near(number):
-    """The double nearest to a number of many digits."""
-    return float(number)
 
 
 # ------------------------------------------------------------------------------------------ one machine, given in many ways
@@ -105,104 +93,12 @@ def test_every_way_to_give_a_number_gives_the_same_machine_to_the_last_bit(witho
     assert found.parameters == expected.parameters
 
 
-def test_all_terms_at_once():
-    found = Machine(
-        mass="50 kg",
-        unbalance="15000 g mm",
-        diametral_clearance="1.4 mm",
-        rotor_diameter="8 cm",
-        **{**BEARING, "proportional_gain": "1e4 A/m", "derivative_gain": "10 A s/m", "speed": "184.2 rad/s"},
-        unbalance_phase=0.21,
-        friction=0.15,
-        restitution=0.95,
-    )
-
-    assert found.parameters == Machine(**PLAIN).parameters
-
-
 def test_every_term_is_tried_above():
     marks = test_every_way_to_give_a_number_gives_the_same_machine_to_the_last_bit.pytestmark
     tried = {name for mark in marks for _, entries in mark.args[1] for name in entries}
 
     assert tried == TERM_FIELDS.keys() | {"rated_speed", *BEARING}
     assert TERM_FIELDS.keys() == TERMS.keys()
-
-
-@st.composite
-def decimals(draw, lowest, highest):
-    """Texts of decimal numbers, log-uniform in size, with up to 12 digits."""
-    number = 10 ** draw(st.floats(math.log10(lowest), math.log10(highest)))
-    return f"{number:.{draw(st.integers(0, 11))}e}"
-
-
-@settings(max_examples=sized(60, 60, 3000))
-@given(
-    mass=decimals(1e-2, 1e4),
-    unbalance=decimals(1e-3, 1e4),
-    diameter=decimals(1, 1e3),
-    clearance=decimals(0.1, 2),
-    frequency=decimals(5, 500),
-    ratio=decimals(1e-3, 1),
-    speed=decimals(500, 50000),
-)
-def test_formulas_are_exact_and_rounded_once(mass, unbalance, diameter, clearance, frequency, ratio, speed):
-    entries = {
-        "mass": f"{mass} kg",
-        "unbalance": f"{unbalance} g mm",
-        "rotor_diameter": f"{diameter} mm",
-        "diametral_clearance": f"{clearance} mm",
-        "natural_frequency": f"{frequency} Hz",
-        "damping_ratio": ratio,
-        "speed": f"{speed} rpm",
-        "friction": 0.1,
-        "restitution": 0.9,
-    }
-    try:
-        found = Machine(**entries)
-    except InputError as problem:
-        assume("rho" not in str(problem) and "omega" not in str(problem))
-        raise
-
-    own, radii = Fraction(repr(found.mass)), {"rotor_radius": diameter, "clearance": clearance}
-    assert found.mass == float(mass)
-    assert found.eccentricity == float(Fraction(unbalance) / 10**6 / own)
-    assert all(getattr(found, name) == float(Fraction(text) / 2000) for name, text in radii.items())
-    with mpmath.workprec(300):
-        tau = 2 * mpmath.mp.pi
-        assert found.speed == near(mpmath.mpf(speed) * tau / 60)
-        assert found.stiffness == near(mpmath.mpf(mass) * (tau * mpmath.mpf(frequency)) ** 2)
-        k, m = mpmath.mpf(repr(found.stiffness)), mpmath.mpf(repr(found.mass))
-        assert found.damping == near(2 * mpmath.mpf(ratio) * mpmath.sqrt(k * m))
-    assert found.unbalance_phase == 0.0
-
-
-@settings(max_examples=sized(60, 60, 3000))
-@given(
-    grade=decimals(0.1, 4000),
-    rated=decimals(100, 1e5),
-    factor=decimals(1, 1e3),
-    negative=decimals(1e3, 1e6),
-    surplus=decimals(0.05, 20),
-    derivative=decimals(1e-2, 1e3),
-    count=st.integers(1, 4),
-)
-def test_gains_and_grades_are_exact_and_rounded_once(grade, rated, factor, negative, surplus, derivative, count):
-    gain = Decimal(f"{(1 + float(surplus)) * float(negative) / float(factor):.6e}")
-    kept = {name: value for name, value in PLAIN.items() if name not in ("eccentricity", "stiffness", "damping")}
-    entries = {"balance_grade": f"G {grade}", "rated_speed": f"{rated} rpm", "magnetic_bearings": count}
-    entries |= {"force_current_factor": f"{factor} N/A", "negative_stiffness": f"{negative} N/m"}
-    entries |= {"proportional_gain": f"{gain} A/m", "derivative_gain": f"{derivative} A s/m"}
-    found = Machine(**kept, **entries)
-
-    ki, ks = Fraction(repr(float(factor))), Fraction(repr(float(negative)))
-    assert found.stiffness == float(count * (ki * Fraction(gain) - ks))
-    assert found.damping == float(count * ki * Fraction(derivative))
-    with mpmath.workprec(300):
-        speed = mpmath.mpf(repr(near(mpmath.mpf(rated) * 2 * mpmath.mp.pi / 60)))
-        assert found.eccentricity == near(mpmath.mpf(grade) / 1000 / speed)
-    gains = found.controller_gains
-    assert gains["proportional_gain"] == pytest.approx(float(gain), rel=1e-14)
-    assert gains["derivative_gain"] == pytest.approx(float(derivative), rel=1e-14)
 
 
 # ------------------------------------------------------------------------------------------ factors of 2 and 2 pi

@@ -69,19 +69,6 @@ def test_all_errors_are_told_at_once(error_of):
     assert str(error).split("\n") == [str(one) for one in error.errors]
 
 
-def test_all_errors_of_a_dimensionless_file_are_told_at_once(error_of):
-    error = error_of('[dimensionless]\ngamma = 1\nomga = 1\nmu = 11\nd = "1 kg"\nphi = 0\n', "mass=1", "damping=2")
-
-    assert [one.field for one in error.errors] == ["omga", "rho", "radius_ratio", "mu", "d"]
-
-
-def test_very_many_errors_are_counted(error_of):
-    lines = str(error_of("[machine]\n" + "".join(f"x{number} = 1\n" for number in range(20_000)))).split("\n")
-
-    assert len(lines) == 21
-    assert lines[-1] == "19989 more errors of this kind or others"
-
-
 @pytest.mark.parametrize(
     "text", ["\x1b[31m", "a\nb", "\u202egnp", "\x07", "\x9b1m", "\u2028", "\x00", "\ud800", "\x7f"]
 )
@@ -94,10 +81,3 @@ def test_no_control_character_of_an_input_is_in_its_error(error_of, text, tmp_pa
         quoted = '"' + "".join(sign if sign.isprintable() else f"\\u{ord(sign):04x}" for sign in text) + '"'
         for content in (f"{REAL}\n{quoted} = {quoted}", f"[{quoted}]\n{REAL}", REAL.replace('"50 kg"', quoted)):
             error_of(content)
-
-
-def test_the_name_of_a_case_is_printable(tmp_path):
-    path = tmp_path / "\x1b[2J\nro\u202etor.toml"
-    path.write_text(REAL, encoding="utf-8")
-
-    assert load(path).name == "\\x1b[2J\\nro\\u202etor"

@@ -6,7 +6,7 @@ import pytest
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.parameters import Gravity, TouchdownBearing
+from carom.parameters import TouchdownBearing
 
 MACHINE = """
 [machine]
@@ -60,12 +60,6 @@ def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
     case = load(tmp_path, '[touchdown]\nlaw = "rigid"\n', machine=MACHINE + "restitution = 0.9\n")
     assert case.touchdown is None
     assert cm.models.rotor_of(case).has_closed_forms
-
-
-def test_settings_and_replace_change_entries(tmp_path):
-    case = load(tmp_path, SOFT + "damping = 500\n", ["touchdown_stiffness=2e8 N/m", "touchdown_damping=300"])
-    assert case.touchdown == TouchdownBearing("kelvin-voigt", 2e8, 300.0)
-    assert case.replace(touchdown_stiffness="3e8 N/m", speed="9000 rpm").touchdown.stiffness == 3e8
 
 
 @pytest.mark.parametrize(
@@ -122,14 +116,6 @@ def test_a_restitution_of_the_machine_beside_the_law_is_refused(tmp_path):
         load(tmp_path, SOFT + "damping = 500\n", ["touchdown_stiffness=-1"])
     with pytest.raises(InputError, match="touchdown"):
         load(tmp_path, SOFT + "damping = 500\n", machine="[dimensionless]\ngamma=0.1\nomega=0.7\nrho=0.4\nphi=0\nmu=0.1\nradius_ratio=50\nd=0.9\n")  # fmt: skip
-
-
-def test_a_machine_with_weight_and_such_a_bearing_falls(tmp_path):
-    case = load(tmp_path, SOFT + "damping = 500\n[gravity]\n", ["eccentricity=0"])
-    assert case.gravity == Gravity()
-    motion = cm.simulate(case, cm.drop(cm.State(0)), "20 ms")
-    first = motion.segment_starts[1] * motion.rotor.scales.time
-    assert first == pytest.approx(7.139215615e-3, rel=1e-9)
 
 
 def test_the_restitution_of_a_rigid_wall_may_stand_in_either_table(tmp_path):

@@ -18,51 +18,9 @@ from carom.rotors.reduction import contact_error
 MACHINE = munich()
 
 
-def by_elements(machine):
-    """Exponents in 1/s by the finite elements themselves, with the controllers beside them."""
-    rotor, speed = machine.rotor, machine.speed
-    n, states = len(rotor.matrices.mass), sum(each.loop.states for each in machine.bearings)
-    stiffness, inputs = rotor.matrices.stiffness.astype(complex), np.zeros((n, states))
-    matrix = np.zeros((2 * n + states, 2 * n + states), complex)
-    at = 0
-    for each in machine.bearings:
-        place, loop, own = 2 * rotor.place_of(each.node), each.loop, slice(at, at + each.loop.states)
-        sensors = [2 * rotor.place_of(node) for node in each.sensor_nodes]
-        stiffness[place, place] += each.ks
-        for sensor in sensors:
-            stiffness[place, sensor] += each.ki * loop.D / len(sensors)
-            matrix[2 * n + at : 2 * n + own.stop, sensor] += loop.B / len(sensors)
-        inputs[place, own] = each.ki * loop.C
-        matrix[2 * n + own.start : 2 * n + own.stop, 2 * n + own.start : 2 * n + own.stop] = loop.A
-        at = own.stop
-    spin = rotor.damping_matrix - 1j * speed * rotor.matrices.gyroscopic
-    matrix[:n, n : 2 * n] = np.eye(n)
-    matrix[n : 2 * n] = -np.linalg.solve(rotor.matrices.mass, np.concatenate([stiffness, spin, inputs], axis=1))
-    return np.linalg.eigvals(matrix)
-
-
 def exponents_of(reduced):
     """Exponents of a model in the fixed frame, 1/s."""
     return (reduced.linear.system.exponents + 1j) * reduced.machine.speed
-
-
-def test_all_modes_are_the_finite_elements():
-    machine = munich(0.06)
-    exact, found = by_elements(machine), exponents_of(machine.with_modes(1000))
-    slow = exact[np.abs(exact) < 2e4]
-    assert len(slow) > 20
-    for each in slow:
-        # Rounding of the largest, 1e6 1/s.
-        assert np.abs(found - each).min() < 1e-8 * max(abs(each), 1.0)
-
-
-def test_few_vectors_have_the_slow_exponents():
-    machine = munich(0.06)
-    exact, reduced = by_elements(machine), machine.reduce()
-    found = exponents_of(reduced)
-    for each in exact[np.abs(exact) < 1500.0]:
-        assert np.abs(found - each).min() < 1e-4 * max(abs(each), 1.0)
-    assert reduced.vectors < len(machine.rotor.matrices.mass) // 2
 
 
 def test_the_error_told_is_that_of_the_forces():

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 import xarray
-from sweep_tasks import Drop, stored_bytes
+from sweep_tasks import stored_bytes
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -59,20 +59,6 @@ def test_file_and_python_give_the_same_in_a_store_and_in_memory(tmp_path, machin
     stored = without_history(open_sweep(tmp_path / "file.zarr"))
     xarray.testing.assert_identical(without_history(inside.dataset), stored)
     xarray.testing.assert_identical(without_history(tally.dataset), stored)
-
-
-@pytest.mark.jit_only
-def test_own_disturbances_on_processes_and_in_memory(tmp_path, machine):
-    plan = plan_sweep(machine, AXES[:1], Sample(Drop(), 40, seed=5))
-    run_sweep(plan, tmp_path / "store", workers=1)
-    data = run_sweep(plan).dataset
-
-    xarray.testing.assert_identical(without_history(open_sweep(tmp_path / "store")), without_history(data))
-    rotor = cm.models.jeffcott(plan.case_at((2,)).parameters)
-    starts = plan.task.plan(rotor.scales, plan.seed_of((2,))).starts(rotor)
-    back = cm.settle(rotor, starts.positions[starts.exists], starts.velocities[starts.exists]).recovered
-    assert data["possible"].values[2] == starts.exists.sum() < 40
-    assert data["recovered"].values[2] == back.mean()
 
 
 @pytest.mark.parametrize(

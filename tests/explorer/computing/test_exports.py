@@ -130,26 +130,6 @@ def test_the_command_follows_the_kick_that_is_shown(given, changes, capsys):
     assert found == pytest.approx(complex(kick.state.velocity), abs=1e-8)
 
 
-@pytest.mark.jit_only
-@pytest.mark.parametrize("name", ["shock", "blade-loss"])
-def test_shocks_and_losses_of_a_blade_are_copied_too(name, capsys, monkeypatch, tmp_path):
-    given = origin(KEOGH, "eccentricity=0.15 mm")
-    rotor = jeffcott(given.case.parameters)
-    (plane,) = (one for one in planes_of(given.case) if one.name == name)
-    kick = Kick(plane, rest_of(rotor), 0.2, 0.1, 0.3)
-    after, state, _ = plane.start(rotor, kick.rest, 0.2, 0.1)
-    outcome = carom.simulate(after, state, settle=True).outcome
-    assert main([*shlex.split(as_command(given, {}, rotor, kick))[1:], "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["outcome"] == outcome.label
-    program, names = as_python(given, {}, rotor, kick, controls_of(given.case)[1]), {}
-    monkeypatch.chdir(tmp_path)
-    pictures(monkeypatch)
-    program = program.replace("(60, 120)", "(4, 6)").replace("(360,)", "(6,)")
-    exec(program[: program.index("response =")], names)
-    assert names["motion"].outcome == outcome
-    assert names["basin"].starts in (24, 6)
-
-
 def test_paths_and_texts_are_quoted(tmp_path):
     path = tmp_path / 'my "new" machine.toml'
     path.write_text(Path(KEOGH).read_text(encoding="utf-8"), encoding="utf-8")

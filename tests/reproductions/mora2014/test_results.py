@@ -7,12 +7,11 @@ import math
 import numpy as np
 import pytest
 from machines import PAPER
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from carom import find_equilibria, find_orbits
 from carom.bifurcations import motions_at
 from carom.models import jeffcott
-from carom.orbits import period_condition
 
 
 def test_motions_of_figure_2(found):
@@ -27,28 +26,6 @@ def test_motions_of_figure_2(found):
     # Near grazing: the free maximum of the radius is within 3 % of the wall.
     assert 0.97 < grazing.highest < 1.0
     assert small.highest == 1.0
-
-
-def test_functions_of_figure_3(found):
-    for function in found.periods.functions:
-        rotor = jeffcott(PAPER.replace(gamma=function.gamma))
-        np.testing.assert_allclose(function.values, period_condition(rotor, function.periods), atol=1e-12)
-        signs = np.sign(function.values)
-        crossings = int(np.count_nonzero(signs[1:] != signs[:-1]))
-        assert crossings == np.count_nonzero(function.roots < function.periods[-1])
-
-
-def test_pairs_of_figure_3(found):
-    for pair in found.periods.pairs:
-        assert pair.gammas[0] == pair.gammas[-1] == 0.005
-        assert pair.gammas.max() == pair.fold[0]
-        for gamma, period in zip(pair.gammas[::9], pair.periods[::9], strict=True):
-            assert abs(period_condition(jeffcott(PAPER.replace(gamma=gamma)), np.array([period]))[0]) < 1e-10
-        assert (np.diff(pair.longer.astype(int)) != 0).sum() == 1
-    # All there are up to 30/Ω at the weakest damping, each pair once.
-    weakest = find_orbits(jeffcott(PAPER.replace(gamma=0.005)), 30.0).periods
-    starts = np.sort([period for pair in found.periods.pairs for period in pair.periods[[0, -1]]])
-    np.testing.assert_allclose(starts[: len(weakest)], weakest, rtol=1e-10)
 
 
 def test_birth_of_figure_3(found):
@@ -106,18 +83,6 @@ def test_extrema_of_figure_5(found):
             np.testing.assert_allclose(shown, expected, atol=1e-4)
 
 
-def test_extrema_meet_where_two_are_born(found):
-    turn = found.pair.special("radius-extremum", "d")
-    ends = [line.radii[-1] for line in found.radii.fast if line.places[-1] == turn.place]
-    assert len(ends) == 3
-    assert ends[0] == ends[1] != ends[2]
-    # There the radius stands still: its rate touches zero at that radius.
-    times = np.linspace(0.1, 0.45, 20001) * turn.period
-    rates = np.diff(np.abs(turn.orbit.path(times)))
-    place = int(np.argmax(rates))
-    assert abs(turn.orbit.path(times[place : place + 1])[0]) == pytest.approx(ends[0], abs=1e-3)
-
-
 def test_grazing_line_reaches_the_wall(found):
     grazing = found.pair.special("grazing", "d")
     tops = [
@@ -131,13 +96,6 @@ def test_grazing_line_reaches_the_wall(found):
         options={"xatol": 1e-9},
     )
     assert -time.fun == pytest.approx(1.0, abs=1e-9)
-
-
-def test_levitation_of_figure_5(found):
-    stiffness = PAPER.omega**2 - 1.0
-    exact = PAPER.rho / np.hypot(stiffness, found.radii.gammas)
-    np.testing.assert_allclose(found.radii.levitation, exact, rtol=1e-13)
-    assert 1.0 in found.radii.levitation.round(13)
 
 
 def test_regions_of_figure_6(found):
@@ -160,27 +118,3 @@ def test_regions_of_figure_6(found):
     assert (parts["R4.1"].orbits, parts["R4.3"].orbits) == (4, 3)
     exact = np.sqrt(PAPER.rho**2 - (1.0 - boundary.points[:, 1] ** 2) ** 2)
     np.testing.assert_allclose(boundary.points[:, 0], exact, rtol=1e-10)
-
-
-@pytest.mark.parametrize("omega", [0.7, 0.85])
-def test_new_curves_of_figure_6(found, omega):
-    """Grazing and period doubling at other stiffnesses than the figure's own, by root search over full orbits."""
-
-    def orbit(gamma):
-        return find_orbits(jeffcott(PAPER.replace(gamma=gamma, omega=omega)))["B1,d"]
-
-    def highest(gamma):
-        at = orbit(gamma)
-        radii = np.abs(at.path(np.linspace(0.1, 0.9, 4001) * at.period))
-        return float(radii.max()) - 1.0
-
-    for kind, function in (
-        ("grazing", highest),
-        ("period-doubling", lambda gamma: float(np.prod(-1.0 - orbit(gamma).multipliers.values).real)),
-    ):
-        curve = found.plane.curve(kind)
-        order = np.argsort(curve.points[:, 1])
-        drawn = float(np.interp(omega, curve.points[order, 1], curve.points[order, 0]))
-        exact = brentq(function, drawn - 2e-3, drawn + 2e-3, xtol=1e-9)
-        # Between its points the curve is drawn straight.
-        assert drawn == pytest.approx(exact, abs=3e-5)
