@@ -167,21 +167,9 @@ def test_every_command_has_a_heading():
     assert sorted(headings) == sorted(get_command(app).commands)
 
 
-@pytest.mark.jit_only
-def test_python_of_the_readme_runs(tmp_path, monkeypatch):
-    (code,) = re.findall(
-        r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
-    )
-    (tmp_path / "examples").symlink_to(ROOT / "examples")
-    monkeypatch.chdir(tmp_path)
-    names: dict[str, object] = {}
-    exec(compile(code, "README.md", "exec"), names)
-    assert (tmp_path / "shocks.svg").exists()
-
-
 def test_python_that_is_shown_is_run():
     """A block of Python on a page is a cell, which `make docs` executes."""
-    for page in PAGES[1:]:
+    for page in PAGES:
         blocks = re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
         assert not blocks, f"{page.relative_to(ROOT)}: {blocks[0][:80]}"
 
