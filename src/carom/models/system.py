@@ -189,8 +189,8 @@ class System(ModeArrays):
         """Amplitudes at rest at a time: those of the forcing modes, and zeros; shape (N,)."""
         if self.forced is None:
             return np.zeros(self.modes, complex)
-        moved: np.ndarray = self.forced * np.exp(self.arrays["exponents"] * time)
-        return moved
+        # Other modes may grow beyond all numbers by then.
+        return self.forced * np.exp(np.where(self.forced, self.arrays["exponents"], 0.0) * time)
 
     def amplitudes_of(self, states: np.ndarray, time: float = 0.0) -> np.ndarray:
         """Mode amplitudes of states (m, 2n) at a time, each the coordinates and then their rates; shape (m, N)."""

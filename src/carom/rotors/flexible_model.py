@@ -35,9 +35,12 @@ class FlexibleDefinition(LinearEquations):
     ----------
     reduced : ReducedMachine
         The machine and its vectors.
+    growth : float
+        How fast a motion of the whole machine grows, in units of the speed; 0 where none does.  No unbalance changes it.
     """
 
     reduced: Any = None
+    growth: float = 0.0
 
     @property
     def finite_elements(self) -> ReducedMachine:
@@ -48,9 +51,7 @@ class FlexibleDefinition(LinearEquations):
     @cached_property
     def system(self) -> System:
         """Modes, contact planes and contact law; it knows whether a motion of the machine grows that its vectors leave out."""
-        slowest, speed = self.reduced.machine.slowest, self.reduced.machine.speed
-        growth = float(slowest.exponents.real.max()) / speed if slowest.grows else 0.0
-        return dataclasses.replace(super().system, growth=growth)
+        return dataclasses.replace(super().system, growth=self.growth)
 
     @cached_property
     def _own(self) -> dict[str, Field]:

@@ -262,8 +262,10 @@ class ReducedMachine(Result):
         # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
+        slowest = at.slowest
         return FlexibleDefinition.in_fixed_frame(
             reduced=self,
+            growth=float(slowest.exponents.real.max()) / at.speed if slowest.grows else 0.0,
             mass=given.mass,
             damping=once * given.damping,
             stiffness=twice * given.stiffness,
