@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 from flint import acb
-from reference import Crossing, Flight, first_crossing, jeffcott_exponents, jeffcott_flight, unit
+from reference import Crossing, Flight, first_crossing, jeffcott_flight, unit
 
 from carom.base.outcome import Outcome
 from carom.core import events
@@ -273,11 +273,6 @@ def _from_wall(rotor: Rotor, flight: Flight, inside: float, outside: float) -> t
 def flight_of(parameters: Parameters, position: acb, velocity: acb) -> Flight:
     """Reference flight of a rotor with these parameters."""
     return jeffcott_flight(parameters.gamma, parameters.omega, parameters.rho, parameters.phi, position, velocity)
-
-
-def slowest_decay(rotor: Rotor) -> float:
-    """Decay rate of the slower mode."""
-    return -float(jeffcott_exponents(rotor.parameters.gamma, rotor.parameters.omega)[0].real)
 
 
 def rotors(seed: int, count: int) -> list[tuple[Rotor, np.random.Generator]]:

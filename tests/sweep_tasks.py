@@ -5,15 +5,11 @@ from __future__ import annotations
 import os
 import signal
 import time
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-import numpy as np
-
-from carom.base.outcome import CaromWarning
-from carom.disturbances import Coordinate, Disturbance, Sample, Starts, VelocityKick
+from carom.disturbances import Sample, VelocityKick
 from carom.parameters import Case, Parameters, Zones
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
@@ -57,15 +53,6 @@ class Failing(Drawn):
 
 
 @dataclass(frozen=True)
-class Warned(Drawn):
-    """Has something to tell at every point."""
-
-    def evaluate(self, case, seed):
-        warnings.warn("the disk is full", CaromWarning, stacklevel=1)
-        return super().evaluate(case, seed)
-
-
-@dataclass(frozen=True)
 class Deadly(Drawn):
     """Kills its process where the damping is above a limit; only once if it can leave a trace."""
 
@@ -78,25 +65,6 @@ class Deadly(Drawn):
                 Path(self.trace).touch()
             os.kill(os.getpid(), signal.SIGKILL)
         return super().evaluate(case, seed)
-
-
-@dataclass(frozen=True)
-class Drop(Disturbance):
-    """The rotor is let go at some distance from levitation."""
-
-    farthest: float = 0.8
-    measured_in: ClassVar[dict[str, str]] = {"farthest": "length"}
-
-    @property
-    def coordinates(self):
-        distance = Coordinate("distance", "distance from levitation", 0.0, self.farthest, "length")
-        return distance, Coordinate("direction", "direction", 0.0, 2.0 * np.pi, periodic=True)
-
-    def starts(self, rotor, *values):
-        distance, direction = values
-        positions = rotor.equilibrium + distance * np.exp(1j * direction)
-        inside = np.abs(positions) < 1.0
-        return Starts.of(np.where(inside, positions, 0.0), 0j, inside)
 
 
 def plan_of(task, count=10, chunk=2, seed=5):

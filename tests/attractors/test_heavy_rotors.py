@@ -6,13 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from heavy_rotors import PARTING, RIGID, SIX, heavy, of_two_coordinates
+from heavy_rotors import PARTING, RIGID, of_two_coordinates
 from scipy.optimize import brentq
 
 import carom as cm
 from carom.attractors import Attractor, exponents_of, find_attractors
-from carom.attractors.settled import settled_motion
-from carom.attractors.survival import follow_further
 from carom.base.outcome import Outcome
 from carom.models import Force, Rigid, jeffcott, rotor_of
 from carom.parameters import Parameters
@@ -90,21 +88,3 @@ def test_a_bounce_that_does_not_keep_time_with_the_shaft_neither_repeats_nor_sep
     (irregular,) = touched(found)
     assert irregular.name.irregular
     assert exponents_of(rotor, irregular, 12_000).across[0] == pytest.approx(0.0, abs=3e-3)
-
-
-def test_motions_are_followed_further_under_weight_that_points_as_it_does_there():
-    starts = np.array([0.2 + 0.1j, -0.3j, 0.5]), np.array([1.0, 0.5j, -1.0])
-    first = cm.settle(SIX, *starts, until=5.0, patience=0)
-    further = follow_further(SIX, first, np.array([True, True, False]), until=7.0, patience=0)
-    assert further.times.tolist() == [12.0, 12.0, 5.0]
-    for place in range(2):
-        whole = cm.simulate(SIX, cm.State(starts[0][place], starts[1][place]), 12.0).final
-        assert further.positions[place] == pytest.approx(whole.position, abs=1e-11)
-        assert further.state(place).time == 12.0
-
-
-def test_whirl_that_never_repeats_takes_no_whole_turns():
-    rotor = heavy(0.2, 0.1, 0.3, 0.2, 0.3, 0.5, 5.37)
-    rolling = cm.simulate(rotor, cm.State(1.0, -6.37j), settle=True)
-    assert rolling.outcome is Outcome.ROLLING
-    assert settled_motion(rolling).period is None

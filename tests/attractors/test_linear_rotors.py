@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from linear_rotors import random_rotor, single, tilting, touchdowns
+from linear_rotors import random_rotor, tilting, touchdowns
 from machines import PAPER
 
 import carom
@@ -78,15 +78,6 @@ def test_a_rotor_with_two_planes_is_followed_from_kicks_and_from_motions_next_to
         assert member.settled == member.name.outcome.settled
     hit = next(ending for ending in found.endings if ending.impacts)
     assert hit.hardest_impulse > 0.0
-
-
-def test_a_kick_counts_by_the_speed_of_the_rotor_as_a_whole():
-    model = single(2).model.replace(translation=[2.0])
-    states = [carom.kick(3.0).stages(model)[1], carom.kick(0.001).stages(model)[1]]
-    found = carom.find_attractors(model, [carom.kick(3.0), carom.kick(0.001)], known=False)
-    assert found.endings[0].start.speed == pytest.approx(abs(states[0].velocity)) == pytest.approx(6.0)
-    if not found.endings[0].recovered:
-        assert found.smallest_unrecovered_kick == pytest.approx(3.0)
 
 
 def test_an_impact_at_one_plane_while_another_rubs_is_an_orbit_of_the_flow():

@@ -8,7 +8,6 @@ from carom.attractors import exponents_of, find_attractors
 from carom.base.outcome import Outcome
 from carom.basins import share_of_kicks
 from carom.models import jeffcott
-from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.parameters import Parameters
@@ -43,16 +42,6 @@ def test_as_many_roll_as_a_little_below(d):
     assert "the bounces provably fade" in rolls.words
     # What is left of a bounce fades in finite time, unless the wall is elastic.
     assert (exponents_of(here.rotor, rolls) is None) == (d == 1.0)
-
-
-def test_one_motion_is_told_to_roll_where_its_bounces_never_end():
-    start = State(1.0, complex(-0.5, -1.0 - ROLLS.radius_ratio))
-    motion = simulate(jeffcott(ROLLS.replace(d=1.0)), start, settle=True, patience=500)
-    assert motion.outcome is Outcome.ROLLING
-    assert simulate(jeffcott(UNPROVEN), start, settle=True, patience=500).outcome is Outcome.LOW_BOUNCES
-    # With negative damping they grow, and nothing is said of where to.
-    grows = simulate(jeffcott(UNPROVEN.replace(gamma=-1e-3)), start, settle=True, patience=500)
-    assert grows.outcome is Outcome.LOW_BOUNCES
 
 
 def test_what_is_not_proven_to_fade_is_undecided_and_neither_survives_nor_comes_back():
@@ -90,12 +79,3 @@ def test_no_motion_without_slip_survives_on_random_machines(seed):
             slip = np.abs(log.angular_speed + 1.0 + parameters.radius_ratio)
             stopped = slip <= parameters.mu * (1.0 + parameters.d) * log.radial_speed
             assert not stopped.all()
-
-
-def test_a_chatter_in_progress_is_followed_to_its_end():
-    """Its bounces are low too, but they end."""
-    rotor = jeffcott(ROLLS.replace(mu=0.0, d=0.99))
-    pressed = np.full(3, 1.0 + 0j), np.array([-0.3, -0.2, -0.1]) - 0.5j * ROLLS.radius_ratio
-    assert (settle(rotor, *pressed, patience=300).outcomes == Outcome.LOW_BOUNCES).all()
-    found = find_attractors(rotor, [State(1.0, complex(velocity)) for velocity in pressed[1]], known=False)
-    assert not any(member.name.outcome is Outcome.LOW_BOUNCES for member in found)

@@ -3,18 +3,14 @@
 import numpy as np
 import pytest
 
-import carom
-from carom.attractors import find_attractors, following
-from carom.attractors.survival import Survival
-from carom.base.outcome import CaromError, Outcome
-from carom.base.progress import Reporter
+from carom.attractors import find_attractors
+from carom.base.outcome import Outcome
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import Starts, kick
+from carom.disturbances import kick
 from carom.models import jeffcott
 from carom.motions import settling
-from carom.motions.ensembles import Endings
 from carom.motions.starts import State
-from carom.orbits.single_impact import find_orbits, orbits_within_reach
+from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -129,17 +125,6 @@ def test_two_impacts_a_period_beyond_the_period_doubling():
 # ------------------------------------------------------------------------------------------------ bookkeeping
 
 
-@pytest.mark.jit_only
-def test_where_orbits_cannot_be_listed_disturbances_are_followed_all_the_same():
-    """Without damping, at a resonance of flight and shaft, the closed form has no list; there are no starts next to orbits then."""
-    undamped = SOURCE.replace(gamma=0.0, omega=2 / 3)
-    with pytest.raises(CaromError, match="too near resonance"):
-        orbits_within_reach(undamped)
-    found = find_attractors(undamped, count=30)
-    assert len(found.disturbances) == 30
-    assert {ending.start.kind for ending in found.endings} & {"orbit"} == set()
-
-
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     monkeypatch.setattr(settling, "longest_time", lambda rotor: 5.0)
     found = find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
@@ -151,51 +136,3 @@ def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
 
 
 # ------------------------------------------------------------------------------------------------ growing patience
-
-
-LASTS = Survival(100, 20_000, 0, None, (4e5, np.inf))
-DIES = Survival(100, 20_000, 100, 2000.0, (1600.0, 2500.0))
-
-
-class Fake:
-    """Stands in for an ensemble in which each motion stays irregular for so many impacts."""
-
-    def __init__(self, lives):
-        self.left, self.followed = np.array(lives), np.zeros(len(lives), int)
-
-    def __call__(self, rotor, positions, velocities, *, patience, which=None, begins=0.0, threads=None, progress=None):
-        places = positions.real.astype(int)
-        impacts = np.minimum(patience, self.left[places] - self.followed[places])
-        self.followed[places] += impacts
-        multiplicities = np.where(self.followed[places] < self.left[places], 0, 1)
-        outcomes = np.full(len(places), Outcome.BOUNCING, np.int8)
-        times = impacts.astype(float)
-        return Endings(outcomes, times, impacts, multiplicities, positions, velocities, 0.0 * times)
-
-
-def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
-    fake, progress = Fake(lives), []
-    monkeypatch.setattr(carom.disturbances.following, "settle", fake)
-    monkeypatch.setattr(carom.attractors.survival, "settle", fake)
-    monkeypatch.setattr(
-        carom.attractors.survival, "measure_survival", lambda *states, begins, impacts, threads, motions: survival
-    )
-    starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
-    tell = Reporter(lambda report: progress.append(report.share))
-    ends, lasted, found = following.follow_in_stages(jeffcott(SOURCE), starts, patience, None, tell)
-    assert progress == sorted(progress)
-    assert lasted.tolist() == [life > min(1000, patience) for life in lives]
-    assert found is (survival if lasted.any() else None)
-    np.testing.assert_array_equal(ends.times, ends.impacts)
-    return ["periodic" if count else "irregular" for count in ends.multiplicities], ends.impacts.tolist()
-
-
-FOREVER = 10**9
-
-
-def test_what_would_take_too_long_is_not_followed_to_its_end(monkeypatch):
-    monkeypatch.setattr(following, "AFFORDABLE", 3999)
-    names, impacts = fates(monkeypatch, [FOREVER] * 2, survival=DIES)
-
-    assert names == ["irregular"] * 2
-    assert impacts == [20_000] * 2

@@ -1,11 +1,10 @@
 """What settled motions repeat."""
 
 import dataclasses
-import math
 
 import pytest
 
-from carom.attractors.settled import forces_on, known_orbit, same_motion, settled_motion, whirl_of
+from carom.attractors.settled import forces_on, same_motion, settled_motion, whirl_of
 from carom.base.outcome import Outcome
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling
@@ -33,17 +32,6 @@ def doubled():
     rotor = jeffcott(SOURCE.replace(gamma=0.0832))
     leaving = find_orbits(rotor)["B1,d"].departure
     return [settled(rotor, State(leaving.position, factor * leaving.velocity)) for factor in (0.999, 1.001, 1.01, 0.99)]
-
-
-def test_bouncing_repeats_its_orbit(bouncing):
-    orbits = find_orbits(bouncing.rotor)
-    ended = settled_motion(bouncing)
-
-    assert ended.multiplicity == ended.orbit.impacts == 1
-    assert ended.period == pytest.approx(orbits["B1,d"].period, rel=1e-11)
-    assert ended.orbit.multipliers.values == pytest.approx(orbits["B1,d"].multipliers.values, abs=1e-9)
-    assert known_orbit(ended.orbit, orbits).name == "B1,d"
-    assert known_orbit(ended.orbit, [orbits["B1,c"]]) is None
 
 
 @pytest.mark.jit_only
@@ -99,16 +87,6 @@ def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
     assert whirl_of(ended) == "forward"
 
 
-def test_rolling_goes_backward_with_its_closed_form_force():
-    motion = settled(jeffcott(SOURCE), State(1.0 + 0j, -1j * (1.0 + 400 / 7)))
-    ended = settled_motion(motion)
-
-    assert ended.outcome is Outcome.ROLLING
-    assert ended.period == pytest.approx(2.0 * math.pi / (1.0 + 400 / 7), rel=1e-12)
-    assert forces_on(ended)[1] == pytest.approx((400 / 7) ** 2 - 0.76**2 + 3 / 7, rel=1e-12)
-    assert whirl_of(ended) == "backward"
-
-
 @pytest.mark.jit_only
 @pytest.mark.parametrize("ratio", [5.0, 400 / 7])
 def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
@@ -128,12 +106,3 @@ def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
     impulse, force = forces_on(ended)
     assert impulse == 0.0
     assert limits.least_force < force <= limits.largest_force
-
-
-def test_levitation_is_at_rest_and_touches_nothing():
-    motion = settled(jeffcott(SOURCE.replace(gamma=0.5)), State(0.1 + 0j))
-    ended = settled_motion(motion)
-
-    assert (ended.outcome, ended.synchronous) == (Outcome.LEVITATED, True)
-    assert forces_on(ended) == (0.0, 0.0)
-    assert whirl_of(ended) == "forward"

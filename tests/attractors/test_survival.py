@@ -10,7 +10,6 @@ from machines import PAPER
 
 from carom.attractors import survival as module
 from carom.attractors.survival import (
-    LOOK,
     Survival,
     follow_until_settled,
     measure_survival,
@@ -73,31 +72,6 @@ def test_a_transient_is_named_only_if_it_was_followed_for_several_half_lives():
             "transient, " if verdict == "transient" else "transient or attractor, undecided, "
         )
     assert Survival(100, 20_000, 0, None, (4e5, math.inf)).verdict == "not seen to end"
-
-
-def test_motions_that_all_die_at_once_have_a_short_life(monkeypatch):
-    monkeypatch.setattr(module, "settle", mortal(1.0, 0))
-    found = measure_survival(None, np.ones(1, complex), np.ones(1, complex), impacts=20_000)
-    assert (found.died, found.transient) == (200, True)
-    assert found.interval[0] <= found.half_life <= found.interval[1] < LOOK
-
-
-def test_motions_that_stay_low_on_the_wall_for_longer_than_a_chatter_have_left(monkeypatch):
-    looks = []
-
-    def settle(rotor, positions, velocities, *, patience, begins=0.0, threads=None):
-        looks.append(len(positions))
-        # The first half is low from the third look on, the second half at every other look: in a chatter, time and again.
-        low = np.where(positions.real > 0.0, len(looks) >= 3, len(looks) % 2 == 0)
-        ends = ensemble(np.zeros(len(positions), int), np.where(low, Outcome.LOW_BOUNCES, Outcome.MIXED), patience)
-        ends.positions[:] = positions
-        return ends
-
-    monkeypatch.setattr(module, "settle", settle)
-    halves = np.repeat([1.0 + 0j, -1.0 + 0j], 100)
-    found = measure_survival(None, halves, halves, impacts=20_000)
-    assert found.died == 100
-    assert looks[5:7] == [200, 100]  # low at the third, fourth, fifth and sixth look
 
 
 @pytest.mark.jit_only

@@ -7,12 +7,11 @@ from dataclasses import asdict
 
 import numpy as np
 import pytest
-import xarray
 from machines import PAPER
 
 import carom
 from carom.base.outcome import InputError, Outcome
-from carom.basins import Basin, map_basins, map_cells
+from carom.basins import Basin, map_basins
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -39,23 +38,6 @@ def rotor():
 @pytest.fixture(scope="module")
 def kicks(rotor):
     return map_basins(rotor, Grid(VelocityKick(1.0), (10, 12)), source={"machine_file": "machine.toml"})
-
-
-def test_each_ends_as_simulated_alone(rotor, kicks):
-    speeds, directions = kicks.plan.values()
-    for i in range(0, 10, 3):
-        for k in range(0, 12, 4):
-            alone = carom.simulate(rotor, carom.kick(speeds[i], directions[k]), 2e5, settle=True)
-            assert kicks.outcomes[i, k] == alone.outcome
-            assert kicks.dataset["impacts"].values[i, k] == len(alone.contacts)
-            assert kicks.dataset["multiplicity"].values[i, k] == alone.multiplicity
-
-
-def test_cells_are_those_of_the_basin(rotor, kicks):
-    cells = map_cells(rotor, kicks.plan)
-    assert np.array_equal(cells.index, kicks.dataset["motion"].values)
-    assert cells.motions == kicks.motions == kicks.cells.motions
-    assert (cells.plan, cells.scales) == (kicks.plan, kicks.scales)
 
 
 def test_motions_have_the_names_of_the_attractors(rotor):
@@ -114,14 +96,6 @@ def test_the_dataset_follows_the_conventions(kicks):
     assert "proof" in dataset.attrs["criteria"]
 
 
-def test_starts_given_up_count_as_lost(rotor):
-    basin = map_basins(rotor, Grid(VelocityKick(1.0), (6, 6)), until=3.0)
-    assert basin.unresolved > 0
-    assert "unresolved: time-reached" in basin.fractions
-    assert basin.share_recovered.count == (basin.outcomes == Outcome.LEVITATED).sum()
-    assert list(basin.fractions)[-1].startswith("unresolved")
-
-
 def test_shares_of_a_sample_have_an_interval(rotor):
     basin = map_basins(rotor, Sample(VelocityKick(1.0), 200, seed=1))
     share = basin.share_recovered
@@ -132,9 +106,3 @@ def test_shares_of_a_sample_have_an_interval(rotor):
     assert levitating.words == share.words.replace("come back", "end in levitation")
     with pytest.raises(InputError, match="one of"):
         basin.share_of("flying")
-
-
-def test_a_time_may_have_a_unit(rotor):
-    plan = Grid(VelocityKick(1.0), (3, 4))
-    in_words = map_basins(rotor, plan, until="20 ms").dataset
-    xarray.testing.assert_identical(in_words["time"], map_basins(rotor, plan, until=0.02 / SCALES.time).dataset["time"])

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.base.outcome import InputError, Outcome
+from carom.base.outcome import InputError
 from carom.basins import DropMap, map_drops
 from carom.basins.drops import MEASURES
 from carom.disturbances import Drop
@@ -84,19 +84,6 @@ def test_a_fall_on_a_spring_in_closed_form(balls):
     stiffness = falls.dataset["touchdown_stiffness"].values[:, None]
     expected = weight * (1.0 + np.sqrt(1.0 + 2.0 * stiffness * 0.25e-3 / weight))
     assert falls.dataset["force"].values == pytest.approx(np.broadcast_to(expected, (3, 2)), rel=1e-9)
-
-
-def test_a_rigid_wall_has_impulses_and_no_force():
-    still = cm.load(RIGID).replace(eccentricity=0.0)
-    falls = map_drops(still, Drop(cm.State(0)), ("friction", "restitution"), ranges=(None, (0.2, 0.6)), shape=(2, 2))
-    assert np.isnan(falls.dataset["force"].values).all()
-    assert np.isnan(falls.dataset["pressure"].values).all()
-    # The first impact at √(2gc_r) is the hardest.
-    restitution = falls.dataset["restitution"].values
-    hardest = 5.0 * (1.0 + restitution) * math.sqrt(2.0 * 9.81 * 0.25e-3)
-    assert falls.dataset["impulse"].values == pytest.approx(np.broadcast_to(hardest, (2, 2)), rel=1e-9)
-    assert (falls.dataset["outcome"].values == Outcome.AT_REST).all()
-    assert falls.hardest == "impulse"
 
 
 def test_machines_that_cannot_levitate_are_not_dropped():

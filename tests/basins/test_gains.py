@@ -54,12 +54,6 @@ def test_each_node_is_the_basin_of_its_machine(found):
                 assert np.isnan(node["smallest_unrecovered_kick_angle"])
 
 
-def test_the_present_machine(found):
-    assert found.present == pytest.approx((MACHINE.omega**2 * SCALES.stiffness, 0.152 * SCALES.damping))
-    share = map_basins(carom.models.jeffcott(MACHINE), KICKS).share_recovered
-    assert found.present_share == share
-
-
 def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
     slow = MACHINE.replace(speed=120.0, damping=3000.0)
@@ -100,12 +94,3 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
 def test_what_cannot_be_mapped(words, complaint):
     with pytest.raises(InputError, match=complaint):
         map_gains(MACHINE, KICKS, **words)
-
-
-def test_every_machine_of_a_map_draws_its_own_sample():
-    plan = Sample(VelocityKick(1.0), 50, seed=4)
-    drawn = [plan.fresh(number).values()[0] for number in range(3)]
-    assert not (drawn[0] == drawn[1]).any()
-    assert not (drawn[1] == drawn[2]).any()
-    np.testing.assert_array_equal(plan.fresh(2).values()[0], drawn[2])
-    assert KICKS.fresh(3) is KICKS

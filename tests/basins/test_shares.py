@@ -13,7 +13,7 @@ import carom
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.basins import Share, map_basins, share_of_kicks
 from carom.basins.shares import percent
-from carom.disturbances import BaseShock, ContactRelease, Grid, KickPlane, Sample, VelocityKick
+from carom.disturbances import BaseShock, Grid, KickPlane, Sample, VelocityKick
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.messages import basin_message
@@ -58,12 +58,6 @@ def test_a_share_says_of_what_it_is_and_how_sure():
 )
 def test_only_all_are_100_percent(share, words):
     assert percent(share) == words
-
-
-def test_a_share_without_a_size():
-    share = Share.over(Grid(ContactRelease(), (4,)), np.arange(4) < 3, np.ones(4, bool), None)
-    assert share.words.startswith("75 % of releases come back (3 of 4 cells")
-    assert (share.document["of"], share.document["up_to"]) == ("releases", None)
 
 
 @pytest.mark.parametrize("model", [VelocityKick(2.0), KickPlane(2.0), BaseShock(2.0, 1.0)])
@@ -128,17 +122,3 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
     coarse = basin_message(found, rotor, coarse=True)
     assert coarse["sentence"].startswith("Coarse so far: ")
     assert (coarse["lost"], coarse["lost_size"]) == ("–", 0.0)
-
-
-def test_weights_are_in_the_dataset():
-    rotor = jeffcott(PAPER.replace(gamma=0.2))
-    basin = map_basins(rotor, Grid(VelocityKick(0.2), (3, 4)))
-    weights = basin.dataset["weight"]
-    assert weights.dims == ("speed", "direction")
-    assert weights.attrs["long_name"].startswith("weight in shares")
-    np.testing.assert_allclose(weights.values[:, 0], [1 / 3, 1.0, 5 / 3])
-    plane = map_basins(rotor, Grid(KickPlane(0.2), (4, 4)))
-    np.testing.assert_array_equal(plane.dataset["weight"].values, plane.exists)
-    shares = [plane.share_of(name) for name in plane.motions]
-    assert sum(share.fraction for share in shares) == pytest.approx(1.0)
-    assert {share.population.of for share in shares} == {"kicks"}

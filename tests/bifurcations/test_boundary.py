@@ -95,20 +95,6 @@ def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_
     assert "B1,a (unstable), B1,b (unstable)" in boundary.words
 
 
-def test_small_orbits_of_the_source_machine_are_those_near_the_boundary():
-    (boundary,) = boundary_equilibria(jeffcott(SOURCE))
-    rotor = at_gap(boundary, 1e-4)
-    orbits = find_orbits(rotor)
-
-    for orbit in boundary.orbits:
-        near = orbits[orbit.name]
-        assert near.admissible
-        assert near.period == pytest.approx(orbit.period, rel=1e-2)
-        assert near.radial_speed == pytest.approx(orbit.speed_rate * (1.0 - abs(rotor.equilibrium)), rel=1e-2)
-    virtual = find_orbits(at_gap(boundary, -1e-4))
-    assert not any(virtual[orbit.name].admissible for orbit in boundary.orbits)
-
-
 @pytest.mark.jit_only
 def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
     below, above = boundary_equilibria(jeffcott(SOURCE), "omega")

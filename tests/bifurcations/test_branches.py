@@ -7,13 +7,11 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom import find_orbits, simulate
+from carom import find_orbits
 from carom.bifurcations import OrbitBranch, continue_orbit
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
 from carom.models import jeffcott
-from carom.motions.starts import State
-from carom.orbits.maps import Section, impact_map
 
 
 @pytest.fixture(scope="module")
@@ -60,74 +58,6 @@ def test_orbits_of_a_branch_are_those_found_at_each_parameter(upper, lower):
             assert (certified.name, certified.admissible) == (orbit.name, orbit.admissible)
             assert abs(certified.position - orbit.position) < 1e-9
             assert np.abs(np.abs(certified.multipliers.values) - np.abs(orbit.multipliers.values)).max() < 1e-8
-
-
-def test_fold_by_counting_roots(upper):
-    (fold,) = value(upper, "fold")
-
-    def count(gamma):
-        return len(PeriodCondition.of(jeffcott(PAPER.replace(gamma=gamma)).system).roots().periods)
-
-    assert (count(fold - 1e-10), count(fold + 1e-10)) == (2, 0)
-
-
-def test_grazing_by_the_certified_search(upper):
-    (grazing,) = value(upper, "grazing")
-
-    def admissible(gamma):
-        return find_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"].admissible
-
-    assert not admissible(grazing - 1e-9)
-    assert admissible(grazing + 1e-9)
-
-
-def test_period_doubling_by_simulation_of_a_disturbed_orbit(upper):
-    """Just at the point a small disturbance along the eigenvector comes back with its sign turned."""
-    (point,) = [special for special in upper.special if special.kind == "period-doubling"]
-    orbit = point.orbit
-    centre = np.array([orbit.angle, orbit.radial_speed, orbit.angular_speed])
-    jacobian = impact_map(orbit.rotor, orbit.section).jacobian
-    values, vectors = np.linalg.eig(jacobian)
-    leader = int(np.argmin(np.abs(values + 1.0)))
-    direction = vectors[:, leader].real / np.linalg.norm(vectors[:, leader].real)
-    ratios = []
-    for size in (1e-5, -1e-5):
-        image = impact_map(orbit.rotor, Section(*(centre + size * direction))).image
-        change = np.array([image.angle, image.radial_speed, image.angular_speed]) - centre
-        ratios.append(change @ direction / size)
-    assert np.mean(ratios) == pytest.approx(-1.0, abs=1e-6)
-
-
-def test_disturbances_grow_before_and_die_out_after_the_period_doubling(upper):
-    (point,) = [special for special in upper.special if special.kind == "period-doubling"]
-    for shift, grows in ((-0.002, True), (0.002, False)):
-        orbit = find_orbits(jeffcott(PAPER.replace(gamma=point.value + shift)))["B1,d"]
-        start = State(orbit.departure.position, orbit.departure.velocity * (1.0 + 1e-6))
-        log = simulate(orbit.rotor, start, 100 * orbit.period).contacts
-        errors = np.abs(log.radial_speed[:80] - orbit.radial_speed)
-        assert bool(errors[70:80].max() > errors[5:15].max()) is grows
-
-
-def test_non_smooth_hopf_where_the_orbit_shrinks_into_the_equilibrium(lower):
-    for point in lower.special:
-        if point.kind == "non-smooth-hopf":
-            rotor = jeffcott(point.numbers.parameters)
-            assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)
-            assert PeriodCondition.of(rotor.system).value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
-            assert point.radial_speed == pytest.approx(0.0, abs=1e-11)
-
-
-def test_coalescence_of_two_speeds_at_negative_damping():
-    orbit = find_orbits(jeffcott(PAPER))["B1,a"]
-    branch = continue_orbit(orbit, "gamma", (-0.6, 0.17), Steps(largest=0.1, sharpest_turn=0.3, most_points=150))
-    (point,) = [special for special in branch.special if special.kind == "speed-fold"]
-    assert point.value == pytest.approx(-0.4975, abs=5e-5)
-    parameters = point.numbers.parameters
-    below, above = (
-        [orbit.name for orbit in find_orbits(jeffcott(parameters.replace(gamma=point.value + shift)), 2.0)]
-        for shift in (-1e-6, 1e-6)
-    )
-    assert ("B1,a" in below, "B1,a" in above) == (False, True)
 
 
 def test_physical_parameters_pass_the_same_points():

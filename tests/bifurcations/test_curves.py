@@ -36,35 +36,6 @@ def test_all_curves_are_there_and_end_at_the_edge(curves):
         assert curve.steps.max() < 0.16
 
 
-def test_fold_curve_is_where_roots_appear(curves):
-    for x, y in curves["fold"].points[1:-1:4]:
-        counts = [
-            len(PeriodCondition.of(jeffcott(PAPER.replace(gamma=x + shift, omega=y)).system).roots().periods)
-            for shift in (-1e-9, 1e-9)
-        ]
-        assert counts[0] - counts[1] == 2
-
-
-def test_grazing_curve_by_the_certified_search(curves):
-    curve = curves["grazing"]
-    for (x, y), period in list(zip(curve.points, curve.periods, strict=True))[1:-1:4]:
-        answers = []
-        for shift in (-1e-9, 1e-9):
-            orbits = find_orbits(jeffcott(PAPER.replace(gamma=x + shift, omega=y)))
-            near = [orbit for orbit in orbits if abs(orbit.period - period) < 1e-6]
-            answers.append(sorted(orbit.admissible for orbit in near))
-        assert answers[0] != answers[1]
-
-
-def test_period_doubling_curve_by_the_multipliers_of_the_orbits(curves):
-    curve = curves["period-doubling"]
-    rows = list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))
-    for (x, y), period, speed in rows[1:-1:4]:
-        orbits = find_orbits(jeffcott(PAPER.replace(gamma=x, omega=y)))
-        near = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed - speed))
-        assert np.abs(near.multipliers.values + 1.0).min() < 1e-7
-
-
 def test_equilibrium_curves_in_closed_form(curves):
     x, y = curves["boundary-equilibrium"].points.T
     assert x**2 + (1.0 - y**2) ** 2 == pytest.approx(PAPER.rho**2, abs=1e-12)
@@ -100,22 +71,3 @@ def test_non_smooth_hopf_curve_turns_back_where_the_two_cycles_meet():
     assert meeting.value == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
     assert curve.points[:, 0].max() <= meeting.value[0] + 1e-6
     assert curve.periods.min() < meeting.period < curve.periods.max()
-
-
-def test_every_pair_of_parameters():
-    """Friction and restitution move the fold; unbalance does not, as ``F₁`` does not depend on it."""
-    orbit = find_orbits(jeffcott(PAPER))["B1,d"]
-    branch = continue_orbit(orbit, "gamma", (0.02, 0.3))
-    (fold,) = [point for point in branch.special if point.kind == "fold"]
-    at = fold.numbers.parameters
-    for name, limits in (("mu", (0.0, 0.4)), ("d", (0.8, 1.0)), ("omega", (0.7, 0.85))):
-        curve = continue_curve(fold, Plane("gamma", name, (0.01, 0.6), limits))
-        x, y = curve.points[len(curve.points) // 2]
-        rotor = jeffcott(at.replace(gamma=x, **{name: y}))
-        count = len(PeriodCondition.of(jeffcott(rotor.parameters.replace(gamma=x - 1e-9)).system).roots().periods)
-        assert (
-            count - len(PeriodCondition.of(jeffcott(rotor.parameters.replace(gamma=x + 1e-9)).system).roots().periods)
-            == 2
-        )
-    flat = continue_curve(fold, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)))
-    assert np.ptp(flat.points[:, 0]) < 1e-12

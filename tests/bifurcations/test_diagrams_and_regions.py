@@ -17,22 +17,6 @@ def diagram():
     return find_bifurcations(PAPER, "gamma", (0.05, 0.4))
 
 
-def test_points_of_the_source_papers_machine(diagram):
-    points = [(point.kind, point.value) for point in diagram.points]
-    expected = {
-        "grazing": [0.0636105609],
-        "boundary-equilibrium": [0.0724686787],
-        "non-smooth-hopf": [0.0724686787] * 2,
-        "period-doubling": [0.0833814175],
-        "fold": [0.1780277257] * 2,
-        "rub-fold": [0.3700060375],
-    }
-    for kind, values in expected.items():
-        assert [value for name, value in points if name == kind] == pytest.approx(values, abs=5e-11), kind
-    assert all(point.admissible for point in diagram.points)
-    assert [point.value for point in diagram.points] == sorted(point.value for point in diagram.points)
-
-
 def test_every_branch_is_followed_once(diagram):
     assert len(diagram.orbits) == 2
     for value in (0.0501, 0.09, 0.16):
@@ -70,16 +54,6 @@ def test_regions_of_the_source_paper():
         motions = motions_at(PAPER.replace(gamma=gamma, omega=omega))
         assert motions.source_region == name
         assert motions.rub
-
-
-def test_region_of_levitation_alone_still_holds_the_rub():
-    """The refinement of R3: only beyond the fold of the rubs nothing but levitation is left."""
-    motions = motions_at(PAPER.replace(gamma=0.2))
-    assert (motions.source_region, motions.rub) == ("R3", True)
-    motions = motions_at(PAPER.replace(gamma=0.38))
-    assert (motions.source_region, motions.rub) == ("R3", False)
-    assert motions.words == "levitation, no stable rub, no impacting orbit, rolling backward whirl"
-    assert motions.region == "R3 (no rub)"
 
 
 def test_motions_agree_with_certified_orbits():

@@ -7,7 +7,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from carom.base.files import as_json
 from carom.bifurcations import Diagram, find_bifurcations
 from carom.bifurcations.documents import diagram_document
 from carom.models import jeffcott
@@ -77,21 +76,3 @@ def test_every_orbit_found_lies_on_one_branch_and_names_are_unique():
         assert set(branch.names) == {branch.name}
         assert {orbit.name for orbit in branch.orbits} == {branch.name}
     assert any(len(branch.starts_at(0.0833)) == 1 for branch in diagram().several)
-
-
-def test_points_have_a_word_and_the_number_of_impacts():
-    document = diagram_document(diagram())
-    assert as_json(document)
-    for point in document["points"]:
-        if point["branch"].startswith("P"):
-            assert point["impacts"] == int(point["branch"][1])
-            assert point["word"] == " ".join(["impact+"] * point["impacts"])
-        elif point["branch"].startswith("B"):
-            assert (point["word"], point["impacts"]) == ("impact+", 1)
-        else:
-            assert (point["word"], point["impacts"]) == (None, None)
-    for branch in document["several"]:
-        assert np.shape(branch["radial_speeds"]) == (len(branch["values"]), branch["impacts"])
-    assert "P2,1" in repr(diagram())
-    figure = diagram().plot()
-    assert all(axes.lines for axes in figure.axes if axes.get_ylabel())

@@ -1,14 +1,11 @@
 """Curves in two parameters of orbits that are closed on the flow of the simulator, against those of the closed form."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from linear_rotors import as_matrices
 from machines import PAPER
 
 import carom as cm
-from carom.base.outcome import InputError
 from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.models import jeffcott
 from carom.parameters import Numbers
@@ -35,9 +32,3 @@ def test_curves_solve_the_equations_of_the_closed_form(branch, kind):
         numbers = PLANE.numbers_at(Numbers.of(PAPER), *place)
         at = conditions_at(numbers, period, speed)
         assert max(abs(at.closing), abs(at.balance), abs(TESTS[kind](numbers, period, speed))) < 1e-5
-
-
-def test_what_cannot_be_followed_is_refused(branch):
-    point = dataclasses.replace(branch.special[0], kind="grazing")
-    with pytest.raises(InputError, match="one of: fold, period-doubling, neimark-sacker"):
-        cm.continue_curve(point, PLANE)

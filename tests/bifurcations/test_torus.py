@@ -33,18 +33,6 @@ def curve(torus) -> Curve:
     return continue_curve(torus, PLANE)
 
 
-def test_a_complex_pair_is_on_the_unit_circle(torus):
-    assert torus.admissible
-    assert torus.value == pytest.approx(0.077229, abs=1e-6)
-    first, second, third = torus.orbit.multipliers.values
-    assert abs(first) == pytest.approx(1.0, abs=1e-10)
-    assert second == pytest.approx(first.conjugate(), abs=1e-10)
-    assert np.degrees(np.angle(first)) == pytest.approx(80.136, abs=1e-3)
-    # A section of the flow contracts by d² e^{−2γT} in all.
-    expected = SOFT.d**2 * np.exp(-2.0 * torus.value * torus.period)
-    assert abs(third) == pytest.approx(expected, abs=1e-10)
-
-
 def growth_an_impact(gamma: float) -> tuple[float, float]:
     """Modulus and angle by which a simulated disturbance of the orbit grows and turns from impact to impact.
 
@@ -73,17 +61,6 @@ def test_disturbances_spiral_out_before_and_in_after(torus):
     # The modulus found by simulation passes 1 where the point was located.
     low, high = (growth_an_impact(torus.value + shift)[0] - 1.0 for shift in (-1e-4, 1e-4))
     assert torus.value - 1e-4 + 2e-4 * low / (low - high) == pytest.approx(torus.value, abs=2e-6)
-
-
-def test_curve_by_the_multipliers_of_the_orbits(curve):
-    assert len(curve.points) > 10
-    assert curve.steps.max() < 0.16
-    for (x, y), period, speed in list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))[1:-1:3]:
-        orbits = find_orbits(jeffcott(SOFT.replace(gamma=x, omega=y)))
-        near = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed - speed))
-        leader = near.multipliers.values[0]
-        assert abs(leader) == pytest.approx(1.0, abs=1e-8)
-        assert abs(leader.imag) > 1e-3
 
 
 def test_curve_ends_in_a_resonance_or_at_the_edge(curve):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -13,12 +12,10 @@ from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
-from carom.orbits.orbit import Orbit, orbit_near, same_orbit
+from carom.orbits.orbit import orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.shooting import Start, closed_flights, links_of
-from carom.orbits.word import Kind, Word
+from carom.orbits.shooting import Start
 from tests.machines import PAPER
-from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state
 
 DOUBLING = 0.0833814175
 """Damping at which B1,d doubles its period."""
@@ -109,21 +106,6 @@ def test_admissible_orbits_of_the_doubled_branch_are_simulated_motions():
     assert seen > 3
 
 
-def test_the_doubled_branch_closes_in_thirty_digits():
-    seen = 0
-    for orbit in doubled().orbits[::6]:
-        if not orbit.admissible:
-            continue
-        seen += 1
-        with mpmath.workdps(30):
-            matrix = exact_matrix(orbit.rotor.parameters)
-            first = state = exact_state(orbit.section)
-            for duration in orbit.durations:
-                state = exact_arrival(matrix, orbit.rotor, exact_rebound(orbit.rotor, state), mpmath.mpf(duration))
-            assert max(abs(a - b) for a, b in zip(first, state, strict=True)) < mpmath.mpf("1e-12")
-    assert seen > 1
-
-
 def test_the_stable_doubled_orbits_attract_and_end_where_they_graze():
     """From its birth down to its grazing the orbit of two impacts is stable; there a maximum of its radius meets the wall."""
     branch, grazing = doubled(), located("grazing", 0.08267)
@@ -155,44 +137,3 @@ def test_beyond_the_grazing_the_branch_turns():
         periods.append(abs(branch.period[-1] - branch.period[0]))
     slopes = np.diff(np.log(periods)) / np.diff(np.log(distances))
     assert slopes == pytest.approx([0.5, 0.5], abs=0.02)
-
-
-def test_orbits_next_to_a_fold_close():
-    """Newton's method must not leave the orbit by a step with a singular derivative."""
-    orbit = find_orbits(PAPER.replace(gamma=0.17))["B1,d"]
-    (fold,) = [point for point in continue_orbit(orbit, "gamma", (0.165, 0.19)).special if point.kind == "fold"]
-    start = Start(fold.orbit.nodes, fold.orbit.durations)
-    for shift in (-1e-12, *np.arange(-20, 21) * 1e-15, 1e-13):
-        rotor = jeffcott(PAPER.replace(gamma=fold.value * (1.0 + shift)))
-        found, flights = orbit_near(rotor, orbit.word, start), closed_flights(rotor, orbit.word, start)
-        assert found is not None
-        assert found.links.size < 1e-12
-        assert flights is None or links_of(rotor, orbit.word, flights).size < 1e-12
-        assert found.period == pytest.approx(fold.orbit.period, abs=1e-5)  # the square root of the shift
-
-
-def test_extrema_of_the_radius_where_friction_stops_the_slip():
-    """The number of extrema changes at the special point and nowhere else; the formula for forward slip had none there."""
-    machine = PAPER.replace(gamma=0.25, omega=0.55, rho=0.576, phi=0.0, mu=1.7, d=0.9, radius_ratio=0.91)
-    start = Start(np.array([[0.876 - 0.482j, 0.121 - 1.596j]]), np.array([3.047]))
-    orbit = orbit_near(machine, Word.of(Kind.IMPACT_STOPPED), start)
-    assert orbit is not None
-    branch = continue_orbit(orbit, "gamma", (0.12, 0.3))
-    (point,) = [point for point in branch.special if point.kind == "radius-extremum"]
-
-    def extrema(each: Orbit) -> int:
-        radii = np.abs(each.path(np.linspace(0.0, each.period, 8001)[1:-1]))
-        return int((np.diff(np.sign(np.diff(radii))) != 0).sum())
-
-    for value, each in zip(branch.values.tolist(), branch.orbits, strict=True):
-        assert extrema(each) == (3 if value < point.value else 1)
-    assert 0.13 < point.value < 0.2
-
-
-def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():
-    """A multiplier without bound at the end of a step is none of them."""
-    branch = switch(located("grazing", 0.0826743), (0.07, 0.0999))
-    turning = [point.orbit.multipliers.values for point in branch.special if point.kind == "neimark-sacker"]
-    assert turning
-    for values in turning:
-        assert np.abs(np.abs(values) - 1.0).min() < 1e-7

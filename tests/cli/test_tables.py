@@ -9,7 +9,6 @@ from rich.console import Console
 from yielding_walls import with_walls
 
 import carom as cm
-from carom.cli.basin_tables import print_basin
 from carom.cli.motion_tables import print_parts
 from carom.cli.tables import print_motions
 from carom.models import KelvinVoigt
@@ -38,17 +37,3 @@ def test_contacts_with_a_wall_that_gives_way_are_rows():
     assert "depth " in text
     assert "after the start" in text
     assert text.count("forward slip") == len(motion.contacts)
-
-
-def test_what_is_merely_unknown_is_not_called_unstable():
-    case = cm.load("examples/keogh-cole.toml")
-    for damping, words in (
-        (1400.0, "no size is known that cannot touch"),
-        (-1400.0, "no stable levitation inside the wall"),
-    ):
-        machine = case.parameters.replace(gamma=case.parameters.gamma * damping / 1400.0)
-        basin = cm.map_basins(machine, cm.Grid(cm.disturbances.VelocityKick(0.01), (1, 2)), until=50.0)
-        console = Console(width=160)
-        with console.capture() as shown:
-            print_basin(console, basin, None, 0.0)
-        assert words in shown.get()

@@ -12,8 +12,6 @@ from scipy.integrate import solve_ivp
 from carom import find_equilibria
 from carom.closed_forms import Equilibrium
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
 from carom.parameters import Parameters
 
 BOUNDARY_DAMPING = math.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)
@@ -116,14 +114,6 @@ def test_rubs_meet_in_a_fold(distance):
     assert found(PAPER.replace(gamma=RUB_FOLD * (1.0 + distance)))[1] == ()
 
 
-def test_a_rub_becomes_the_contact_free_equilibrium_at_the_boundary():
-    """Its normal force vanishes there: persistence or a non-smooth fold of the boundary equilibrium."""
-    contact_free, rubs = found(PAPER.replace(gamma=BOUNDARY_DAMPING))
-    rub = min(rubs, key=lambda rub: abs(rub.normal_force))
-    assert rub.status == "boundary"
-    assert rub.position == pytest.approx(contact_free.position, abs=1e-12)
-
-
 def test_stability_along_the_wall_is_that_of_the_sliding_equation():
     """``δθ̈ + (γ + 2μ)δθ̇ + ρ(cos x − μ sin x)δθ = 0``, from the derivatives of ``θ̈`` and ``N`` at rest."""
     random = np.random.default_rng(22)
@@ -139,11 +129,6 @@ def test_stability_along_the_wall_is_that_of_the_sliding_equation():
             assert rub.stable == (stiffness > 0 and rub.normal_force > 0 and parameters.d < 1.0)
             stabilities.append(rub.stable)
     assert 20 < sum(stabilities) < len(stabilities) - 20
-
-
-def test_a_lossless_wall_makes_no_rub_stable():
-    """With ``d = 1`` bounces off the wall do not die out."""
-    assert not any(rub.stable for rub in found(PAPER.replace(d=1.0))[1])
 
 
 @pytest.mark.parametrize("gamma", [0.05, 0.1, 0.2, 0.36])
@@ -169,25 +154,4 @@ def test_sliding_motion_goes_to_the_stable_rub_and_leaves_the_saddle(gamma):
     assert abs(late[1]) < 1e-7
 
 
-def test_a_simulated_rotor_stays_at_its_stable_rub():
-    rotor = jeffcott(PAPER.replace(gamma=0.2))
-    stable = find_equilibria(rotor)[1]
-    end = simulate(rotor, State(stable.position), 200.0).final
-    assert end.position == pytest.approx(stable.position, abs=1e-9)
-
-
 # ----------------------------------------------------------------------------------------------------- corners
-
-
-@pytest.mark.parametrize("omega", [0.76, 1.2])
-@pytest.mark.parametrize(("gamma", "mu"), [(0.0, 0.0), (0.0, 0.15), (0.1, 0.0)])
-def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
-    """Without any force along the wall it may rest at every angle; no two of these places are its rubs."""
-    parameters = PAPER.replace(rho=0.0, omega=omega, gamma=gamma, mu=mu)
-    assert found(parameters)[1] == ()
-    if gamma == mu == 0.0 and omega < 1.0:
-        # Pressed outward with N = 1 − ω², and at rest wherever it is put.
-        for place in np.exp(1j * np.linspace(0.0, 6.0, 7)):
-            motion = simulate(jeffcott(parameters), State(place), 50.0)
-            assert motion.final.position == pytest.approx(place, abs=1e-13)
-            assert motion.forces(np.array([25.0]))[0] == pytest.approx(1.0 - omega**2, abs=1e-13)

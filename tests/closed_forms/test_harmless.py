@@ -67,29 +67,6 @@ def test_modes_that_decay_serve_where_there_is_no_energy(kind):
     assert farthest(*of_size(rotor, kind, 4.0)) > 1.0
 
 
-def test_nothing_is_said_where_neither_an_energy_is_known_nor_all_modes_decay():
-    rotor = tilting().model
-    mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
-    given = {"mass": mass, "damping": damping, "gyroscopic": gyroscopic, "stiffness": stiffness, "forcing": forcing}
-    others = {"touchdowns": rotor.equations.touchdowns, "translation": rotor.equations.translation}
-
-    def made(**changes):
-        return cm.models.from_matrices(**{**given, **others, **changes})
-
-    assert harmless_kick(made()) == pytest.approx(harmless_kick(rotor), rel=1e-12)
-    for changes in (
-        {"stiffness": stiffness + 1j * np.eye(2)},
-        {"damping": -damping},
-        {"forcing": 4.0 * forcing},
-    ):
-        other = made(**changes)
-        assert harmless_kick(other) == harmless_shock(other, 1.0) == harmless_blade_loss(other) == 0.0
-    staged = cm.models.in_stages(
-        (cm.models.Stage(rotor, cm.models.Trigger(time=1.0)), cm.models.Stage(made(forcing=0.1 * forcing)))
-    )
-    assert harmless_kick(staged) == 0.0
-
-
 @pytest.mark.jit_only
 def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
     """Levitation is a circle about the sag; kicks in any direction, at any phase of the unbalance."""

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from machines import PAPER, flight_matrix
+from machines import PAPER
 from scipy.linalg import expm
 
 from carom import find_orbits
@@ -65,30 +65,6 @@ def test_criticality_is_the_side_on_which_the_exact_orbits_live():
             ]
         assert cycle.criticality == "subcritical"
         assert (len(found[-1e-5]), len(found[1e-5])) == (0, 1)
-
-
-def test_exponents_of_general_systems():
-    random = np.random.default_rng(3)
-    for _ in range(200):
-        damping, stiffness = (complex(*random.normal(size=2)) * 10 ** random.uniform(-3, 3) for _ in range(2))
-        system = ContactSystem(damping, stiffness, 1.0)
-        lower, upper = system.exponents
-        assert lower.real <= upper.real
-        assert lower + upper == pytest.approx(-damping, rel=1e-12, abs=1e-14 * abs(stiffness) ** 0.5)
-        assert lower * upper == pytest.approx(stiffness, rel=1e-12)
-
-
-def test_determinant_of_the_planar_rotor():
-    rotor = jeffcott(BOUNDARY)
-    condition = PeriodCondition.of(rotor.system)
-    for period in (0.4, 1.0, 2.5, 7.0):
-        free = abs(np.linalg.det(expm(flight_matrix(BOUNDARY) * period) - np.eye(2))) ** 2
-        for direction in (1.0, cmath.exp(0.3j), cmath.exp(2j)):
-            expected = free * float(condition.value(np.asarray(period)))
-            assert cycle_determinant(rotor.system, period, direction) == pytest.approx(expected, rel=1e-11)
-    for root in condition.roots().periods:
-        low, high = (cycle_determinant(rotor.system, root * (1 + s)) for s in (-1e-9, 1e-9))
-        assert low * high < 0.0
 
 
 def four_modes() -> SimpleNamespace:

@@ -49,17 +49,6 @@ def test_flight_response_near_its_resonances(turns, offset, mode):
     assert error <= rounding(back[1, 1], rate[1, 1], period)
 
 
-def test_starts_at_half_of_what_restitution_leaves():
-    """``F₁(0) = (1 − d)/2`` and ``F₁'(0) = (1 + d)(γ − 2μ)/12``, from ``g̃(z) = −1/2 − z/12 + …``."""
-    random = np.random.default_rng(2)
-    for _ in range(20):
-        parameters = random_parameters(random)
-        condition = condition_of(parameters)
-        assert condition.value(np.zeros(1))[0] == pytest.approx(0.5 * (1.0 - parameters.d), abs=1e-15)
-        slope = (1.0 + parameters.d) * (parameters.gamma - 2.0 * parameters.mu) / 12.0
-        assert condition.slope(np.zeros(1))[0] == pytest.approx(slope, abs=1e-14)
-
-
 # ------------------------------------------------------------------------------------------------------ bounds
 
 
@@ -89,16 +78,6 @@ def test_curvature_never_exceeds_its_bound():
         sharpest = max(sharpest, (curvatures.max(axis=0) / bounds).max())
     # The bound is of use: somewhere it is within a factor of ten.
     assert sharpest > 0.1
-
-
-def test_nothing_lies_beyond_the_longest_period():
-    random = np.random.default_rng(4)
-    for _ in range(sized(50, 50, 150)):
-        parameters = random_parameters(random)
-        condition = condition_of(parameters)
-        longest = condition.longest_period()
-        periods = longest * (1.0 + 10 ** np.linspace(-9, 1, 400))
-        assert (np.abs(slip_factor(parameters) * condition.a22(periods)) < 1.0).all()
 
 
 def test_without_damping_there_is_no_longest_period():
@@ -152,19 +131,6 @@ def test_number_of_roots_agrees_with_a_fine_scan():
         with_roots += len(roots.periods) > 0
     # The comparison is not about nothing.
     assert with_roots > 0.3 * count
-
-
-def test_roots_are_roots():
-    random = np.random.default_rng(6)
-    for parameters in CORNERS + [random_parameters(random) for _ in range(sized(20, 20, 60))]:
-        condition = condition_of(parameters)
-        for period in condition.roots().periods[:6]:
-            back, rate = exact_return(parameters, period)
-            factor = mpmath.mpc(slip_factor(parameters))
-            residual = abs((1 + factor * back[1, 1]).real)
-            # A double next to the root, and the rounding of F₁ itself.
-            slope = abs((factor * rate[1, 1]).real)
-            assert residual <= 4e-16 * period * slope + rounding(factor * back[1, 1], factor * rate[1, 1], period)
 
 
 def ball_value_and_slope(parameters: Parameters, period: arb) -> tuple[arb, arb]:
@@ -284,11 +250,6 @@ def test_without_damping_roots_between_poles_are_found():
     # A pole's change of sign goes through large values.
     expected = [k for k in crossing if abs(values[k]) < 1.0]
     np.testing.assert_allclose(roots.periods, periods[expected], atol=1e-4)
-
-
-def test_hopeless_searches_are_refused():
-    with pytest.raises(CaromError, match="too many to search; give a shorter longest_period"):
-        condition_of(PAPER.replace(gamma=1e-9)).roots()
 
 
 @pytest.mark.parametrize("d", [0.5, 1.0])

@@ -8,13 +8,11 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import random_rotor, touchdowns
-from machines import random_parameters
+from linear_rotors import random_rotor
 from scipy.optimize import root
 
 from carom import find_equilibria
 from carom.base.outcome import Outcome
-from carom.models import from_matrices, jeffcott
 from carom.motions.ensembles import settle
 
 
@@ -84,25 +82,6 @@ def test_none_is_missed_at_one_and_two_planes():
                     found += 1
                     assert any(np.abs(other.x - one).max() < 1e-4 * np.abs(one).max() for one in mine), (seed, planes)
     assert found > 50
-
-
-def test_the_planar_rotor_by_its_matrices_has_the_same():
-    random = np.random.default_rng(4)
-    for _ in range(sized(30, 30, 2000)):
-        one = random_parameters(random, gamma=float(10 ** random.uniform(-2, 0.3)))
-        model = from_matrices(
-            mass=np.eye(2),
-            damping=np.diag([one.gamma, 0.3]),
-            stiffness=np.diag([one.omega**2, 0.7]),
-            forcing=[one.rho * np.exp(1j * one.phi), 0.2],
-            touchdowns=touchdowns([[1.0, 0.0]], [one.mu], [one.d], [one.radius_ratio + 1.0]),
-        )
-        pairs = list(zip(find_equilibria(jeffcott(one)), find_equilibria(model), strict=True))
-        for planar, general in pairs:
-            assert general.status == planar.status
-            assert general.stable == planar.stable
-            assert general.position[0] == pytest.approx(planar.position, rel=1e-12)
-            assert general.normal_force == pytest.approx(planar.normal_force, rel=1e-12, abs=1e-12 * (1 + one.omega**2))
 
 
 @pytest.mark.jit_only

@@ -20,14 +20,9 @@ from carom.closed_forms.thresholds import (
     has_stable_rub,
     ranges_of,
     rolling_condition,
-    rolling_damping,
-    rolling_friction,
-    rolling_stiffness,
     rub_fold_condition,
-    rub_limit,
     sustaining_speed,
     wall_condition,
-    whirl_damping,
 )
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import jeffcott
@@ -122,16 +117,6 @@ def test_rubs_next_to_the_fold_on_both_sides_of_where_it_touches_the_circle(mu, 
     assert any(low.value <= machine.omega <= high.value for low, high in found) == (ahead > 0.0)
 
 
-def test_fold_in_high_precision():
-    """The largest of ``−ρ(sin x + μ cos x) − μκ`` over all angles."""
-    for mu in (0.0, 1e-9, 0.15, 4.0):
-        with mpmath.workdps(40):
-            rho, omega = mpmath.mpf(3 / 7), mpmath.mpf(0.76)
-            worst = mpmath.findroot(lambda x, mu=mu: mpmath.cos(x) - mu * mpmath.sin(x), -math.atan2(1.0, -mu))
-            expected = -rho * (mpmath.sin(worst) + mu * mpmath.cos(worst)) - mu * (1 - omega**2)
-        assert rub_limit(PAPER.replace(mu=mu)) == pytest.approx(float(expected), rel=2e-15, abs=4e-16 * (1.0 + mu))
-
-
 def at_fold(random, side):
     """Random parameters on a fold of rubs, ``γ + μ(1 − ω²) = ± ρ√(1 + μ²)``; damping may be negative."""
     rho, mu, omega = random.uniform(0.05, 0.8), random.uniform(0.02, 1.0), random.uniform(0.1, 1.6)
@@ -178,24 +163,6 @@ def test_rolling_holds_where_friction_suffices_at_every_angle(parameters):
     assert rolling(parameters).holds == (least > 0.0)
     if normal.min() > 0.0:
         assert rolling_condition(parameters) == pytest.approx(spare.min(), abs=missed, rel=1e-12)
-
-
-@settings(max_examples=150, deadline=None)
-@given(parameters=degenerate)
-def test_solutions_of_rolling_are_zeros_of_its_condition(parameters):
-    at, size = Numbers.of(parameters), 1e-12 * (1.0 + parameters.mu) * (1.0 + parameters.radius_ratio) ** 2
-    damping, stiffness, friction = rolling_damping(at), rolling_stiffness(at), rolling_friction(at)
-
-    if damping > 0.0:
-        for gamma in (damping, -damping):
-            assert rolling_condition(at._replace(gamma=gamma)) == pytest.approx(0.0, abs=size)
-        assert damping <= whirl_damping(at)
-    if stiffness > 0.0:
-        assert rolling_condition(at._replace(omega=stiffness)) == pytest.approx(0.0, abs=size)
-    if friction < 1e3:
-        scale = (1.0 + friction) * (1.0 + parameters.radius_ratio) ** 2
-        assert rolling_condition(at._replace(mu=friction)) == pytest.approx(0.0, abs=1e-12 * scale)
-    assert (damping > 0.0) == bool(ranges_of("rolling", at, "gamma"))
 
 
 @pytest.mark.parametrize("gamma", [-1e3, -0.3, -1e-12, 0.0, 1e-12, 0.3, 1e3])

@@ -9,7 +9,6 @@ from yielding_rotors import Yielding
 
 import carom as cm
 from carom.base.outcome import Outcome
-from carom.base.roots import bracketed_root
 from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, small_cycles
 from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.motions.starts import State
@@ -132,28 +131,3 @@ def test_a_stable_cycle_takes_over_beyond_the_wall_and_nothing_before(law, seed)
         before = cm.simulate(rotor(-gap), State(*beside), settle=True)
         assert before.outcome is Outcome.LEVITATED
     assert sizes[0] / sizes[1] == pytest.approx(10.0, rel=1e-2)
-
-
-def test_a_cycle_grows_without_bound_where_its_side_changes():
-    """``Re(q a₁₂)`` passes through zero: next to it the cycle is large on either side, and levers of both continue each other."""
-
-    def lever(friction):
-        cycle = small_cycles(touching(RIGID, 5, friction=friction)).cycles[-1]
-        return (-1.0 if cycle.levitating_side else 1.0) / cycle.speed_rate
-
-    low, high = 0.1, 0.14
-    assert lever(low) * lever(high) < 0.0
-    root = bracketed_root(lever, low, high)
-    below, above = lever(root - 1e-4), lever(root + 1e-4)
-    assert below * above < 0.0
-    # A straight line through zero, but for its bend over 1e-4.
-    assert below == pytest.approx(-above, rel=1e-2)
-    assert abs(above) < 2e-3
-
-
-def test_a_curved_wall_is_not_felt():
-    """Balls push with the power 3/2 of the depth: levitation goes on into the wall, as stable as it was."""
-    meeting = small_cycles(planar(HuntCrossley(1e4, 0.1, 1.5)))
-    assert (meeting.kind, meeting.rub_stable, meeting.cycles) == ("persistence", True, ())
-    beyond = find_equilibria(planar(HuntCrossley(1e4, 0.1, 1.5), gap=1e-8))
-    assert any(each.kind == "rub" and each.stable for each in beyond)

@@ -9,7 +9,6 @@ import pytest
 
 import carom as cm
 from carom.attractors import DisturbanceSet
-from carom.base.outcome import InputError
 from carom.basins.shares import Population
 from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, VelocityKick
 from carom.disturbances.plans import ANY_INSTANT
@@ -45,17 +44,6 @@ def test_an_instant_later_is_an_unbalance_ahead(model, values, angles):
     assert here.begins - there.begins == pytest.approx(TURNED)
 
 
-def test_levitation_at_many_instants_is_that_at_each():
-    assert not rotor_of(cm.load(PLAIN)).depends_on_instant
-    weighs = turned(0.0)
-    times = np.array([0.0, 0.4, 2.5])
-    together = weighs.system.kicked(np.zeros(3), times)
-    for place, time in enumerate(times.tolist()):
-        alone = weighs.system.states_of(weighs.system.forced_at(time)[None])[0]
-        assert [complex(part[place, 0]) for part in together] == pytest.approx(alone.tolist(), abs=1e-15)
-    assert weighs.system.translation_velocity(together[1][:, 0], times) == pytest.approx(0.0, abs=1e-15)
-
-
 def test_samples_are_over_the_instant_where_it_matters():
     kicks, weighs, plain = VelocityKick(0.2), turned(0.0), rotor_of(cm.load(PLAIN))
     for plan in (Sample(kicks, 400, 3), Grid(kicks, (20, 20)), DisturbanceSet(400, 3, 0.2)):
@@ -70,13 +58,3 @@ def test_samples_are_over_the_instant_where_it_matters():
     one = Grid(kicks, (4, 6), 0.3)
     assert (one.starts(weighs).begins == 0.3).all()
     assert Population.of_model(kicks, None, ANY_INSTANT).words.endswith("c_r Ω at any instant of the turn")
-
-
-def test_an_own_disturbance_must_take_the_instant():
-    class Still(VelocityKick):
-        def starts(self, rotor, *values):
-            return super().starts(rotor, *values)
-
-    assert Sample(Still(0.1), 3).starts(rotor_of(cm.load(PLAIN))).exists.all()
-    with pytest.raises(InputError, match="one whose starts take the instant"):
-        Sample(Still(0.1), 3).starts(turned(0.0))

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from compilation import sized
 from linear_rotors import FixedFrame, random_rotor, single, tilting
-from scipy.integrate import solve_ivp
 
 import carom
 from carom.disturbances import AnyState, ContactRelease, Grid, Sample, StateSlice
@@ -81,36 +80,6 @@ def test_state_after_a_shock_is_that_of_the_matrices(rotor, peak, duration, dire
     assert touched[0] == (impacts > 0)
     assert np.allclose(positions[0], place, rtol=0, atol=1e-9)
     assert np.allclose(velocities[0], speed, rtol=0, atol=1e-9)
-
-
-@pytest.mark.jit_only
-def test_shocks_of_both_kinds_were_tried():
-    impacts = [shaken(three_masses(), peak, 1.5, 2.0).after()[2] for peak in (0.1, 3.0)]
-    assert impacts[0] == 0 < impacts[1]
-
-
-def test_only_the_translation_need_be_known():
-    """The same without contact from absolute coordinates: bearings on a housing that moves, gyroscopic moments on the shaft."""
-    rotor, peak, duration, direction = tilting(), 0.2, 2.5, 0.7
-    line, rate = cmath.rect(1.0, direction), math.pi / duration
-
-    def rates(time, state):
-        place, speed = (state[:2] + 1j * state[2:4]), (state[4:6] + 1j * state[6:])
-        moved = rotor.translation * line * peak * (time / rate - math.sin(rate * time) / rate**2)
-        moving = rotor.translation * line * peak * (1.0 - math.cos(rate * time)) / rate
-        force = rotor.forcing * cmath.exp(1j * time) - rotor.stiffness @ (place - moved)
-        force -= rotor.damping @ (speed - moving) - 1j * rotor.gyroscopic @ speed
-        push = np.linalg.solve(rotor.mass, force)
-        return np.concatenate([speed.real, speed.imag, push.real, push.imag])
-
-    start = rotor.model.system.rest
-    state = np.concatenate([start.real, start.imag, -start.imag, start.real])
-    end = solve_ivp(rates, (0.0, duration), state, "DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
-    shift = rotor.translation * line * peak * duration / rate
-    expected = (end[:2] + 1j * end[2:4] - shift) * cmath.exp(-1j * duration)
-    place, _, impacts = shaken(rotor, peak, duration, direction).after()
-    assert impacts == 0
-    assert np.allclose(place, expected, rtol=0, atol=1e-9)
 
 
 @pytest.mark.jit_only

@@ -111,62 +111,6 @@ def test_current_directory_and_links(tmp_path, monkeypatch):
     assert content(tmp_path) == {"real/report.html": "new", "study.json": "{}", "report.html": "here"}
 
 
-def test_others_may_read_what_the_user_lets_them(tmp_path):
-    mask = os.umask(0o022)
-    try:
-        fill(tmp_path / "out", {"figures/x.svg": "x"})
-    finally:
-        os.umask(mask)
-
-    assert (tmp_path / "out").stat().st_mode & 0o777 == 0o755
-
-
-def test_checking_leaves_no_trace(tmp_path):
-    (tmp_path / "there").mkdir()
-    for path in ("there", "new", "new/below/it"):
-        assert check_directory(str(tmp_path / path), "--out") == tmp_path / path
-
-    assert [str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*")] == ["there"]
-
-
-def test_directories_made_for_a_place_go_when_it_fails(tmp_path):
-    with pytest.raises(ZeroDivisionError), staged_directory(str(tmp_path / "a" / "b" / "c"), "--out"):
-        raise ZeroDivisionError
-
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_place_is_filled_from_within_its_own_file_system(tmp_path):
-    """What is beside it may be read-only, or another disk."""
-    (tmp_path / "out").mkdir()
-
-    with staged_directory(str(tmp_path / "out"), "--out") as place:
-        assert place.parent == tmp_path / "out"
-
-
-@pytest.mark.parametrize("name", ["x" * 300, "x" * 300 + "/below", "dangling"])
-def test_names_that_no_directory_can_have_are_refused_early(tmp_path, name):
-    (tmp_path / "dangling").symlink_to(tmp_path / "nowhere")
-
-    with pytest.raises(InputError, match="--out"):
-        check_directory(str(tmp_path / name), "--out")
-
-    assert [file.name for file in tmp_path.iterdir()] == ["dangling"]
-
-
-@pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="no file system that refuses root")  # noqa: PTH112
-@pytest.mark.parametrize("path", ["/proc", "/proc/carom"])
-def test_a_file_system_that_refuses_is_found_out_early(path):
-    with pytest.raises(InputError, match="--out"):
-        check_directory(path, "--out")
-
-
-def test_a_name_as_long_as_can_be(tmp_path):
-    fill(tmp_path / ("x" * 255), {"study.json": "{}"})
-
-    assert content(tmp_path) == {"x" * 255 + "/study.json": "{}"}
-
-
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write anywhere")
 def test_directory_without_rights(tmp_path):
     tmp_path.chmod(0o500)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
-from limited_reference import clipped, follow, struck
+from limited_reference import follow, struck
 from scipy.linalg import expm
 
 import carom as cm
@@ -14,7 +12,6 @@ from carom.base.outcome import InputError, Phase
 from carom.models import (
     Force,
     KelvinVoigt,
-    Limit,
     Rigid,
     Touchdown,
     from_matrices,
@@ -166,26 +163,6 @@ def test_rigid_impacts_are_those_of_a_general_integrator():
 
     assert motion.contacts.time == pytest.approx(impacts, abs=1e-9)
     assert fixed(motion.final, 9.0) == pytest.approx(final, abs=1e-9)
-    assert energy_ledger(motion).imbalance < 1e-12
-
-
-def test_limits_of_controllers_act_in_both_directions():
-    bound, angle = 0.2, 0.4
-    limit = Limit(bound, 0.5 * np.array([1.0, 0.1]), 0.1 * np.array([1.0, 0.1]), np.array([1.0, 0.0]), angle=angle)
-    start = State(START.position, 0.2 * START.velocity)
-    motion = cm.simulate(heavy(dataclasses.replace(rotor_of(), limits=(limit,))), start, 5.0)
-    free = rates(lambda place, speed: 0.0)
-
-    def limited(time, state):
-        asked = limit.displacement @ state[:2] + limit.velocity @ state[2:]
-        excess = asked - clipped(asked, bound, angle)
-        return free(time, state) + np.concatenate([np.zeros(2), limit.accelerations * excess])
-
-    final, _ = follow(limited, fixed(start, 0.0), 5.0)
-
-    assert motion.radius(np.linspace(0.0, 5.0, 100)).max() < 1.0
-    assert motion.segment_limits.max() > 1
-    assert fixed(motion.final, 5.0) == pytest.approx(final, abs=1e-9)
     assert energy_ledger(motion).imbalance < 1e-12
 
 

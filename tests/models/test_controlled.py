@@ -9,7 +9,6 @@ from scipy.linalg import expm
 
 from carom.base.outcome import InputError
 from carom.models import from_matrices
-from carom.models.weight import levitation_of
 from carom.parameters import Gravity, Scales
 
 ENDS = np.array([[1.0, 0.8], [1.0, -0.7]])
@@ -95,17 +94,6 @@ def test_flights_are_those_of_first_order_equations(levitates, heavy):
         turn = np.exp(1j * time)
         assert np.allclose(position * turn, expected[:6], rtol=0, atol=1e-11)
         assert np.allclose((velocity + 1j * position)[:2] * turn, expected[6:], rtol=0, atol=1e-11)
-
-
-def test_an_integrator_that_takes_long_takes_the_whole_sag_away():
-    """Its mode is nearly in resonance with the weight, which stands still, but it fades: it has settled before the motion begins."""
-    rotor = controlled().under_gravity(Gravity())
-    slowest = -(rotor.system.exponents + 1j).real.max()
-    assert 1e-5 < slowest < 1e-3
-    position, velocity = levitation_of(rotor)
-    assert ENDS @ position[:2] == pytest.approx(ENDS @ controlled().system.rest[:2], abs=1e-12)
-    turned = rotor.system.state(rotor.system.fly(rotor.system.amplitudes(position, velocity), np.array(500.0)))[0]
-    assert ENDS @ turned[:2] == pytest.approx(ENDS @ position[:2], abs=1e-11)
 
 
 def test_without_levitation_nothing_holds_it_and_its_controller_stands_by_itself():

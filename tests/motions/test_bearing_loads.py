@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
 import carom as cm
@@ -133,28 +132,6 @@ def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():
     assert plane.whirl.angular_speed == pytest.approx(-80.0, rel=1e-9)
     assert found.settled_at == max(plane.in_contact_since, plane.whirl.since)
     assert found.settled_at < found.time
-
-
-def test_what_the_drive_would_do_in_flight_is_told():
-    """A rotor that falls through the clearance and rests there: the torque acts from the first contact on."""
-    shaft = cm.models.Shaft(50.0, 3.0)
-    bare = cm.models.from_matrices(
-        mass=[[1.0]],
-        damping=[[0.0]],
-        stiffness=[[0.0]],
-        forcing=[0.0],
-        touchdowns=[cm.models.Touchdown([1.0], cm.models.KelvinVoigt(1e3, 60.0), 0.2, 5.0)],
-        shaft=shaft,
-    )
-    rotor = bare.under(cm.models.Force(-1j, np.array([-0.02j])))
-    motion = cm.simulate(rotor, cm.State(0.0, 0.0), 25.0)
-    found = cm.motions.drop_loads(motion).shaft
-    assert found.speed_at_end == motion.final.shaft[0]
-    fall = 10.0  # √(2/g) in 1/Ω, until the first contact
-    assert found.left_out >= 3.0 / 50.0 * fall * (1.0 - 1e-12)
-    assert "left out in flight" in str(cm.studies.load_tables.load_tables(cm.motions.drop_loads(motion), "the release"))
-    still = bare.replace(shaft=None).under(*rotor.forces)
-    assert cm.motions.drop_loads(cm.simulate(still, cm.State(0.0, 0.0), 25.0)).shaft is None
 
 
 @pytest.mark.parametrize(

@@ -77,21 +77,6 @@ def test_energy_under_gravity_closes_with_the_work_of_the_weight(settings, drops
         assert ledger.forces == pytest.approx(pull * (height[0] - height), abs=1e-11)
 
 
-def test_energies_in_joules():
-    scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-    ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
-    table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
-    works = ("unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive")
-    of_walls = ("wall", "wall_loss", "races", "race_drag", "shaft")
-    names = ("kinetic", "spring", "limits", *works, *of_walls)
-    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(names, "J")
-    assert table["times"].attrs["units"] == "s"
-    joules = 50.0 * (0.7e-3 * 184.2) ** 2
-    assert np.allclose(table["friction"], joules * ledger.friction, rtol=1e-14, atol=0)
-    assert np.array_equal(plain["drive"], ledger.drive)
-    assert plain["drive"].attrs["units"] == "m c_r^2 Omega^2"
-
-
 def _turned_springs(rotor):
     """The rotor with cross-coupled stiffness."""
     skew = np.triu(np.full(rotor.stiffness.shape, 0.02), 1)

@@ -17,7 +17,6 @@ from carom.disturbances import kick
 from carom.models import jeffcott, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.parameters import Machine, Scales
 
 
 @pytest.fixture
@@ -81,34 +80,6 @@ class TestStarts:
         normal = cmath.exp(0.3j)
         motion = simulate(rotor, State((1.0 - 2e-12) * normal, 0.5 * normal), 1.0)
         assert motion.contacts.time[0] == pytest.approx(4e-12, rel=1e-3)
-
-
-class TestUnits:
-    MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
-
-    def test_kicks_and_times_may_carry_units(self):
-        unit = 0.7e-3 * 184.2
-        told = simulate(self.MACHINE, kick("50 mm/s", angle="30 deg"), "0.2 s")
-        plain = simulate(self.MACHINE, kick(0.05 / unit, angle=math.pi / 6.0), 0.2 * 184.2)
-        assert told.start.velocity == pytest.approx(plain.start.velocity, rel=1e-14)
-        assert told.time == pytest.approx(plain.time, rel=1e-14)
-        assert kick("0.4").stages(jeffcott(PAPER))[1] == kick(0.4).stages(jeffcott(PAPER))[1]
-
-    @pytest.mark.parametrize(
-        ("start", "until", "words"),
-        [
-            (kick("50 kg"), 1.0, "kick speed = 50 kg: must be a velocity"),
-            (kick(0.4, "1 m"), 1.0, "kick direction = 1 m: must be an angle"),
-            (kick(0.4), "2 m", "until = 2 m: must be a time"),
-        ],
-    )
-    def test_another_kind_of_size_is_refused(self, start, until, words):
-        with pytest.raises(InputError, match=words):
-            simulate(self.MACHINE, start, until)
-
-    def test_units_need_scales(self):
-        with pytest.raises(InputError, match="has no scales"):
-            simulate(PAPER, kick("50 mm/s"), 1.0)
 
 
 def test_a_motion_goes_on_from_where_another_has_ended():

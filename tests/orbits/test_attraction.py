@@ -7,13 +7,11 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import pytest
 
-from carom.base.outcome import CaromError
 from carom.motions import State, simulate
 from carom.orbits import find_orbits
 from carom.orbits.orbit import Orbit
 from carom.parameters import Parameters
-from tests.bouncing_machines import bouncing_parameters
-from tests.machines import PAPER, random_parameters
+from tests.machines import PAPER
 
 pytestmark = pytest.mark.jit_only
 LEAST = 1e-3
@@ -70,22 +68,3 @@ def test_orbits_of_the_papers_machine():
     counts = np.array([confirmed(machine, orbits(machine, 3, 100)) for machine in machines])
     assert counts[:, 0].sum() >= 3
     assert counts[:, 1].sum() > 8
-
-
-@pytest.mark.deep
-def test_orbits_of_many_machines():
-    rng, counts = np.random.default_rng(3), np.zeros(2, int)
-    machines = [PAPER.replace(gamma=float(gamma)) for gamma in np.linspace(0.0806, 0.17, 20)]
-    machines += [bouncing_parameters(rng, 1 + number % 2) for number in range(30)]
-    machines += [random_parameters(rng, radius_ratio=float(10 ** rng.uniform(0.7, 2.0))) for _ in range(10)]
-    left_out = 0
-    for machine in machines:
-        try:
-            found = list(orbits(machine, 6, 500))
-        except CaromError:  # no list of all single-impact orbits, for example without losses
-            left_out += 1
-            continue
-        counts += confirmed(machine, found)
-    assert left_out <= 3
-    assert counts[0] > 40
-    assert counts[1] > 100

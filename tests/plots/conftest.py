@@ -51,12 +51,6 @@ def bouncing(damped):
 
 
 @pytest.fixture(scope="session")
-def chattering(damped):
-    """A motion that stops where its impacts have accumulated."""
-    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=60.0, stop_at_chatter=True)
-
-
-@pytest.fixture(scope="session")
 def rubbing(damped):
     """The same motion followed a little into the rub, which is sliding contact."""
     return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=28.0)

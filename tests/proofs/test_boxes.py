@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -17,10 +16,7 @@ from carom.parameters import Parameters
 from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
-from carom.proofs.families import KICKS
 from carom.proofs.kick_cells import IMPACTS, leaves, read
-from carom.proofs.kick_claims import claims_of
-from carom.proofs.kick_discs import Disc
 
 SPINDLE = "examples/spindle.toml"
 GAINS = """
@@ -181,29 +177,6 @@ def test_a_box_is_not_passed_off_as_one_machine(document):
     options = {name: value for name, value in document["options"].items() if name != "box"}
     with pytest.raises(InputError, match="is refused"):
         check({**document, "theorem": "kicks", "options": options})
-
-
-def disc(*along):
-    return Disc(KICKS, hypotheses_of(SPINDLE), "111 mm/s", 3, along)
-
-
-DAMPING = ("damping", "200 N s/m", "600 N s/m")
-
-
-def test_what_holds_is_told_of_stretches_of_a_parameter():
-    """A tree by hand, of which the claims follow: the first quarter of the dampings is open for fast kicks."""
-    with at_precision(64):
-        claims = claims_of(disc(DAMPING), read("ppv0g12", 1))
-    named = {claim.name: claim for claim in claims}
-
-    assert named["kicks all recover"].status == "undecided"
-    slow = named["kicks, damping in [200, 300] N s/m recover"]
-    assert (slow.enclosures["speed_si"].low, slow.enclosures["speed_si"].high) == ("0.0555", "0.0555")
-    assert "at most 0 impacts" in slow.statement
-    fast = named["kicks, damping in [300, 600] N s/m recover"]
-    assert fast.enclosures["speed_si"].low == "0.111"
-    assert named["kicks recover"].enclosures["speed_si"].high == "0.0555"
-    assert Fraction(named["kicks recover"].enclosures["share_open"].low) == Fraction(3, 16)
 
 
 @pytest.mark.parametrize(

@@ -12,11 +12,8 @@ from machines import PAPER
 from carom.base.outcome import InputError
 from carom.orbits import find_orbits
 from carom.proofs import Claim, Proof, check, prove
-from carom.proofs.balls import at_precision, interval, rational
-from carom.proofs.block_orbits import _longest
 from carom.proofs.evidence import Evidence
 from carom.proofs.hypotheses import hypotheses_of
-from carom.proofs.lines import line_of
 from carom.proofs.proving import proof_of
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
@@ -173,22 +170,6 @@ def test_what_cannot_be_asked_is_told_in_one_line(arguments, words):
     with pytest.raises(InputError, match=words) as problem:
         prove(DECIMAL, **arguments)
     assert "\n" not in str(problem.value)
-
-
-def test_longest_period_of_a_block_bounds_that_of_every_machine_in_it():
-    line = line_of(hypotheses_of({**DECIMAL, "omega": "1", "mu": "5"}), "gamma", "0.5", "2.2")
-    with at_precision(64):
-        # The block lies on both sides of critical damping, at 2.
-        block = _longest(line.at(interval(Fraction(1), Fraction(11, 5))))
-        assert block >= _longest(line.at(rational(Fraction(1))))
-
-
-def test_periods_without_radial_speeds_are_not_counted_as_roots():
-    claims = ranges({**DECIMAL, "rho": "1/10"}, "gamma", "0.1", "0.101")
-    stated = [claim.statement for claim in claims if claim.kind == "orbits" and claim.status == "proven"]
-    assert stated
-    # F1 has two roots there, and no radial speed belongs to either.
-    assert all("none" in words and "F1" not in words for words in stated)
 
 
 def test_why_a_block_is_open_is_found_again_by_the_check():

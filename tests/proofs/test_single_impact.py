@@ -162,74 +162,9 @@ def test_proven_orbits_run_in_simulation():
 # ------------------------------------------------------------------------------------------------ on both sides of a change
 
 
-def orbit_at(gamma: mpmath.mpf) -> PreciseOrbit:
-    known = find_orbits(PAPER.replace(gamma=float(gamma)))["B1,d"]
-    return PreciseOrbit(PAPER.replace(gamma=float(gamma)), known.period, known.radial_speed)
-
-
-def proofs_beside(gamma: float, distance: float) -> tuple[Proof, Proof]:
-    return prove(PAPER.replace(gamma=gamma - distance)), prove(PAPER.replace(gamma=gamma + distance))
-
-
 def zero(condition, low: float, high: float) -> float:
     """Where a function changes sign, to the spacing of doubles."""
     return brentq(lambda value: float(condition(value)), low, high, xtol=1e-17, rtol=1e-15)
-
-
-@pytest.mark.jit_only
-def test_grazing_is_seen_on_both_sides():
-    with mpmath.workdps(40):
-        top = float(find_top(PAPER.replace(gamma=0.0636105609)))
-        gamma = zero(lambda value: orbit_at(value).top(top) - 1, 0.06361055, 0.06361057)
-    assert gamma == pytest.approx(0.0636105609, abs=5e-11)
-
-    crossed, clear = proofs_beside(gamma, 1e-12)
-
-    assert (status(crossed, "B1,d inside"), status(clear, "B1,d inside")) == ("refuted", "proven")
-    assert (status(crossed, "B1,d admissible"), status(clear, "B1,d admissible")) == ("refuted", "proven")
-
-
-def find_top(parameters: Parameters) -> float:
-    """Time of the largest radius between the impacts."""
-    orbit = find_orbits(parameters)["B1,d"]
-    times = np.linspace(0.1, orbit.period - 0.1, 2001)
-    return times[np.abs(orbit.path(times)).argmax()]
-
-
-@pytest.mark.jit_only
-def test_period_doubling_is_seen_on_both_sides():
-    with mpmath.workdps(40):
-        gamma = zero(lambda value: np.linalg.det(orbit_at(value).jacobian() + np.eye(3)), 0.08338141, 0.08338142)
-    assert gamma == pytest.approx(0.0833814175, abs=5e-11)
-
-    below, above = proofs_beside(gamma, 1e-12)
-
-    assert (status(below, "B1,d stable"), status(above, "B1,d stable")) == ("refuted", "proven")
-    assert below["B1,d stable"].reason == "a multiplier is below -1"
-
-
-def test_fold_is_seen_within_a_spacing_of_doubles():
-    """At the fold ``F₁ = F₁' = 0``; two roots a distance of 1e-14 below it, none above."""
-    with mpmath.workdps(40):
-
-        def conditions(gamma, time):
-            at = PAPER.replace(gamma=float(gamma))
-            back, slope = exact_return(at, time)
-            q = (1 + mpmath.mpf(at.d)) * mpmath.mpc(1, mpmath.mpf(at.mu))
-            return 1 + (q * back[1, 1]).real, (q * slope[1, 1]).real
-
-        def least(gamma: float) -> mpmath.mpf:
-            time = mpmath.findroot(lambda moment: conditions(gamma, moment)[1], 1.6408219835)
-            return conditions(gamma, time)[0]
-
-        gamma = zero(least, 0.17802772, 0.17802773)
-    assert gamma == pytest.approx(0.1780277257, abs=5e-11)
-
-    below, above = proofs_beside(gamma, 1e-14)
-
-    assert below["machine periods"].statement.startswith("F1 has exactly 2 roots")
-    assert above["machine periods"].statement.startswith("F1 has exactly 0 roots")
-    assert status(below, "machine periods") == status(above, "machine periods") == "proven"
 
 
 def test_boundary_equilibrium_is_exact():
@@ -270,18 +205,6 @@ def test_hard_machines_are_decided(changes):
 
     assert not proof.with_status("undecided")
     assert_agrees(Parameters(**{name: float(Fraction(text)) for name, text in {**DECIMAL, **changes}.items()}), proof)
-
-
-def test_without_damping_the_periods_up_to_a_limit_are_proven():
-    proof = prove({**DECIMAL, "gamma": "0"}, longest_period=20)
-    periods = proof["machine periods"]
-
-    assert periods.status == "undecided"
-    assert "without damping there is no longest period" in periods.reason
-    found = find_orbits(PAPER.replace(gamma=0.0), 20.0)
-    assert int(periods.statement.split()[3]) == len(found.periods)
-    assert {claim.about for claim in proof if claim.kind == "admissible"} == {orbit.name for orbit in found}
-    assert status(proof, "machine orbits") == "undecided"
 
 
 def test_condition_that_vanishes_at_every_period_is_left_undecided():

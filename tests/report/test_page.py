@@ -130,23 +130,6 @@ def test_names_are_escaped(written):
     assert "&lt;b&gt;&amp;" in text
 
 
-@pytest.mark.parametrize(
-    "parameters",
-    [
-        pytest.param(SOURCE.replace(gamma=0.0), marks=pytest.mark.deep),
-        SOURCE.replace(rho=0.0, mu=0.0),
-        SOURCE.replace(gamma=3.0),
-    ],
-)
-def test_any_machine_has_a_report(parameters, tmp_path):
-    text = write_report(study_once(parameters), str(tmp_path / "out")).read_text(encoding="utf-8")
-
-    page = Page(text)
-    assert page.open == []
-    assert len(page.identifiers) == len(set(page.identifiers))
-    assert "nan" not in re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)
-
-
 def test_recommendation_comes_first(written):
     _result, _, text = written
     words = re.sub(r"\s+", " ", "".join(Page(text).words))

@@ -21,9 +21,8 @@ from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
 from carom.studies import study
-from carom.studies.document import study_document
 from carom.studies.proven import is_proven, proven_words
-from carom.studies.summaries import motion_rows, survived_rows
+from carom.studies.summaries import survived_rows
 
 
 @pytest.fixture(scope="module")
@@ -62,21 +61,6 @@ def test_orbit_is_marked_only_if_its_claims_agree(proof):
     undecided = tuple(replace(claim, status="undecided") if claim.kind == "stable" else claim for claim in proof)
     assert not is_proven(replace(proof, claims=undecided), orbit)
     assert not is_proven(proof, find_orbits(PAPER.replace(gamma=0.05))["B1,d"])
-
-
-@pytest.mark.deep
-@pytest.mark.jit_only
-def test_study_shows_its_proof():
-    plain = study_once(PAPER)
-    assert "Proven" not in [fact.topic for fact in plain.facts]
-    proven = replace(plain, proof=prove(plain.case.parameters))
-
-    assert "Proven" in [fact.topic for fact in proven.facts]
-    remarks = {row.name: row.remark for row in motion_rows(proven)}
-    assert remarks["orbit B1,d"].startswith("proven")
-    assert "proven" not in {row.name: row.remark for row in motion_rows(plain)}["orbit B1,d"]
-    assert check(study_document(proven)["proof"]).claims == proven.proof.claims
-    assert study_document(plain)["proof"] is None
 
 
 DAMPED = PAPER.replace(gamma=0.65, mu=0.0)

@@ -2,15 +2,11 @@
 
 import math
 
-import numpy as np
 import pytest
 
 import carom as cm
-from carom.base.outcome import Outcome
 from carom.base.progress import Reporter
-from carom.disturbances import BladeLoss
 from carom.models import jeffcott
-from carom.motions import settle, simulate
 from carom.motions.budget import Budget
 from carom.parameters import Parameters, Required, Shock
 from carom.studies.kinds import required_disturbances
@@ -25,32 +21,6 @@ pytestmark = pytest.mark.jit_only
 @pytest.fixture(scope="module")
 def found():
     return survives(jeffcott(SOURCE), REQUIRED, Budget(), Reporter.of(None, "test"))
-
-
-def lost_kicks(rotor, speed, count, seed):
-    random = np.random.default_rng(seed)
-    kicks = speed * np.sqrt(random.random(count)) * np.exp(2j * math.pi * random.random(count))
-    return int((~settle(rotor, np.full(count, rotor.equilibrium), kicks).recovered).sum())
-
-
-def test_bracket_of_kicks(found):
-    rotor, kick = jeffcott(SOURCE), found.kick
-    assert 0.0 < kick.harmless <= kick.all_back < kick.size
-    assert kick.size - kick.all_back < 0.01 * kick.size
-    assert lost_kicks(rotor, kick.all_back, 4000, 11) == 0
-    starting = rotor.equilibrium, kick.size * np.exp(1j * kick.angle)
-    assert simulate(rotor, cm.State(*starting), settle=True).outcome == kick.outcome
-
-
-def test_bracket_of_losses_of_a_blade(found):
-    loss = found.blade_loss
-    assert loss.all_back < loss.size
-    for phase in np.linspace(0.0, 2.0 * math.pi, 121):
-        after = SOURCE.rho + loss.all_back * np.exp(1j * phase)
-        # The frame turns with the unbalance after the loss.
-        place = jeffcott(SOURCE).equilibrium * abs(after) / after
-        assert settle(jeffcott(SOURCE.replace(rho=abs(after))), [place], [0j]).recovered.all()
-    assert simulate(*BladeLoss(loss.size).apply(SOURCE, loss.angle), settle=True).outcome is not Outcome.LEVITATED
 
 
 def test_shocks_are_of_the_duration_required(found):

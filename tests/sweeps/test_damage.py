@@ -132,13 +132,6 @@ def test_store_of_an_interrupted_sweep_has_the_same_bytes(whole, tmp_path, seed)
 # --------------------------------------------------------------------------------------------------- two at the same time
 
 
-def test_store_that_another_sweep_has_just_made_is_taken(store, monkeypatch):
-    monkeypatch.setattr("carom.sweeps.store.is_new", lambda path: True)  # as it was a moment ago
-
-    assert SweepStore(store, PLAN).done == 8
-    assert [file.name for file in store.parent.iterdir()] == ["s.zarr"]
-
-
 def test_loser_of_two_is_told(store):
     told = []
 
