@@ -111,8 +111,8 @@ def test_impacts_beside_a_hand_written_program(benchmark, starts, gamma):
 
     def run_hand_written():
         command = ["./scalar", str(gamma), "1"]
-        told = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
-        line = next(line for line in told.splitlines() if "BERN" in line)
+        shown = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
+        line = next(line for line in shown.splitlines() if "BERN" in line)
         costs.append(1e-9 * float(line.split(" ns/imp")[0].split()[-1]))
 
     run = Bounces(source_paper_machine(gamma), starts)

@@ -19,7 +19,7 @@ from carom.motions.ensembles import settle
 GAMMAS = (0.1, 0.15)
 PROGRAMS = {"simd": "C++, AVX-512, by its own clock", "scalar": "C++, scalar, by its own clock"}
 LANE_BLOCKS = ("3", "0.8", "1")
-"""Block lengths and number of runs the vector program is told."""
+"""Block lengths and number of runs the vector program is stated."""
 
 
 def follow(rotor, starts, threads=1, **limits):
@@ -37,8 +37,8 @@ def hand_written(program, gamma):
     if not folder or not (Path(folder) / program).exists():
         return None
     command = [f"./{program}", str(gamma), *(LANE_BLOCKS if program == "simd" else ("1",))]
-    told = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
-    line = next(line for line in told.splitlines() if "SIMD" in line or "BERN" in line)
+    shown = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
+    line = next(line for line in shown.splitlines() if "SIMD" in line or "BERN" in line)
     return 1.0 / float(re.search(r"([\d.e+]+) imp/s", line)[1])
 
 

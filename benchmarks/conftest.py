@@ -1,4 +1,4 @@
-"""Benchmarks: carom beside its peers in one run, told as cost per unit of work and as ratios."""
+"""Benchmarks: carom beside its peers in one run, stated as cost per unit of work and as ratios."""
 
 from __future__ import annotations
 

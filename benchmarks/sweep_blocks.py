@@ -3,7 +3,7 @@
     python benchmarks/sweep_blocks.py [degrees] [levels] [machines]
 
 A degree and a number of levels need kernels of their own, so each pair has a process; the processes take turns, a round
-after the other, and medians of the processor's time are told.
+after the other, and medians of the processor's time are stated.
 """
 
 from __future__ import annotations

@@ -196,7 +196,7 @@ def follow(
     start: float = 0.0,
     phases: Sequence[str] | None = None,
 ) -> Followed:
-    """Follow a motion.  Without ``phases`` planes begin in those that their place says; one that rolls cannot be told so."""
+    """Follow a motion.  Without ``phases`` planes begin in those that their place says; one that rolls cannot be stated so."""
     state, time = np.concatenate([position, velocity]).astype(complex), start
     motion = _Motion(rotor, _first_phases(rotor, state) if phases is None else list(phases))
     events: list[Event] = []

@@ -51,7 +51,7 @@ def test_many_names_have_examples():
 def test_examples_of_a_docstring_run(path, monkeypatch):
     monkeypatch.chdir(ROOT)
     test = doctest.DocTestParser().get_doctest(text_of(path), {}, path, None, None)
-    told: list[str] = []
-    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test, out=told.append)
+    shown: list[str] = []
+    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test, out=shown.append)
     assert result.attempted
-    assert not result.failed, "".join(told)
+    assert not result.failed, "".join(shown)

@@ -46,20 +46,20 @@ LONG = {
 @pytest.mark.jit_only
 @pytest.mark.parametrize("verb", LONG)
 def test_reports_are_of_one_kind_and_grow_to_one(verb):
-    told = []
-    LONG[verb](progress=told.append)
-    assert all(type(report) is Progress and report.step for report in told)
-    shares = [report.share for report in told]
+    shown = []
+    LONG[verb](progress=shown.append)
+    assert all(type(report) is Progress and report.step for report in shown)
+    shares = [report.share for report in shown]
     assert shares == sorted(shares)
     assert shares[0] >= 0.0
     assert shares[-1] == pytest.approx(1.0)
 
 
 def test_a_sweep_reports_in_the_same_way(tmp_path):
-    told = []
-    carom.run_sweep(plan_of(Drawn(), chunk=5), tmp_path / "s.zarr", workers=1, threads=True, progress=told.append)
-    assert [type(report) for report in told] == [Progress, Progress]
-    assert told[-1].share == 1.0
+    shown = []
+    carom.run_sweep(plan_of(Drawn(), chunk=5), tmp_path / "s.zarr", workers=1, threads=True, progress=shown.append)
+    assert [type(report) for report in shown] == [Progress, Progress]
+    assert shown[-1].share == 1.0
 
 
 class AtOnce:
@@ -133,13 +133,13 @@ def test_no_bar_appears_where_it_is_not_wanted_or_not_seen(why, terminal, monkey
 
 
 def test_parts_report_shares_of_the_whole():
-    told = []
-    tell = Reporter(told.append)
+    shown = []
+    tell = Reporter(shown.append)
     part = tell.part(0.2, 0.6, "searching")
     Reporter.of(part, "what the inner function would say")(0.5)
     Reporter.of(tell.part(0.6, 1.0), "its own words")(1.0)
     part.part(0.5, 1.0)(0.0, "more")
-    assert told == [
+    assert shown == [
         Progress(pytest.approx(0.4), "searching"),
         Progress(pytest.approx(1.0), "its own words"),
         Progress(pytest.approx(0.4), "more"),

@@ -41,7 +41,7 @@ def settled(machine):
     return cm.settle(machine, *(states if len(system.rest) > 1 else (part[:, 0] for part in states)))
 
 
-def told(call):
+def stated(call):
     """The result, or the reason why there is none."""
     try:
         return call()
@@ -65,7 +65,7 @@ CALLS = {
     "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
     "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
     "basins.map_cells": lambda m: cm.basins.map_cells(m, KICKS),
-    "basins.map_drops": lambda m: told(lambda: cm.basins.map_drops(m, shape=(2, 2))),
+    "basins.map_drops": lambda m: stated(lambda: cm.basins.map_drops(m, shape=(2, 2))),
     "basins.map_gains": lambda m: cm.map_gains(m, KICKS, ("gamma", "omega"), shape=(2, 2)),
     "basins.smallest_unrecovered": lambda m: cm.basins.smallest_unrecovered(m, VelocityKick(fastest=0.5)),
     "bifurcations.boundary_equilibria": lambda m: cm.bifurcations.boundary_equilibria(m, "gamma"),
@@ -90,7 +90,7 @@ CALLS = {
     "rotors.synchronous_response": lambda m: cm.rotors.synchronous_response(m, [100.0]),
     "closed_forms.small_cycles": cm.closed_forms.small_cycles,
     "disturbances.outward_from": cm.disturbances.outward_from,
-    "explorer.explore": lambda m: told(lambda: case_explored(m)),
+    "explorer.explore": lambda m: stated(lambda: case_explored(m)),
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
     "models.case_of": lambda m: cm.models.rotor_of(cm.models.case_of(m)),
     "models.exact_rotor_of": cm.models.exact_rotor_of,
@@ -99,7 +99,7 @@ CALLS = {
     "motions.settle": lambda m: settled(m),
     "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
     "orbits.find_orbits": lambda m: cm.find_orbits(m, 10.0),
-    "orbits.lyapunov_exponents": lambda m: told(lambda: cm.orbits.lyapunov_exponents(m, cm.kick(0.01), 10)),
+    "orbits.lyapunov_exponents": lambda m: stated(lambda: cm.orbits.lyapunov_exponents(m, cm.kick(0.01), 10)),
     "orbits.orbit_near": lambda m: cm.orbits.orbit_near(
         m,
         cm.orbits.Word.of(cm.orbits.Kind.IMPACT_FORWARD),

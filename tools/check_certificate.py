@@ -1054,7 +1054,7 @@ def check(text: str) -> Report:
 
 
 def refuse_missing(facts: dict, claims: list[dict], report: Report) -> None:
-    """Of an orbit that meets the wall from outside the course and the slip are not told."""
+    """Of an orbit that meets the wall from outside the course and the slip are not stated."""
     there = {(c["about"], c["kind"]) for c in claims}
     for about, kind in facts:
         untold = kind in ("inside", "slip") and (about, "outward") in facts and facts[about, "outward"].true is False
@@ -1957,7 +1957,7 @@ class Intervals:
             raise RefusedError("the stretches do not cover the interval in order")
 
     def refuse_missing(self, claims: list[dict], report: Report) -> None:
-        """Refuse what is not told of the machine, or of an orbit that a stretch has."""
+        """Refuse what is not stated of the machine, or of an orbit that a stretch has."""
         there = {(c["about"], c["kind"]) for c in claims}
         names = {name for _, _, said, _ in self.listed for name in said or {}}
         wanted = {(name, kind) for name in names for kind in ("exists", "admissible", "stable")}
@@ -2031,10 +2031,10 @@ class Intervals:
         if (claim["reason"] == "") != (true is True):
             raise RefusedError("its reason does not follow from the stretches")
         for word, verdict in (("shown on", True), ("the contrary on", False), ("open on", None)):
-            told = re.search(rf"{word} ([^;]*)", claim["reason"])
+            given = re.search(rf"{word} ([^;]*)", claim["reason"])
             spans = (
-                [tuple(decimal_of(v) for v in pair) for pair in re.findall(r"\[(\S+), (\S+)\]", told[1])]
-                if told
+                [tuple(decimal_of(v) for v in pair) for pair in re.findall(r"\[(\S+), (\S+)\]", given[1])]
+                if given
                 else []
             )
             for a, b in spans:
@@ -2546,7 +2546,7 @@ class Kind(NamedTuple):
 
     option: str
     size: str
-    told: str
+    stated: str
     smaller: str
     units: tuple[str, ...]
 
@@ -2640,11 +2640,11 @@ def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None
     }
     if hypotheses["table"] == "machine":
         numbers[f"{kind.size}_si"] = largest.rational * safe
-    told = re.escape(f"{kind.told} {options[kind.option]}")
+    given = re.escape(f"{kind.stated} {options[kind.option]}")
     patterns = {
-        "recover": rf"Of {told}, the share share_proven of the area returns to levitation with at most so many impacts, among them every {kind.smaller}\.",
-        "all recover": rf"All {told}, return to levitation with at most (\d+) impacts\.",
-        "do not recover": rf"Of {told}, the share share_refuted of the area never returns to levitation: after bounces the rotor stays on the wall and "
+        "recover": rf"Of {given}, the share share_proven of the area returns to levitation with at most so many impacts, among them every {kind.smaller}\.",
+        "all recover": rf"All {given}, return to levitation with at most (\d+) impacts\.",
+        "do not recover": rf"Of {given}, the share share_refuted of the area never returns to levitation: after bounces the rotor stays on the wall and "
         r"decays to the synchronous rub of the larger normal force\.",
     }
 
@@ -2679,7 +2679,7 @@ def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None
         return f"not covered|its shares follow from the cells; {flown} kicks in the middle of cells return, and all kicks of {float(shown):.6f} of the disc"
 
     report.each(document["claims"], decide)
-    needed = [(about, told) for told in patterns if told != "do not recover" or area["refuted"]]
+    needed = [(about, given) for given in patterns if given != "do not recover" or area["refuted"]]
     refuse_missing(dict.fromkeys(needed), document["claims"], report)
 
 
@@ -2900,7 +2900,7 @@ _NO_BASINS = (
     "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed"
 )
 _DISC_LEAVES_OUT = (
-    "that what is open does not return, or that it does; why it is open is told by the search",
+    "that what is open does not return, or that it does; why it is open is stated by the search",
     "that the impacts stated happen: they are bounds from above",
     "anything beyond the largest size, of starts other than levitation, or of compliant walls",
 )
@@ -2931,7 +2931,7 @@ FORMS = {
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             _NO_BASINS,
             "which disturbances end in a rub",
-            "which slides and whirls repeat that are not told, or that there is no whirl that bounces",
+            "which slides and whirls repeat that are not stated, or that there is no whirl that bounces",
         ),
     ),
     "orbits of several impacts": Form(

@@ -40,8 +40,8 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[object]], digits: int
     def line(entries: Iterable[str]) -> str:
         return "| " + " | ".join(entry.replace("|", "\\|").replace("\n", " ") for entry in entries) + " |"
 
-    told = (line(number(entry, digits) for entry in row) for row in rows)
-    return Markdown("\n".join([line(headings), "|" + "---|" * len(headings), *told]))
+    stated = (line(number(entry, digits) for entry in row) for row in rows)
+    return Markdown("\n".join([line(headings), "|" + "---|" * len(headings), *stated]))
 
 
 def checks(rows: Iterable[tuple[str, float, float]]) -> Markdown:

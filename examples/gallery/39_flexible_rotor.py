@@ -23,7 +23,7 @@ for accuracy in (0.3, 0.1, 0.02, 0.005):
     )
 
 # %%
-# What to see: with 2 and 0.5 percent the curves lie on each other.  The error is told for the first contact of a rotor that comes straight and of a wall
+# What to see: with 2 and 0.5 percent the curves lie on each other.  The error is stated for the first contact of a rotor that comes straight and of a wall
 # without damping; so even where 30 percent are accepted, the peak of this drop is off by 3 percent only.
 figure = plt.figure(figsize=(5.6, 3.2), layout="constrained")
 axes = figure.subplots()

@@ -118,10 +118,10 @@ def main():
     table = {}
     for name in EXAMPLES:
         with tempfile.TemporaryDirectory() as folder:
-            told = imported(name, Path(folder))
+            shown = imported(name, Path(folder))
             with np.load(Path(folder) / "rotor.npz") as arrays:
                 np.savez_compressed(place / f"{name}.npz", **arrays)
-        table[name] = {"bearings": told["bearings"], **computed(ross, name)}
+        table[name] = {"bearings": shown["bearings"], **computed(ross, name)}
         shutil.rmtree(place / "__pycache__", ignore_errors=True)
     lines = ",\n".join(f"{json.dumps(name)}: {json.dumps(found)}" for name, found in table.items())
     (place / "computed.json").write_text(f"{{{lines}}}\n", encoding="utf-8")

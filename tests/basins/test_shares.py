@@ -97,7 +97,7 @@ def test_grids_converge_to_what_a_sample_shows(gamma):
 @pytest.mark.jit_only
 @pytest.mark.parametrize("settings", [(), ("damping=3000 N s/m",), ("eccentricity=0.15 mm", "speed=120 rad/s")])
 def test_page_basins_study_and_sweep_give_one_share(settings):
-    """11.9, 38.8 and 64 % were told of one machine: of a square, of sizes and directions, and of starts anywhere."""
+    """11.9, 38.8 and 64 % were stated of one machine: of a square, of sizes and directions, and of starts anywhere."""
     case = carom.load(MACHINE, settings)
     scales, seed = case.parameters.scales, np.random.SeedSequence(9)
     rotor, largest = jeffcott(case.parameters), case.requirement.own(case.parameters.scales).kick

@@ -58,7 +58,7 @@ class Scaled:
         return start, pressed @ start, free @ pressed @ start
 
     def born(self, period):
-        """Times of the orbit born there, near a period; conditions and unknowns are told in the scale of a contact."""
+        """Times of the orbit born there, near a period; conditions and unknowns are stated in the scale of a contact."""
         half = np.pi / self.law.stiffness**0.5
 
         def times_of(unknowns):
@@ -147,7 +147,7 @@ def test_the_shorter_orbit_ends_where_its_flight_has_no_time():
     assert (np.diff(stiffnesses) < 0.0).all()
     # Near its end the stiffness changes by the square of the time of flight.
     _, end = np.polyfit(flights[-3:] ** 2, stiffnesses[-3:], 1)
-    assert end == pytest.approx(35.7, abs=0.05)  # three digits are told of it
+    assert end == pytest.approx(35.7, abs=0.05)  # three digits are stated of it
 
 
 @pytest.mark.jit_only

@@ -36,11 +36,11 @@ def test_the_printed_file_loads_beside_the_matrices(folder, capsys):
 
 def test_as_json(folder, capsys):
     assert main(["import-rotor", "given.npz", "-o", "rotor.npz", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["mass_si"] == pytest.approx(SHAFT.mass, rel=1e-9)
-    assert told["free_frequencies_si"][0] == pytest.approx(SHAFT.free_modes.frequencies[2] / 2.0 / np.pi, rel=1e-6)
-    assert told["damped"] is False
-    assert "[[touchdown]]" in told["machine_file"]
+    shown = json.loads(capsys.readouterr().out)
+    assert shown["mass_si"] == pytest.approx(SHAFT.mass, rel=1e-9)
+    assert shown["free_frequencies_si"][0] == pytest.approx(SHAFT.free_modes.frequencies[2] / 2.0 / np.pi, rel=1e-6)
+    assert shown["damped"] is False
+    assert "[[touchdown]]" in shown["machine_file"]
 
 
 @pytest.mark.parametrize(

@@ -70,7 +70,7 @@ def test_texts_of_commands_use_these_names_and_80_columns(command, capsys, monke
 
 @pytest.mark.parametrize("outcome", Outcome)
 def test_each_outcome_has_one_name_on_every_surface(outcome):
-    """Text, legend, end of a path and sentence take the words of the outcome; only rubs and periods are told further apart."""
+    """Text, legend, end of a path and sentence take the words of the outcome; only rubs and periods are stated further apart."""
     assert outcome.label not in OUTCOMES or OUTCOMES[outcome.label].words == outcome.words
     assert outcome.words in ending_words(outcome)
     name = MotionName(outcome)

@@ -122,11 +122,11 @@ def test_a_disk_that_refuses_is_told_of_and_done_without(tmp_path, monkeypatch):
 
 def test_it_is_told_of_once(tmp_path):
     cache_directory.warn_once.cache_clear()
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as shown:
         warnings.simplefilter("always")
         assert fresh(None)(3.0) == 27.0
         assert fresh(None)(3 + 0j) == 27.0
-    assert len(told) == 1
+    assert len(shown) == 1
 
 
 # ------------------------------------------------------------------------------------------------------- as a program

@@ -72,9 +72,9 @@ def chosen(monkeypatch):
     def choose(version, compiler=""):
         monkeypatch.setattr(numba, "__version__", version)
         monkeypatch.setenv(choice.VARIABLE, compiler)
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as shown:
             warnings.simplefilter("always")
-            return choice.compiles_plainly.__wrapped__(), told
+            return choice.compiles_plainly.__wrapped__(), shown
 
     return choose
 

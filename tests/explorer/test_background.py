@@ -14,8 +14,8 @@ SOON = 30.0
 class Work:
     """Work that begins, waits to be let go, and reports progress when it is."""
 
-    def __init__(self, name: str, told: list[str]) -> None:
-        self.name, self.told = name, told
+    def __init__(self, name: str, shown: list[str]) -> None:
+        self.name, self.stated = name, shown
         self.begun, self.go, self.ended = threading.Event(), threading.Event(), threading.Event()
 
     @property
@@ -29,14 +29,14 @@ class Work:
         return self.name
 
     def done(self, result):
-        self.told.append(result)
+        self.stated.append(result)
         self.ended.set()
 
 
 def test_of_each_kind_only_the_newest_that_waits_is_done_and_the_most_urgent_first():
-    told: list[str] = []
+    shown: list[str] = []
     worker = Worker(("urgent", "later"))
-    first, old, new, urgent = (Work(name, told) for name in ("first", "old", "new", "urgent"))
+    first, old, new, urgent = (Work(name, shown) for name in ("first", "old", "new", "urgent"))
     worker.submit("later", first.request)
     assert first.begun.wait(SOON)
     for kind, work in (("later", old), ("later", new), ("urgent", urgent)):
@@ -46,14 +46,14 @@ def test_of_each_kind_only_the_newest_that_waits_is_done_and_the_most_urgent_fir
     assert new.ended.wait(SOON)
     worker.close()
     assert worker.join(SOON)
-    assert told == ["first", "urgent", "new"]
+    assert shown == ["first", "urgent", "new"]
     assert not old.begun.is_set()
 
 
 def test_what_pauses_lets_newer_and_more_urgent_work_go_first():
-    told: list[str] = []
+    shown: list[str] = []
     worker = Worker(("urgent", "later"))
-    old, new, urgent, soon = (Work(name, told) for name in ("old", "new", "urgent", "soon"))
+    old, new, urgent, soon = (Work(name, shown) for name in ("old", "new", "urgent", "soon"))
     for work in (old, new, urgent, soon):
         work.go.set()
     # It would begin after the test: what ends its pause is always one of the requests that follow.
@@ -65,13 +65,13 @@ def test_what_pauses_lets_newer_and_more_urgent_work_go_first():
     assert soon.ended.wait(SOON)
     worker.close()
     assert worker.join(SOON)
-    assert told == ["urgent", "soon"]
+    assert shown == ["urgent", "soon"]
 
 
 def test_what_is_dropped_ends_at_its_next_report_and_says_nothing():
-    told: list[str] = []
+    shown: list[str] = []
     worker = Worker(("one",))
-    dropped, next_one = Work("dropped", told), Work("next", told)
+    dropped, next_one = Work("dropped", shown), Work("next", shown)
     worker.submit("one", dropped.request)
     assert dropped.begun.wait(SOON)
     worker.drop()
@@ -80,20 +80,20 @@ def test_what_is_dropped_ends_at_its_next_report_and_says_nothing():
     next_one.go.set()
     assert next_one.ended.wait(SOON)
     worker.close()
-    assert told == ["next"]
+    assert shown == ["next"]
 
 
 def test_errors_are_handed_over_and_do_not_end_the_desk():
-    told: list[object] = []
+    shown: list[object] = []
     worker, ended = Worker(("one",)), threading.Event()
 
     def fail(tell):
         raise ValueError("no")
 
-    worker.submit("one", Job(fail, lambda result: (told.append(result), ended.set())))
+    worker.submit("one", Job(fail, lambda result: (shown.append(result), ended.set())))
     assert ended.wait(SOON)
-    assert isinstance(told[0], ValueError)
-    after = Work("after", told)
+    assert isinstance(shown[0], ValueError)
+    after = Work("after", shown)
     after.go.set()
     worker.submit("one", after.request)
     assert after.ended.wait(SOON)

@@ -154,8 +154,8 @@ def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure)
     words = page.locator("#beside-0-words")
     assert page.locator("#sentence").inner_text() == "Loading the kernels …"
     picture = until("basin", size=120)
-    told = [item.split(" ") for item in page.locator("#legend li").all_inner_texts()]
-    assert [" ".join(row[:-2]) for row in told] == [ending["words"] for ending in picture["endings"]]
+    stated = [item.split(" ") for item in page.locator("#legend li").all_inner_texts()]
+    assert [" ".join(row[:-2]) for row in stated] == [ending["words"] for ending in picture["endings"]]
     assert page.locator("#sentence").inner_text() == picture["sentence"]
     while not words.inner_text():
         until(None)
@@ -163,13 +163,15 @@ def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure)
     # Left of it and below are 54 and 40 pixels for the scales, on the other sides 6.
     span = min(box["width"] - 60, box["height"] - 46)
     page.mouse.click(box["x"] + 54 + 0.75 * span, box["y"] + 6 + 0.5 * span)
-    told = until("beside")
-    assert told["kick"]["first"] == pytest.approx(0.5 * picture["largest"], abs=0.01 * picture["largest"])  # a pixel
-    assert told["kick"]["second"] == pytest.approx(0.0, abs=0.01 * picture["largest"])
-    assert words.inner_text().endswith(told["words"].strip() + ("" if told["whole"] else " Its beginning is shown."))
+    stated = until("beside")
+    assert stated["kick"]["first"] == pytest.approx(0.5 * picture["largest"], abs=0.01 * picture["largest"])  # a pixel
+    assert stated["kick"]["second"] == pytest.approx(0.0, abs=0.01 * picture["largest"])
+    assert words.inner_text().endswith(
+        stated["words"].strip() + ("" if stated["whole"] else " Its beginning is shown.")
+    )
     assert words.inner_text() != before
     page.keyboard.press("ArrowUp")
-    step = pytest.approx(told["kick"]["second"] + 0.02 * picture["largest"], abs=0.005 * picture["largest"])
+    step = pytest.approx(stated["kick"]["second"] + 0.02 * picture["largest"], abs=0.005 * picture["largest"])
     while until("beside")["kick"]["second"] != step:  # answers to the pointer on its way may come first
         pass
     page.evaluate("end()")

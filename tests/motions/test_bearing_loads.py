@@ -162,8 +162,8 @@ def test_loads_added_up_in_pieces_are_those_of_the_whole_motion(machine, release
             "fastest_race",
             "in_contact_since",
         ):
-            told = getattr(other, name)
-            assert getattr(one, name) == (told if told is None else pytest.approx(told, rel=1e-9)), name
+            shown = getattr(other, name)
+            assert getattr(one, name) == (shown if shown is None else pytest.approx(shown, rel=1e-9)), name
         for name in MEASURED:
             assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9), name
         assert one.whirl.turned == pytest.approx(other.whirl.turned, rel=1e-6)

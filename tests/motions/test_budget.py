@@ -1,4 +1,4 @@
-"""The budget of events: the same motions are followed by any number of threads, a question ends, and what is told is of those followed."""
+"""The budget of events: the same motions are followed by any number of threads, a question ends, and what is stated is of those followed."""
 
 import numpy as np
 import pytest

@@ -168,7 +168,7 @@ def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
 
 @pytest.mark.jit_only
 def test_progress_counts_the_motions_up_to_all_of_them():
-    told = []
-    settle(PAPER, 0.1, np.linspace(0.1, 0.6, 3000), threads=2, progress=lambda report: told.append(report.share))
-    assert told == sorted(told)
-    assert told[-1] == 1.0
+    shown = []
+    settle(PAPER, 0.1, np.linspace(0.1, 0.6, 3000), threads=2, progress=lambda report: shown.append(report.share))
+    assert shown == sorted(shown)
+    assert shown[-1] == 1.0

@@ -1,4 +1,4 @@
-"""Slices of a motion: no compiled call lasts for long, and what stalls is told."""
+"""Slices of a motion: no compiled call lasts for long, and what stalls is stated."""
 
 from __future__ import annotations
 

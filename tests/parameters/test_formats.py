@@ -1,4 +1,4 @@
-"""Sizes as people write them: one text for a size, wherever it is told."""
+"""Sizes as people write them: one text for a size, wherever it is stated."""
 
 import pytest
 
@@ -46,7 +46,7 @@ def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
 
     assert text.endswith("mm/s" if scales else "c_r Ω")
     assert Wording(scales).velocity(speed) == text
-    assert VelocityKick(speed).coordinates[0].told(speed, scales) == text
+    assert VelocityKick(speed).coordinates[0].stated(speed, scales) == text
     assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
     rotor = jeffcott(NUMBERS.replace(scales=scales))
     kick = Single(VelocityKick(speed), (speed, 0.0))

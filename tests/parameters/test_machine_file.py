@@ -132,7 +132,7 @@ def test_si_numbers_and_text_with_units_are_the_same_machine(write):
 
 
 @pytest.mark.parametrize(
-    ("changes", "settings", "told"),
+    ("changes", "settings", "shown"),
     [
         (
             {"clearance": "0.25", "rotor_radius": '"55 mm"'},
@@ -145,15 +145,15 @@ def test_si_numbers_and_text_with_units_are_the_same_machine(write):
         ({"clearance": "0.25"}, ["clearance=0.25 mm"], None),
     ],
 )
-def test_a_clearance_that_leaves_no_shaft_brings_a_warning(write, changes, settings, told):
+def test_a_clearance_that_leaves_no_shaft_brings_a_warning(write, changes, settings, shown):
     path = write(text_of("machine", ENTRIES | changes))
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         load(path, settings)
 
-    assert [entry.category for entry in caught] == [CaromWarning] * (told is not None)
-    assert all(str(entry.message).startswith(told) for entry in caught)
+    assert [entry.category for entry in caught] == [CaromWarning] * (shown is not None)
+    assert all(str(entry.message).startswith(shown) for entry in caught)
 
 
 # ------------------------------------------------------------------------------------------ entries

@@ -62,8 +62,8 @@ def test_damping_of_a_machine_is_told_in_its_unit():
         bifurcations.find_bifurcations(PAPER.replace(scales=scales), "gamma", (0.05, 0.2))
     )
     upper, below = figure.axes
-    (told,) = below.child_axes
-    assert told.get_xlabel() == "damping of the levitation $c$ (N s/m)"
-    assert told.get_xlim() == pytest.approx((0.05 * scales.damping, 0.2 * scales.damping))
+    (shown,) = below.child_axes
+    assert shown.get_xlabel() == "damping of the levitation $c$ (N s/m)"
+    assert shown.get_xlim() == pytest.approx((0.05 * scales.damping, 0.2 * scales.damping))
     assert upper.get_xlabel() == r"scaled damping $\gamma$"
     assert "present value: 921 N s/m" in legend_words(figure)

@@ -1,4 +1,4 @@
-"""The style sheet is carom's own affair, and every meaning can be told without colour."""
+"""The style sheet is carom's own affair, and every meaning can be stated without colour."""
 
 import itertools
 import subprocess
@@ -56,7 +56,7 @@ def test_what_draws_loads_nothing_that_computes():
 def test_meanings_differ_in_line_or_marker_or_width_not_in_colour_alone():
     for (one, look), (other, another) in itertools.combinations(plots.LOOKS.items(), 2):
         same_shape = (look.line, look.marker) == (another.line, another.marker)
-        # Solid lines without a marker are told apart by their width.
+        # Solid lines without a marker are distinguished by their width.
         widths = sorted((look.width, another.width))
         assert not same_shape or widths[1] > 1.5 * widths[0], (one, other)
 

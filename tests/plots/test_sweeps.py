@@ -76,7 +76,7 @@ def test_shades_are_the_stored_numbers_in_their_places(failing):
 
 
 def test_cells_without_a_value_say_why(failing, studies):
-    """The reasons look different, lie where they hold, and are told in words."""
+    """The reasons look different, lie where they hold, and are stated in words."""
     known = failing.assign(value=failing.value.where(failing.status == 1).where(failing.mu > 0.06))
     known["status"] = known.status.where(known.gamma > 0.6, 0).where(known.mu < 0.15, 2).astype("int8")
     known["value"] = known.value.where(known.status == 1)

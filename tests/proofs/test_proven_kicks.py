@@ -72,12 +72,12 @@ def test_parts_fill_the_disc_and_agree_with_the_claims(whole, half):
 
 def test_words_say_no_more_than_is_proven(whole, half):
     assert whole.words == "every kick up to 2 c_r Ω comes back, after at most 1 impact"
-    told = half.words
-    assert told.startswith(
+    shown = half.words
+    assert shown.startswith(
         f"{np.floor(1e4 * half.share) / 100.0:.4g} % of the kicks up to 140 mm/s come back, without an impact"
     )
     # Harmless kicks come back, whatever cells show of them.
-    assert told.endswith("and every one up to 109.8 mm/s")
+    assert shown.endswith("and every one up to 109.8 mm/s")
     more = replace(half, all_up_to=2 * half.all_up_to)
     assert more.words.endswith("and every one up to 140 mm/s")
     assert replace(half, all_up_to=2 * half.all_up_to * (1 - 1e-9)).words.endswith("and every one up to 139.9 mm/s")

@@ -54,8 +54,8 @@ def assert_holds_at(proof, parameters, along, value) -> int:
         if not low <= value <= high:
             continue
         orbits = find_orbits(parameters.replace(**{along: value}))
-        told = claim.statement.partition(": ")[2]
-        parts = dict(part.split(": ", 1) for part in told.split("; ")) if told != "none" else {}
+        stated = claim.statement.partition(": ")[2]
+        parts = dict(part.split(": ", 1) for part in stated.split("; ")) if stated != "none" else {}
         assert set(parts) == {orbit.name for orbit in orbits}
         for orbit in orbits:
             words = parts[orbit.name]

@@ -25,10 +25,10 @@ REFUTABLE, RETURNING = Cell((63, 6), (13, 6)), Cell((8, 6), (13, 6))
 """A cell of kicks of the source paper's machine at γ = 0.3 that end in the rub, and one of kicks that never touch."""
 
 
-def tree_of(*told):
+def tree_of(*shown):
     """Letters of a tree with some cells of which something is said; all others are open."""
     tree = {DISC: LOST}
-    for target, letter in told:
+    for target, letter in shown:
         cell = DISC
         while cell != target:
             by = BY_SPEED if cell.ring[1] < target.ring[1] else BY_ANGLE

@@ -131,8 +131,8 @@ def test_bounds_hold_along_flights():
                 # V' + (γ + 2μ)q²e + … = r'Φ + g q e E₂
                 pull = -PAPER["rho"] * np.sin(state[2]) / state[0] + mu * ((1 + state[3]) ** 2 - PAPER["omega"] ** 2)
                 rise = (level(later) - level(earlier)) / (2 * h)
-                told = -(gamma + 2 * mu) * slip**2 * factor + rate * leading(state) + gap * slip * factor * pull
-                assert rise == pytest.approx(told, abs=1e-6)
+                shown = -(gamma + 2 * mu) * slip**2 * factor + rate * leading(state) + gap * slip * factor * pull
+                assert rise == pytest.approx(shown, abs=1e-6)
                 # Φ' + q e E₂ = C₀ + r'C₁
                 change = (leading(later) - leading(earlier)) / (2 * h) + slip * factor * pull
                 both = free + arb(rate) * fast

@@ -51,8 +51,8 @@ def assert_agrees(parameters: Parameters, proof: Proof) -> None:
         orbit = named.get(claim.about)
         if orbit is None or claim.status == "undecided":
             continue
-        told = {"admissible": orbit.admissible, "stable": orbit.stable, "outward": orbit.radial_speed > 0}
-        assert told.get(claim.kind, claim.status == "proven") == (claim.status == "proven"), claim.name
+        shown = {"admissible": orbit.admissible, "stable": orbit.stable, "outward": orbit.radial_speed > 0}
+        assert shown.get(claim.kind, claim.status == "proven") == (claim.status == "proven"), claim.name
         for name in ("period", "radial_speed", "angular_speed"):
             if name in claim.enclosures:
                 value = getattr(orbit, name)

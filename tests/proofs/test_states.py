@@ -144,7 +144,7 @@ def test_another_motion_refutes(machine, largest, settings, words):
 
 
 def test_states_that_are_said_to_be_lost_are():
-    """Just above the speed a backward whirl on the wall of the spindle rolls; the orbit of the paper's machine passes the speed told."""
+    """Just above the speed a backward whirl on the wall of the spindle rolls; the orbit of the paper's machine passes the speed stated."""
     spindle = prove_states("examples/spindle.toml", "200 mm/s")
     speed = spindle["states lost"].enclosures["speed"].value
     place = np.exp(1j * np.linspace(0, 6, 50))

@@ -37,15 +37,15 @@ def case(request):
 
 
 def parts(claim, value):
-    """Whether a claim says that something holds at a value: on parts told in its reason, else on all of it."""
+    """Whether a claim says that something holds at a value: on parts stated in its reason, else on all of it."""
     if claim.status == "proven":
         return True
-    for heading, told in (("shown on ", True), ("the contrary on ", False)):
+    for heading, stated in (("shown on ", True), ("the contrary on ", False)):
         for entry in claim.reason.split("; "):
             if entry.startswith(heading):
                 ends = [part.strip("[]").split(", ") for part in entry.removeprefix(heading).split("], [")]
                 if any(float(low) < value < float(high) for low, high in ends):
-                    return told
+                    return stated
     return None
 
 

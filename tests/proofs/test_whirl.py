@@ -120,7 +120,7 @@ def starting(wall, w):
 def test_rolling_beside_angles():
     random = np.random.default_rng(1)
     angles = np.linspace(0, 2 * np.pi, 4001)
-    told = []
+    shown = []
     for _ in range(sized(200, 50, 2000)):
         machine = random_machine(random)
         wall, claim = Wall(machine), claims_of(machine)["rolls"]
@@ -128,13 +128,13 @@ def test_rolling_beside_angles():
         spare = min(push.min(), (wall.mu * push - abs(wall.need(angles))).min())
         if abs(spare) > 1e-4 * wall.s**2:
             assert claim.status == ("proven" if spare > 0 else "refuted")
-            told.append(claim.status)
+            shown.append(claim.status)
         if claim.status == "proven":
             assert claim.enclosures["least_normal_force"].value == pytest.approx(push.min(), abs=1e-9)
             assert claim.enclosures["spare_friction"].value == pytest.approx(
                 (wall.mu * push - abs(wall.need(angles))).min(), abs=1e-3
             )
-    assert min(told.count("proven"), told.count("refuted")) > len(told) / 10
+    assert min(shown.count("proven"), shown.count("refuted")) > len(shown) / 10
 
 
 def test_slides_faster_than_the_speed_told_end_in_rolling():

@@ -49,9 +49,9 @@ def test_it_says_what_was_found(found, page):
     text = re.sub(r"<[^>]+>", "", page).replace("\N{NO-BREAK SPACE}", " ")
     assert found.headline in text
     for _, rows in found.tables:
-        for label, told in rows:
+        for label, shown in rows:
             assert label in text
-            assert told in text
+            assert shown in text
     assert "<strong>normal force: 1,320" in page.replace("\N{NO-BREAK SPACE}", " ")
     assert "<b>drop</b>" not in page
     assert "&lt;b&gt;drop&lt;/b&gt;" in page

@@ -62,11 +62,11 @@ class Page(html.parser.HTMLParser):
 def written(tmp_path_factory):
     example = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
     result = study_once(load(example))
-    told = []
+    shown = []
     path = write_report(
-        result, str(tmp_path_factory.mktemp("report")), progress=lambda report: told.append(report.share)
+        result, str(tmp_path_factory.mktemp("report")), progress=lambda report: shown.append(report.share)
     )
-    assert told == sorted(told)
+    assert shown == sorted(shown)
     return result, path, path.read_text(encoding="utf-8")
 
 
@@ -99,9 +99,9 @@ def test_page_shows_the_study(written):
     for part in ("3,408 N s/m", "zone D", "901 N", "What is covered, and what is not", "F1 has 2 roots", "carom 0."):
         assert part in words
     assert result.verdict.lead in words
-    told = {fact.label: fact.text for fact in about(result.facts, "Verdict")}
+    shown = {fact.label: fact.text for fact in about(result.facts, "Verdict")}
     for label in ("Must survive", "Coexisting"):
-        assert told[label][1:] in words
+        assert shown[label][1:] in words
     for fact in about(result.facts, "Recommendation"):
         assert fact.text[1:] in words
     for row in survived_rows(result):

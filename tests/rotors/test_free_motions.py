@@ -88,9 +88,9 @@ def test_verdicts_are_those_of_all_exponents(example):
             continue
         with pytest.raises(InputError) as refused:
             cm.load(example, settings)
-        told = re.search(r"whirl of (\S+) Hz grows with (\S+) 1/s", str(refused.value))
-        assert float(told[1]) == pytest.approx(abs(worst.imag) / 2.0 / math.pi, rel=1e-3)  # four digits are told
-        assert float(told[2]) == pytest.approx(worst.real, rel=1e-3)
+        shown = re.search(r"whirl of (\S+) Hz grows with (\S+) 1/s", str(refused.value))
+        assert float(shown[1]) == pytest.approx(abs(worst.imag) / 2.0 / math.pi, rel=1e-3)  # four digits are stated
+        assert float(shown[2]) == pytest.approx(worst.real, rel=1e-3)
     assert verdicts == {True, False}
 
 

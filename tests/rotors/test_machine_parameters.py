@@ -159,6 +159,6 @@ def test_an_unstable_levitation_is_refused_where_a_machine_is_read(case):
     ],
 )
 def test_what_cannot_be_set_gets_one_line(setting, says):
-    with pytest.raises(InputError, match=says) as told:
+    with pytest.raises(InputError, match=says) as shown:
         cm.load(EXAMPLE, [setting])
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(shown.value)

@@ -109,7 +109,7 @@ def given(**changes):
             rf"^M = an array of shape \({SIZE - 1}, {SIZE}\): a square matrix with a displacement",
         ),
         (lambda: given(K=changed(K, 0, 3, np.nan)), r"^K = .*: finite real numbers"),
-        (lambda: given(K=changed(K, 0, 1, 3.0)), r"^K = unsymmetric: 3 in row 0, column 1, and .* across: a symmetric"),
+        (lambda: given(K=changed(K, 0, 1, 3.0)), r"^K = unsymmetric: 3 in row 0, column 1; .* opposite: a symmetric"),
         (
             lambda: given(M=changed(M, 3, 3, -1.0)),
             r"^M = indefinite: -1 on the diagonal in row 3: .* the tilt at node 1",

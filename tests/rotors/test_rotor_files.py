@@ -68,8 +68,8 @@ def test_real_coordinates_of_a_file_are_named_or_those_of_ross(folder):
             whole[np.ix_(x, x)], whole[np.ix_(y, y)] = ARRAYS[name], ARRAYS[name] * np.outer(signs, signs)
         turned[name] = whole
     np.savez(folder / "real.npz", **turned, nodes=SHAFT.places)
-    np.savez(folder / "told.npz", **turned, nodes=SHAFT.places, coordinates="x y alpha beta")
-    for name in ("real", "told"):
+    np.savez(folder / "stated.npz", **turned, nodes=SHAFT.places, coordinates="x y alpha beta")
+    for name in ("real", "stated"):
         assert np.allclose(read_rotor(folder / f"{name}.npz", DAMPING).G, ARRAYS["G"], rtol=1e-15, atol=0)
 
 

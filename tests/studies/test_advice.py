@@ -73,8 +73,8 @@ def test_the_setting_can_be_pasted():
     for change in result.recommendation.changes:
         after = cm.load("examples/keogh-cole.toml", [change.terms.setting])
         assert after.parameters.value(change.parameter) == change.value
-        told = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Set"]
-        assert f'--set "{change.terms.setting}"' in told
+        shown = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Set"]
+        assert f'--set "{change.terms.setting}"' in shown
 
 
 def test_gains_are_advised_where_the_file_has_gains():
@@ -105,8 +105,8 @@ def test_no_advice_beyond_the_limits_of_the_bearings():
     scarce = cm.study(case_of(machine_of(slew_rate_limit="1 A/s")))
     assert scarce.recommendation.kind == "nothing-buildable"
     assert all(change.demand > 1.0 for change in scarce.recommendation.changes)
-    told = [fact.text for fact in about(scarce.facts, "Recommendation") if fact.label == "Change"]
-    assert told[0].startswith("nothing that the magnetic bearings can give helps")
+    shown = [fact.text for fact in about(scarce.facts, "Recommendation") if fact.label == "Change"]
+    assert shown[0].startswith("nothing that the magnetic bearings can give helps")
 
 
 def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():

@@ -34,16 +34,16 @@ def whirl():
 
 def test_a_bearing_that_gives_way_in_words(whirl):
     ((title, rows),) = whirl.tables
-    told = dict(rows)
+    shown = dict(rows)
     assert title == ""
     assert whirl.headline == "Followed for 60 ms, and not settled by then (time reached)."
-    assert told["peak force"] == "12,900 N, 0.596 ms after the release"
-    assert told["depth"] == "74.3 µm"
-    assert told["pressure of balls"] == "5.01 GPa on the most loaded one"
-    assert told["contacts"] == "2 contacts, 59.5 ms in contact"
-    assert told["race"].endswith(" rpm")
-    assert told["whirl at the end"].startswith("backward, 292.8 Hz (1.95 times the shaft), over the last 8 turns")
-    assert told["whirl at the end"].endswith("is not known to go on")
+    assert shown["peak force"] == "12,900 N, 0.596 ms after the release"
+    assert shown["depth"] == "74.3 µm"
+    assert shown["pressure of balls"] == "5.01 GPa on the most loaded one"
+    assert shown["contacts"] == "2 contacts, 59.5 ms in contact"
+    assert shown["race"].endswith(" rpm")
+    assert shown["whirl at the end"].startswith("backward, 292.8 Hz (1.95 times the shaft), over the last 8 turns")
+    assert shown["whirl at the end"].endswith("is not known to go on")
 
 
 def test_limits_of_depth_and_pressure(whirl):
@@ -63,13 +63,13 @@ def test_a_limit_of_pressure_needs_balls(whirl):
 def test_a_rigid_wall_has_impulses_in_place_of_forces():
     found = dropped("dropped-rotor", settings=["restitution=0.1"])
     ((_, rows),) = found.tables
-    told = dict(rows)
+    shown = dict(rows)
     assert found.headline.startswith("Rest on the touchdown bearing, since ")
     assert "after the release; followed for" in found.headline
-    assert told["hardest impact"].endswith("a rigid wall has no peak force")
-    assert "peak force" not in told
-    assert told["whirl at the end"] == "none"
-    assert told["heating goes on"].startswith("with ")
+    assert shown["hardest impact"].endswith("a rigid wall has no peak force")
+    assert "peak force" not in shown
+    assert shown["whirl at the end"] == "none"
+    assert shown["heating goes on"].startswith("with ")
     (plane,) = found.document()["touchdown_bearings"]
     assert plane["force_at"] is None
     assert plane["loads"]["force_is_of_lasting_contact"]

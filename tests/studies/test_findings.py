@@ -28,7 +28,7 @@ def said_of(parameters: carom.parameters.Parameters) -> str:
 
 
 def test_no_load_is_told_that_no_wall_bears():
-    """3.88 MN on a shaft of 80 mm: the load at the point of no return is told instead."""
+    """3.88 MN on a shaft of 80 mm: the load at the point of no return is stated instead."""
     force = (SOURCE.radius_ratio**2 - SOURCE.omega**2 + SOURCE.rho) * SCALES.force
     share = force / (210e9 * 0.08) / 0.7e-3
     assert 0.1 < share < 1.0

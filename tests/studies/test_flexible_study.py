@@ -44,7 +44,7 @@ def test_the_verdict_promises_no_more_than_was_tried(studied):
 
 
 def test_fresh_kicks_fare_as_the_share_says(studied):
-    """By other seeds: the share of a fresh sample lies in the interval that is told."""
+    """By other seeds: the share of a fresh sample lies in the interval that is stated."""
     (share,) = studied.present.returned
     kicks = cm.disturbances.VelocityKick(studied.required.kick)
     fresh = cm.map_basins(studied.rotor, cm.disturbances.Sample(kicks, 60, 77)).share_recovered
@@ -54,8 +54,8 @@ def test_fresh_kicks_fare_as_the_share_says(studied):
 
 def test_any_parameter_of_the_machine_has_a_search(studied):
     assert [found.along.name for found in studied.recoveries] == ["friction", "proportional_1"]
-    told = [fact.text for fact in studied.facts if fact.topic == "What would change it"]
-    assert told[0].startswith("coefficient of friction (this machine: 0.15)")
+    shown = [fact.text for fact in studied.facts if fact.topic == "What would change it"]
+    assert shown[0].startswith("coefficient of friction (this machine: 0.15)")
     document = studied.to_dict()
     assert [each["parameter"] for each in document["recovery"]] == ["friction", "proportional_1"]
 

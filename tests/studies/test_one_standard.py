@@ -55,5 +55,5 @@ kick = "60 mm/s"
     missed = {each["question"]: each for each in document["not_reached"]}
     kicks = missed["the share of kicks that comes back"]
     assert kicks["followed"] < kicks["asked"]
-    told = about(result.facts, "Not reached")[0].text
-    assert f"({kicks['followed']:,} of {kicks['asked']:,} motions)" in told
+    shown = about(result.facts, "Not reached")[0].text
+    assert f"({kicks['followed']:,} of {kicks['asked']:,} motions)" in shown

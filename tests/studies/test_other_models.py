@@ -1,4 +1,4 @@
-"""Studies of rotors given by their matrices: what a search and simulation find, told by the words of every study."""
+"""Studies of rotors given by their matrices: what a search and simulation find, stated by the words of every study."""
 
 from __future__ import annotations
 
@@ -87,9 +87,9 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
     assert found.levitates
     assert "mm/s" in found.verdict.headline
     assert found.required.kick == pytest.approx(0.02 / (0.7e-3 * 184.2))
-    told = " ".join(each.text for each in found.facts)
-    assert "N s/m" not in told
-    assert "γ" in told
+    shown = " ".join(each.text for each in found.facts)
+    assert "N s/m" not in shown
+    assert "γ" in shown
     assert all(math.isfinite(each.harmless) for _, each in found.survives.items())
     json.loads(as_json(found.to_dict()))
 

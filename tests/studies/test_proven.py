@@ -42,10 +42,10 @@ def test_words_name_what_is_proven_of_any_machine():
     case = load("examples/dropped-rotor.toml")
     speed = float(prove(case)["kicks never touch"].enclosures["speed"].low) * case.parameters.scales.velocity
     words = proven_words(prove(case), case.parameters.scales)
-    told = float(
+    shown = float(
         re.search(r"levitation is stable; no kick out of levitation below ([\d.]+) mm/s touches", words).group(1)
     )
-    assert 0.999 * speed < 1e-3 * told <= speed
+    assert 0.999 * speed < 1e-3 * shown <= speed
 
 
 def test_words_tell_what_is_undecided():
@@ -126,7 +126,7 @@ def test_facts_say_what_is_proven_and_what_is_open(half):
     )
     assert values["sure_up_to"] == pytest.approx(harmless_kick(DAMPED))
     assert [entry["share"] for entry in values["open"]] == [7 / 16, 5 / 16]
-    # What never touches is told as harmless.
+    # What never touches is stated as harmless.
     assert "every one comes back" not in facts["Kick"].text
     assert half.verdict.outcome == replace(half, kicks=None).verdict.outcome
     (first, *_) = (fact.text for fact in half.facts if fact.topic == "Not covered")

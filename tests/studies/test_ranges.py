@@ -73,7 +73,7 @@ def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
     for threshold in steady_range(parameters, motion, gain).thresholds:
         value = threshold.edge.value
         low, high = 0.999 * value, 1.001 * value
-        # Two thresholds closer together than the bracket cannot be told apart by it.
+        # Two thresholds closer together than the bracket cannot be distinguished by it.
         assume(value > 1e-3)
         there = [exists(parameters.replace(**{gain: end})) for end in (low, high)]
         assume(there[0] != there[1])

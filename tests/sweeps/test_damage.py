@@ -133,15 +133,15 @@ def test_store_of_an_interrupted_sweep_has_the_same_bytes(whole, tmp_path, seed)
 
 
 def test_loser_of_two_is_told(store):
-    told = []
+    shown = []
 
     def start_another(report):
         if report.step.startswith("7 of 10 points"):  # and three points wait
             with pytest.raises(InputError, match="another sweep is writing to it; let it end, or stop it") as caught:
                 run(store)
-            told.append(caught.value)
+            shown.append(caught.value)
 
     for number in (0, 1):
         (store / f"status/c/{number}").unlink()
     assert run(store, progress=start_another).done == 8
-    assert len(told) == 1
+    assert len(shown) == 1

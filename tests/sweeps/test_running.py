@@ -149,8 +149,8 @@ def test_chunk_that_kills_every_process_fails_and_the_others_go_on(tmp_path):
 
     assert (tally.done, tally.failed) == (8, 2)
     np.testing.assert_array_equal(data.status, [1] * 8 + [2] * 2)
-    told = (tmp_path / "s.zarr" / "records" / "0000004.json").read_text()
-    assert "the process that computed it ended (SIGKILL(-9)), 3 times" in told
+    shown = (tmp_path / "s.zarr" / "records" / "0000004.json").read_text()
+    assert "the process that computed it ended (SIGKILL(-9)), 3 times" in shown
 
 
 @posix

@@ -118,7 +118,7 @@ def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, 
 
 def _watched() -> bool:
     """Whether someone sees a bar that was not asked for: nobody does in other threads and processes, and where output is piped."""
-    # Asked before each call of a function that takes long at most: what is quickly told comes first.
+    # Asked before each call of a function that takes long at most: what is quickly stated comes first.
     if _inside.get() or sys.stderr is None or not sys.stderr.isatty():
         return False
     if os.environ.get("CAROM_PROGRESS") == "0":

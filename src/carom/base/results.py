@@ -37,7 +37,7 @@ _KINDS = {
     "angle": "angle",
 }
 KINDS = MappingProxyType({name: kind for kind, names in _KINDS.items() for name in names.split()})
-"""Attributes in units of the equations, each with its property of the scales of a rotor: in SI units, people are told more."""
+"""Attributes in units of the equations, each with its property of the scales of a rotor: in SI units, people see more."""
 _OF_THE_MACHINE = ("rotor", "model", "parameters", "numbers")
 """Attributes that know the scales of the machine, where a result does not itself."""
 
@@ -240,7 +240,7 @@ def _times(value: Any, scale: float) -> Any:
 def in_a_line(value: object, scales: Any = None) -> str:
     """A value in one line: numbers to six digits, arrays by size and range, collections by number and names.
 
-    With scales the parts of a state and the like are told in SI units too.
+    With scales the parts of a state and the like are stated in SI units too.
     """
     if value is None:
         return "none"
@@ -274,12 +274,12 @@ def _text(value: object, name: str) -> str:
 
 def _parts(value: Any, scales: Any) -> str:
     fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
-    told = [
+    stated = [
         f"{name}={format_value(KINDS.get(name, ''), entry, scales)}"
         for name, entry in fields
         if entry is not None and not callable(entry)
     ]
-    return _cut(f"{type(value).__name__}({', '.join(told)})")
+    return _cut(f"{type(value).__name__}({', '.join(stated)})")
 
 
 def _number(value: Complex) -> str:
@@ -309,9 +309,9 @@ def _counted(entries: list[object]) -> str:
     """A collection by what identifies its entries, their names or themselves if they are text or numbers, otherwise by its size."""
     if not entries:
         return "none"
-    told = [in_a_line(each) if isinstance(each, str | Complex) else _text(each, "name") for each in entries]
-    if all(told):
-        return _cut(f"{len(entries)}: {', '.join(told)}" if len(entries) > FEW else ", ".join(told))
+    stated = [in_a_line(each) if isinstance(each, str | Complex) else _text(each, "name") for each in entries]
+    if all(stated):
+        return _cut(f"{len(entries)}: {', '.join(stated)}" if len(entries) > FEW else ", ".join(stated))
     kinds = dict.fromkeys(type(entry).__name__ for entry in entries)
     return f"{len(entries)} of {', '.join(kinds)}"
 

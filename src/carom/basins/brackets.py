@@ -89,16 +89,15 @@ class SmallestUnrecovered(Result):
     @property
     def words(self) -> str:
         """The bracket in a line."""
-        told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
-        none = (
-            f"none up to {told['largest']} that does not come back" if self.complete else "none that does not come back"
-        )
-        found = none if self.size is None else f"smallest that does not come back {told['size']}"
+        shown = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
+        up_to = f" up to {shown['largest']}" if self.complete else ""
+        none = f"none{up_to} that does not come back"
+        found = none if self.size is None else f"smallest that does not come back {shown['size']}"
         found += "" if self.instant is None else " at the worst instant of the turn"
-        back = "" if self.all_back is None else f", all back up to {told['all_back']}"
+        back = "" if self.all_back is None else f", all back up to {shown['all_back']}"
         found += f" ({self.sensitivity})" if self.sensitivity else ""
         ended = "" if self.complete else ", search not finished"
-        return f"{found}{back}, cannot touch up to {told['harmless']}{ended}"
+        return f"{found}{back}, cannot touch up to {shown['harmless']}{ended}"
 
     def kind_of(self, name: str) -> str:
         """Sizes are of one kind."""

@@ -31,12 +31,12 @@ def basin_document(
     smallest: SmallestUnrecovered | None,
     harmless: float,
     gains: GainMap | None = None,
-    told_by: Case | None = None,
+    in_terms_of: Case | None = None,
 ) -> dict[str, Any]:
     """Document of all results about a basin.
 
     The smallest unrecovered one is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
-    return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  With a machine ``told_by``, the values of a gain map are there in the terms of its file too.
+    return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  With a machine ``in_terms_of``, the values of a gain map are there in the terms of its file too.
     """
     scales, attributes = basin.scales, basin.dataset.attrs
     document: dict[str, Any] = {
@@ -70,8 +70,8 @@ def basin_document(
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:
         document["gains"] = _gains(gains)
-        if told_by is not None:
-            document["gains"]["terms"] = _terms(gains, told_by)
+        if in_terms_of is not None:
+            document["gains"]["terms"] = _terms(gains, in_terms_of)
     return document
 
 
@@ -103,11 +103,11 @@ def _share(share: Share) -> dict[str, Any]:
 
 def _terms(gains: GainMap, case: Case) -> list[dict[str, Any]]:
     """Both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
-    told = []
+    shown = []
     for varied in gains.axes:
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]
-        told.append(fields_of(stated[0], "entry", "unit") | {"values": [each.value for each in stated]})
-    return told
+        shown.append(fields_of(stated[0], "entry", "unit") | {"values": [each.value for each in stated]})
+    return shown
 
 
 def _gains(gains: GainMap) -> dict[str, Any]:

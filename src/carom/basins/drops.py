@@ -20,7 +20,7 @@ from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
 from carom.core.processors import available_cores
 from carom.disturbances import Drop, Single, VelocityKick
 from carom.disturbances.following import NO_START
-from carom.disturbances.measures import Told
+from carom.disturbances.measures import Quantity
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions import follow_loads
@@ -35,17 +35,17 @@ if TYPE_CHECKING:
 MOST_STEPS = 100_000
 """Default number of impacts and steps of contact after which a drop is given up: several seconds of a machine on its bearing."""
 MEASURES = {
-    "force": Told("N", "peak force"),
-    "impulse": Told("N s", "largest impulse"),
-    "depth": Told("m", "largest depth in the bearing"),
-    "heat": Told("J", "slip energy, turned into heat"),
-    "power": Told("W", "largest friction power"),
-    "pressure": Told("Pa", "pressure of balls"),
-    "contacts": Told("1", "contacts, or impacts on a rigid wall"),
-    "contact_time": Told("s", "time in contact"),
-    "settled_at": Told("s", "time from the release since which the rotor rests or whirls"),
-    "time": Told("s", "time for which it was followed"),
-    "whirl": Told("Hz", "whirl at the end, negative backward"),
+    "force": Quantity("N", "peak force"),
+    "impulse": Quantity("N s", "largest impulse"),
+    "depth": Quantity("m", "largest depth in the bearing"),
+    "heat": Quantity("J", "slip energy, turned into heat"),
+    "power": Quantity("W", "largest friction power"),
+    "pressure": Quantity("Pa", "pressure of balls"),
+    "contacts": Quantity("1", "contacts, or impacts on a rigid wall"),
+    "contact_time": Quantity("s", "time in contact"),
+    "settled_at": Quantity("s", "time from the release since which the rotor rests or whirls"),
+    "time": Quantity("s", "time for which it was followed"),
+    "whirl": Quantity("Hz", "whirl at the end, negative backward"),
 }
 """Numbers of each drop, with unit and words: the largest of all planes, or the sum of contacts, heat and time."""
 TURN = 2.0 * math.pi
@@ -241,7 +241,7 @@ class Landing(Measure):
     max_events: int
     threads: int
 
-    told: ClassVar[Mapping[str, Told]] = MEASURES
+    stated: ClassVar[Mapping[str, Quantity]] = MEASURES
 
     def varied(self, rotor: Rotor, name: str) -> Axis:
         """What is varied under a name."""

@@ -21,7 +21,7 @@ from carom.basins.shares import Population, Share
 from carom.basins.unrecovered import smallest_unrecovered_kick
 from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.following import NO_START, follow_machines
-from carom.disturbances.measures import KICKS, SHARES, SMALLEST, Told
+from carom.disturbances.measures import KICKS, SHARES, SMALLEST, Quantity
 from carom.disturbances.plans import instants_words
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
@@ -192,7 +192,7 @@ def recovery(plan: Plan, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> 
     return found
 
 
-_LEVITATES = Told("1", "1 where the rotor levitates without contact and no motion about that grows, else 0")
+_LEVITATES = Quantity("1", "1 where the rotor levitates without contact and no motion about that grows, else 0")
 
 
 @dataclass(frozen=True)
@@ -202,7 +202,7 @@ class Recovery(Measure):
     plan: Plan
     limits: Mapping[str, Any]
 
-    told: ClassVar[Mapping[str, Told]] = SHARES | {"levitates": _LEVITATES} | KICKS
+    stated: ClassVar[Mapping[str, Quantity]] = SHARES | {"levitates": _LEVITATES} | KICKS
 
     def entries(
         self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]

@@ -16,7 +16,7 @@ from carom.base.arguments import whole
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter
 from carom.basins.dataset import Stored
-from carom.disturbances.measures import Told
+from carom.disturbances.measures import Quantity
 from carom.models import Axis, Rotor, axis
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.parameters.formats import format_entry, format_range
@@ -35,7 +35,7 @@ Entry: TypeAlias = Mapping[str, Any]
 class Measure:
     """What is measured at each node of a map over parameters of a machine."""
 
-    told: ClassVar[Mapping[str, Told]]
+    stated: ClassVar[Mapping[str, Quantity]]
     """Its variables; of an entry without one of them the value is NaN, and one that no entry has is left out."""
 
     def varied(self, rotor: Rotor, name: str) -> Axis:
@@ -89,7 +89,7 @@ def map_over(
             np.array([entry.get(name, np.nan) for entry in entries], float).reshape(counts),
             {"units": unit, "long_name": words},
         )
-        for name, (unit, words, _) in measure.told.items()
+        for name, (unit, words, _) in measure.stated.items()
         if name in known
     }
     along = {
@@ -128,7 +128,7 @@ class OverPlane(Stored):
         return _said(self.axes, [format_entry(axis.field, value) for axis, value in pairs])
 
     def line_of(self, name: str, value: object) -> str:
-        """Present values are told in the units of both."""
+        """Present values are stated in the units of both."""
         return self.at(self.present) if name == "present" else super().line_of(name, value)
 
 

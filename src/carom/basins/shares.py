@@ -53,7 +53,7 @@ class Population:
         if size is None:
             return cls(model.noun, words=model.noun + when, at=at)
         si = size.high * size.si(scales) if scales else None
-        return cls(model.noun, size.high, si, f"{model.noun} up to {size.told(size.high, scales)}{when}", at)
+        return cls(model.noun, size.high, si, f"{model.noun} up to {size.stated(size.high, scales)}{when}", at)
 
 
 STARTS = Population()

@@ -79,7 +79,7 @@ class OrbitBranch(Result):
         return len(self.values)
 
     def line_of(self, name: str, value: object) -> str:
-        """Values are told in the unit of the parameter."""
+        """Values are stated in the unit of the parameter."""
         if name == "values" and len(self):
             return f"{len(self)} from {format_range(self.axis.field, self.values)}"
         return super().line_of(name, value)

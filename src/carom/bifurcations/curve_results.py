@@ -96,7 +96,7 @@ class Curve(Result):
     stops: tuple[str, str]
 
     def line_of(self, name: str, value: object) -> str:
-        """Points are told in the units of both parameters."""
+        """Points are stated in the units of both parameters."""
         if name == "points" and len(self.points):
             ranges = zip((self.plane.first, self.plane.second), self.points.T, strict=True)
             return f"{len(self.points)}, {', '.join(format_along(axis, ends) for axis, ends in ranges)}"

@@ -103,20 +103,20 @@ class Diagram(Result):
 
     @property
     def speed_unit(self) -> str:
-        """Unit in which people are told speeds: mm/s where the machine is known."""
+        """Unit in which people see speeds: mm/s where the machine is known."""
         return shown_in("velocity", self.model.scales)[1]
 
     @property
     def time_unit(self) -> str:
-        """Unit in which people are told periods."""
+        """Unit in which people see periods."""
         return shown_in("time", self.model.scales)[1]
 
-    def told_speeds(self, values: np.ndarray | float, speeds: np.ndarray | float) -> np.ndarray:
+    def shown_speeds(self, values: np.ndarray | float, speeds: np.ndarray | float) -> np.ndarray:
         """Speeds in this unit, from those in ``c_r Ω`` of the machines that have these values of the parameter."""
-        return self.told("velocity", values, speeds)
+        return self.stated("velocity", values, speeds)
 
-    def told(self, kind: str, values: np.ndarray | float, sizes: np.ndarray | float) -> np.ndarray:
-        """Sizes in the unit in which people are told them, from units of the equations of the machines with these values.
+    def stated(self, kind: str, values: np.ndarray | float, sizes: np.ndarray | float) -> np.ndarray:
+        """Sizes in the unit in which people see them, from units of the equations of the machines with these values.
 
         The kind is a property of :class:`~carom.parameters.Scales`.
         """

@@ -40,7 +40,7 @@ def _size(kind: str, digits: int) -> Any:
 
     def text(point: Bifurcation, diagram: Diagram) -> str:
         size = {"time": point.period, "velocity": point.radial_speed}[kind]
-        return "" if size != size else number(float(diagram.told(kind, point.value, size)), digits)
+        return "" if size != size else number(float(diagram.stated(kind, point.value, size)), digits)
 
     return text
 

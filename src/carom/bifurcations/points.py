@@ -94,7 +94,7 @@ class Bifurcation(Result):
     shot: Any = None
 
     def line_of(self, name: str, value: object) -> str:
-        """The value is told in the unit of the parameter."""
+        """The value is stated in the unit of the parameter."""
         if name == "value" and self.parameter and isinstance(value, float):
             known = self.shot.rotor.varied if self.shot is not None else {}
             return format_entry(known.get(self.parameter, self.parameter), value, 6)

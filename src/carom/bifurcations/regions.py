@@ -159,7 +159,7 @@ def map_regions(
     bifurcation cannot be followed is listed in ``unexplained``.  A region may be missed if it fits between the points
     of the grid and no curve from elsewhere enters it.
 
-    Of machines whose orbits have no closed forms the special points are those of a diagram from a short search, and regions are told by where
+    Of machines whose orbits have no closed forms the special points are those of a diagram from a short search, and regions are stated by where
     disturbances settle.
 
     Parameters
@@ -233,7 +233,7 @@ def map_regions(
 
 def _remarks(grid: int, examined: int) -> list[str]:
     """What is said of regions that are known by where disturbances settle."""
-    settled = f"Regions are told by where {STARTS} disturbances at each of {examined} points of the grid settle"
+    settled = f"Regions are stated by where {STARTS} disturbances at each of {examined} points of the grid settle"
     words = [f"{settled}; curves are followed from special points of orbits on two lines of the plane alone."]
     if examined < grid**2:
         words.append(

@@ -147,7 +147,7 @@ ON_BRANCH = 5e-3
 
 
 def begun_at_least_radius(orbit: SimulatedOrbit) -> SimulatedOrbit:
-    """The same orbit, beginning where the radius is least: there a free period is told apart from its delays, even in contact all the time."""
+    """The same orbit, beginning where the radius is least: there a free period is distinguished from its delays, even in contact all the time."""
     motion = orbit.motion
     seen = motion.seen_at(orbit.leading_plane)
     times = np.linspace(0.0, motion.time, SAMPLES)

@@ -17,7 +17,7 @@ def special_orbit(
 ) -> Bifurcation | None:
     """Special point from the parameters, the pair, the period and the radial speed of its orbit; ``None`` if it is none.
 
-    Of the folds, those of two radial speeds of one period are told from those of two periods.  Without rebound a maximum of the
+    Of the folds, those of two radial speeds of one period are distinguished from those of two periods.  Without rebound a maximum of the
     radius emerges from the impact, with its height zero, as lasting contact begins: no grazing.
     """
     at = numbers, period, speed

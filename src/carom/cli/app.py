@@ -175,7 +175,7 @@ def _lost_interrupts_repeated() -> Iterator[None]:
     """Repeat an interrupt or a SIGTERM that Python cannot propagate: in finalizers and callbacks of weak references."""
     usual = sys.unraisablehook
 
-    def told(lost: sys.UnraisableHookArgs) -> None:
+    def shown(lost: sys.UnraisableHookArgs) -> None:
         if not issubclass(lost.exc_type, KeyboardInterrupt | SystemExit):
             usual(lost)
             return
@@ -184,7 +184,7 @@ def _lost_interrupts_repeated() -> Iterator[None]:
         again.daemon = True
         again.start()
 
-    sys.unraisablehook = told
+    sys.unraisablehook = shown
     try:
         yield
     finally:
@@ -227,7 +227,7 @@ def _warnings_on_one_line() -> Iterator[None]:
 
 
 def _complain(message: str) -> None:
-    """Print an error or a warning on one line; the exit code is told even where the line cannot be."""
+    """Print an error or a warning on one line; the exit code is stated even where the line cannot be."""
     try:
         print(f"carom: {_on_one_line(message)}", file=sys.stderr)  # noqa: T201
     except OSError:

@@ -90,12 +90,12 @@ def basins(
         if gains is not None:
             ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.97)}
             found = map_gains(rotor, plan, asked.names, **ways_of)  # type: ignore[arg-type]
-            over = (found, asked.told_by)
+            over = (found, asked.in_terms_of)
         document = basin_document(basin, smallest, harmless, *over)
         figures: dict[str, Any] = {"basins": lambda: basin.plot(smallest)}
         files: dict[str, Any] = {"basins.nc": basin.save}
         if over:
-            figures["gain-map"] = lambda: found.plot(told_by=asked.told_by)
+            figures["gain-map"] = lambda: found.plot(in_terms_of=asked.in_terms_of)
             files["gains.nc"] = found.save
         write_output(out, case, "basins", document, figures, files=files, tell=tell.part(0.97, 1.0))
 

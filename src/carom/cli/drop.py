@@ -154,8 +154,8 @@ def _print_map(screen: Console, found: DropMap) -> None:
         loads, since = (found.dataset[each].values[here] for each in (found.hardest, "settled_at"))
         known = sorted(since[~(since != since)].tolist())
         ends = [number(float(each), 3) for each in (loads.min(), loads.max())]
-        told = f"{number(1e3 * known[len(known) // 2], 3)} ms" if known else ""
-        rows.append((name.words, str(int(here.sum())), f"{100.0 * share:.3g} %", " to ".join(ends), told))
+        shown = f"{number(1e3 * known[len(known) // 2], 3)} ms" if known else ""
+        rows.append((name.words, str(int(here.sum())), f"{100.0 * share:.3g} %", " to ".join(ends), shown))
     headings = ("how they end", "drops", "share", f"{words} ({unit})", "at rest or whirling since (median)")
     print_table(screen, "", headings, rows)
     screen.print(f"Hardest: {found.worst}.")

@@ -182,10 +182,10 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
 
     kicks, given = ProvenKicks.of(proof), {**proof.hypotheses.values, **proof.hypotheses.settings}
     if proof.hypotheses.table == "machine":
-        told = [f"{key} {given[key].removeprefix('double ')}" for key in ("damping", "stiffness", "speed")]
+        stated = [f"{key} {given[key].removeprefix('double ')}" for key in ("damping", "stiffness", "speed")]
     else:
-        told = [f"{key} {number(value)}" for key, value in kicks.rotor.parameters.as_dict().items()]
-    with plots.heading(f"{name}: {', '.join(told)}"):
+        stated = [f"{key} {number(value)}" for key, value in kicks.rotor.parameters.as_dict().items()]
+    with plots.heading(f"{name}: {', '.join(stated)}"):
         plots.save(kicks.plot(), directory / PICTURE)
 
 

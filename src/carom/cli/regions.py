@@ -33,7 +33,7 @@ def regions(
 
     Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
     of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  Of machines whose
-    orbits have no closed forms, curves are those through the bifurcations of a short search, and the regions are told by where disturbances
+    orbits have no closed forms, curves are those through the bifurcations of a short search, and the regions are stated by where disturbances
     settle.
     """
     case = read_machine(machine, settings)

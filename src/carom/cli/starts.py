@@ -176,7 +176,7 @@ class PlaneRead(NamedTuple):
 
     axes: tuple[Axis, Axis]
     ranges: tuple[tuple[float, float] | None, tuple[float, float] | None]
-    told_by: Case
+    in_terms_of: Case
 
     @property
     def names(self) -> tuple[str, str]:
@@ -194,7 +194,7 @@ def read_plane(
         raise InputError(option, given, "must be two names with a comma between them, such as stiffness,damping")
     pairs = zip(entries, names, strict=True)
     axes = [others.get(name) or _varied(case, option, given, entry, name, others) for entry, name in pairs]
-    ranges, told_by = [], case
+    ranges, in_terms_of = [], case
     for end, text, entry, varied, other in zip(("--x", "--y"), (x, y), entries, axes, reversed(names), strict=True):
         if entry == varied.name:
             ranges.append(None if text is None else read_range(end, text, varied))
@@ -202,9 +202,9 @@ def read_plane(
         if other in TERMS[entry].needs:
             allowed = f"{entry} changes with {other}, which is the other parameter; use {varied.name}"
             raise InputError(option, given, allowed)
-        told_by = _stated_by(told_by, option, given, entry)
-        ranges.append(None if text is None else _read_entry_range(end, text, told_by, entry))
-    return PlaneRead((axes[0], axes[1]), (ranges[0], ranges[1]), told_by)
+        in_terms_of = _stated_by(in_terms_of, option, given, entry)
+        ranges.append(None if text is None else _read_entry_range(end, text, in_terms_of, entry))
+    return PlaneRead((axes[0], axes[1]), (ranges[0], ranges[1]), in_terms_of)
 
 
 def _varied(case: Case, option: str, given: str, entry: str, name: str, others: Mapping[str, Axis]) -> Axis:

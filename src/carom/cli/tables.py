@@ -87,8 +87,8 @@ def _print_topics(console: Console, study: Study) -> None:
     for topic, texts in paragraphs(study.facts):
         console.print()
         console.print(Text(topic, style="bold"))
-        told = Padding(Text("\n".join(texts)), (0, 0, 0, 2), expand=False)
-        console.print(told, width=min(console.width, TEXT_WIDTH))
+        shown = Padding(Text("\n".join(texts)), (0, 0, 0, 2), expand=False)
+        console.print(shown, width=min(console.width, TEXT_WIDTH))
 
 
 def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:

@@ -39,7 +39,7 @@ HIGHEST = 0.05
 """Height of a bounce up to which bounds are sought."""
 HALVINGS = 60
 SLOWEST = 1e-9
-"""Speed, in ``c_r Ω``, below which no bounce can be told from rolling: if even that is too fast, nothing is proven."""
+"""Speed, in ``c_r Ω``, below which no bounce can be distinguished from rolling: if even that is too fast, nothing is proven."""
 
 
 @checked

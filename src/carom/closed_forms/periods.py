@@ -21,7 +21,7 @@ FIRST_WIDTH = 0.25
 """Width of the intervals at which the search begins, in ``1/Ω``."""
 MOST_INTERVALS = 1_000_000
 FADED = 1e-12
-"""Size of ``F₁`` that is too near its rounding error for roots to be told apart."""
+"""Size of ``F₁`` that is too near its rounding error for roots to be distinguished."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,8 +113,8 @@ class PeriodCondition:
         """Time beyond which ``F₁ > 0``; infinite without damping."""
         return periods.longest_period(self.modes, self.factor)
 
-    def longest_told(self) -> float:
-        """Time beyond which ``F₁`` cannot be told from zero: where all modes grow, it approaches ``1 − Re q = −d``."""
+    def longest_distinct(self) -> float:
+        """Time beyond which ``F₁`` cannot be distinguished from zero: where all modes grow, it approaches ``1 − Re q = −d``."""
         growth = float(self.modes[:, 0].real.min())
         fades = growth > 0.0 and abs(1.0 - self.factor.real) < FADED
         return -math.log(FADED) / growth if fades else math.inf
@@ -133,7 +133,7 @@ class PeriodCondition:
         InputError
             No damping and no ``longest_period``.
         CaromError
-            The search would take unreasonable work (very weak damping), or ``F₁`` cannot be told from zero (negative damping
+            The search would take unreasonable work (very weak damping), or ``F₁`` cannot be distinguished from zero (negative damping
             without rebound); give a shorter ``longest_period``.
         """
         bound = self.longest_period()
@@ -141,9 +141,9 @@ class PeriodCondition:
             growth = -2.0 * self.modes[:, 0].real.max()
             raise InputError("gamma", growth, "above 0, or longest_period must limit the orbits searched")
         end = bound if longest_period is None else longest_period
-        if end > self.longest_told():
+        if end > self.longest_distinct():
             raise CaromError(
-                f"periods above {self.longest_told():.3g}/Omega cannot be told apart; give a shorter longest_period"
+                f"periods above {self.longest_distinct():.3g}/Omega cannot be distinguished; give a shorter longest_period"
             )
         if end > MOST_INTERVALS * FIRST_WIDTH:
             raise CaromError(f"periods up to {end:.3g}/Omega are too many to search; give a shorter longest_period")

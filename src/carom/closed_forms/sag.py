@@ -134,14 +134,14 @@ def levitation(machine: Subject) -> Levitation:
     if system.rest_radius == np.inf:
         raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")
 
-    def told(coordinates: np.ndarray) -> Any:
+    def shown(coordinates: np.ndarray) -> Any:
         return complex(coordinates[0]) if len(coordinates) == 1 else coordinates
 
     return Levitation(
         model,
-        told(system.shapes @ system.outer),
-        told(system.whirl),
-        told(system.backward_whirl),
+        shown(system.shapes @ system.outer),
+        shown(system.whirl),
+        shown(system.backward_whirl),
         np.abs(arrays["rows"] @ system.outer),
         np.abs(system.planes @ system.whirl if system.shaft else arrays["offsets"])
         + np.abs(system.planes @ system.backward_whirl),

@@ -71,7 +71,7 @@ class BladeLoss(Disturbance):
         return starts_after(rotor, self.change, phases, self.node, instant)
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
-        """See :meth:`Disturbance.echo`; the eccentricity is told of rotors with one unbalance alone."""
+        """See :meth:`Disturbance.echo`; the eccentricity is stated of rotors with one unbalance alone."""
         (phase,), scales = values, rotor.scales
         kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
         words = (

@@ -78,10 +78,10 @@ class Coordinate:
         return float(getattr(scales, self.scale)) if self.scale else 1.0
 
     def shown_in(self, scales: Scales | None) -> tuple[float, str]:
-        """Unit in which people are told values, and by what to multiply them: mm/s, mm and g where the scales are known."""
+        """Unit in which people see values, and by what to multiply them: mm/s, mm and g where the scales are known."""
         return shown_in(self.scale, scales) if self.scale else (1.0, "rad")
 
-    def told(self, value: float, scales: Scales | None, digits: int = 3) -> str:
+    def stated(self, value: float, scales: Scales | None, digits: int = 3) -> str:
         """A value as text in this unit."""
         factor, unit = self.shown_in(scales)
         return f"{number(factor * value, digits)} {unit}"

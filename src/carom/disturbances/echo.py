@@ -55,7 +55,7 @@ def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales
 
 
 def moving(place: complex, rate: complex, scales: Scales | None) -> Echo:
-    """A displacement and its rate in the frame that turns with the shaft; the velocity is told in the fixed frame."""
+    """A displacement and its rate in the frame that turns with the shaft; the velocity is stated in the fixed frame."""
     speed = rate + 1j * place
     at = f"{format_quantity(abs(place), 'length', scales)} from the middle at {format_angle(cmath.phase(place))}"
     moves = f"moving at {format_quantity(abs(speed), 'velocity', scales)} towards {format_angle(cmath.phase(speed))} in the fixed frame"

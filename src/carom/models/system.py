@@ -337,7 +337,7 @@ class System(ModeArrays):
         return distances
 
     def scales_at(self, plane: int, scales: Scales | None) -> Scales | None:
-        """Scales of what is told of a contact plane: its own clearance is the unit of length, the unit of energy is that of the rotor."""
+        """Scales of what is stated of a contact plane: its own clearance is the unit of length, the unit of energy is that of the rotor."""
         wide = float(self.widths[plane])
         if scales is None or wide == 1.0:
             return scales

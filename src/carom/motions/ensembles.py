@@ -221,7 +221,7 @@ def _followed(courses: Sequence[Sequence[Stage]], which: np.ndarray, starts: _Be
 
 
 def _in_stage(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
-    """Endings in one stage of each machine, with times that count from its beginning, and low bounces told from others.
+    """Endings in one stage of each machine, with times that count from its beginning, and low bounces distinguished from others.
 
     Motions that do not repeat are followed further to see whether they stay at the wall in low bounces.
     """

@@ -186,7 +186,7 @@ class _AtPlane:
                 self.turned_back[sense] = float(bounds[other[-1] + 1])
 
     def found(self, last: Trajectory) -> TouchdownLoads:
-        """All that is told of the plane at the end of a piece, which reaches back over the last turns."""
+        """All that is stated of the plane at the end of a piece, which reaches back over the last turns."""
         rotor, scales, plane = last.rotor, last.scales, last.plane
         soft, race, contacts = last.is_compliant, rotor.races[plane], ContactLog.joined(self.logs).whole
         peaks, left = np.nan_to_num(contacts.peak_force), contacts.left

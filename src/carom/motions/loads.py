@@ -71,7 +71,7 @@ class TouchdownLoads(Result):
     """What the touchdown bearing at a plane bears in a motion, in units of the equations; ``si`` gives its loads in SI units.
 
     Loads are the largest over all stages, or their sum; times count from the release.  An impact on a rigid wall has an impulse, and no force
-    that could be told: there ``force`` is that of lasting contact alone.
+    that could be stated: there ``force`` is that of lasting contact alone.
 
     Attributes
     ----------

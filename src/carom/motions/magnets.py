@@ -53,10 +53,10 @@ class MagnetReach(Result):
     @property
     def words(self) -> str:
         """The same in sentences."""
-        told = "The rotor strikes a magnet: what follows is not the motion of the machine. " if self.struck else ""
+        shown = "The rotor strikes a magnet: what follows is not the motion of the machine. " if self.struck else ""
         if not 0.0 < self.share < 1.0:
-            return told.rstrip()
-        return told + (
+            return shown.rstrip()
+        return shown + (
             f"While the magnets act the rotor comes up to {number(100.0 * self.share, 2)} % of an air gap from the centre; {pull_words(self.share)}."
         )
 

@@ -36,7 +36,7 @@ FEW_SINGLY = 8
 MODES = 2
 """Modes of the rotors whose motions are followed side by side."""
 STOPPED = 1 << 40
-"""Count of a part beyond which its threads are told to stop, even within a motion."""
+"""Count of a part beyond which its threads are asked to stop, even within a motion."""
 LOGGED = 256
 """Events per kernel call for motions that are followed one after another."""
 

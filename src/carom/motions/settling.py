@@ -37,7 +37,7 @@ FALLING_TURNS = 1_500
 Of a rotor that bends, contact without end may neither settle nor repeat.  A shaft that loses its speed is given its time to stand.
 """
 CHATTER = 15.0
-"""Impacts of a chatter, times ``|ln d|``, until its bounces are too low to be told from lasting contact."""
+"""Impacts of a chatter, times ``|ln d|``, until its bounces are too low to be distinguished from lasting contact."""
 LOW, LOW_FOR = 0.5, 200
 """Bounces are low if this many take on average less than this time, in units of ``1/|λ|`` of the fastest exponent: so quickly
 no rotor returns to a wall that does not keep pulling it."""

@@ -50,9 +50,9 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
             if name in COMPLEX:  # netCDF has no complex numbers
                 values, own = np.stack([values.real, values.imag], axis=-1), [*own, "part"]
             columns[f"{name}{mark}"] = own, values, ATTRIBUTES.get(name, {})
-        told = provenance(part) | {name: getattr(part, name) for name in NUMBERS}
-        told |= {name: json.dumps(_numbers(getattr(part, name))) for name in ("start", "final")}
-        attributes |= {f"{name}{mark}": value for name, value in told.items()}
+        shown = provenance(part) | {name: getattr(part, name) for name in NUMBERS}
+        shown |= {name: json.dumps(_numbers(getattr(part, name))) for name in ("start", "final")}
+        attributes |= {f"{name}{mark}": value for name, value in shown.items()}
     netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
 
 
@@ -73,13 +73,13 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
 
 def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
     """One stage of a motion, whose names end with a mark."""
-    told = {name.removesuffix(mark): value for name, value in dataset.attrs.items() if name.endswith(mark)}
+    shown = {name.removesuffix(mark): value for name, value in dataset.attrs.items() if name.endswith(mark)}
     columns: dict[str, Any] = {name: dataset[f"{name}{mark}"].values for name in SEGMENTS}
     columns |= {name: columns[name][..., 0] + 1j * columns[name][..., 1] for name in COMPLEX}
-    start, final = (_state(json.loads(told[name])) for name in ("start", "final"))
-    numbers: dict[str, Any] = {name: kind(told[name]) for name, kind in NUMBERS.items()}
+    start, final = (_state(json.loads(shown[name])) for name in ("start", "final"))
+    numbers: dict[str, Any] = {name: kind(shown[name]) for name, kind in NUMBERS.items()}
     return Trajectory(
-        rotor=rotor_from(told), start=start, outcome=Outcome[told["outcome"]], final=final, **numbers, **columns
+        rotor=rotor_from(shown), start=start, outcome=Outcome[shown["outcome"]], final=final, **numbers, **columns
     )
 
 

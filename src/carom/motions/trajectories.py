@@ -107,7 +107,7 @@ class Trajectory(Result):
 
     @property
     def scales(self) -> Scales | None:
-        """Scales of what is told of the contact plane: lengths there are in its own clearance."""
+        """Scales of what is stated of the contact plane: lengths there are in its own clearance."""
         return self.rotor.system.scales_at(self.plane, self.rotor.scales)
 
     @property

@@ -60,8 +60,8 @@ class OrbitName(Name):
             "" if self.faster else "soft",
             "" if self.slip > 0 else "slipping backward",
         ]
-        told = ", ".join(filter(None, apart))
-        return f"{REGULAR_BOUNCING} ({told})" if told else REGULAR_BOUNCING
+        shown = ", ".join(filter(None, apart))
+        return f"{REGULAR_BOUNCING} ({shown})" if shown else REGULAR_BOUNCING
 
     @property
     def place(self) -> tuple[int, int, str]:

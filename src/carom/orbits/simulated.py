@@ -216,7 +216,7 @@ class SimulatedOrbit(Result):
 
     @property
     def scales(self) -> Scales | None:
-        """Scales of what is told of the plane of the first event: lengths there are in its own clearance."""
+        """Scales of what is stated of the plane of the first event: lengths there are in its own clearance."""
         return self.rotor.system.scales_at(self.leading_plane, self.rotor.scales)
 
     @cached_property

@@ -84,16 +84,16 @@ class OrbitSet(Members[Orbit]):
 
     def rows(self) -> list[tuple[str, str]]:
         """Each orbit, and whether the list is complete or how much was searched."""
-        told = []
+        shown = []
         for orbit in self:
             stable = "stable" if orbit.stable else "unstable"
             period, speed = (self.line_of(name, getattr(orbit, name)) for name in ("period", "radial_speed"))
             words = f"{stable}, {orbit.segments}"
             if self.search is None:
                 words = f"radial speed {speed}, {stable}, {orbit.reason or 'admissible'}"
-            told.append((orbit.name, f"period {period}, {words}"))
+            shown.append((orbit.name, f"period {period}, {words}"))
         end = ("complete", in_a_line(self.complete)) if self.search is None else ("search", self.argument)
-        return [("rotor", in_a_line(self.rotor)), *told, end]
+        return [("rotor", in_a_line(self.rotor)), *shown, end]
 
     @property
     def argument(self) -> str:
@@ -236,7 +236,7 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
 def longest_within_reach(rotor: Rotor) -> float | None:
     """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
     condition = PeriodCondition.planar(rotor.parameters)
-    limit = min(MOST_RADIANS / float(abs(rotor.system.arrays["exponents"]).max()), condition.longest_told())
+    limit = min(MOST_RADIANS / float(abs(rotor.system.arrays["exponents"]).max()), condition.longest_distinct())
     return None if condition.longest_period() <= limit else limit
 
 

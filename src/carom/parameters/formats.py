@@ -47,14 +47,14 @@ def complex_words(value: complex) -> str:
 
 
 def rounded_down(value: float, digits: int = 4) -> float:
-    """Round a positive number down to significant digits: what is proven must not be told as more."""
+    """Round a positive number down to significant digits: what is proven must not be stated as more."""
     unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
     # A number that has no more digits stays, whatever its last bit is.
     return math.floor(value / unit * (1.0 + 1e-14)) * unit
 
 
 def shown_in(kind: str, scales: Scales | None) -> tuple[float, str]:
-    """Return the unit in which people are told a size, and by what to multiply one in units of the equations.
+    """Return the unit in which people see a size, and by what to multiply one in units of the equations.
 
     The kind is a property of :class:`~carom.parameters.Scales`.  Without scales it is the unit of the equations.
     """
@@ -68,7 +68,7 @@ def shown_in(kind: str, scales: Scales | None) -> tuple[float, str]:
 
 
 def shown_from_si(unit: str) -> tuple[float, str]:
-    """Return the unit in which people are told a length, time, speed or acceleration given in an SI unit, and by what to multiply it."""
+    """Return the unit in which people see a length, time, speed or acceleration given in an SI unit, and by what to multiply it."""
     kinds = {UNITS[kind][1]: kind for kind in ("length", "time", "velocity", "acceleration")}
     return _SHOWN[kinds[unit]] if unit in kinds else (1.0, unit)
 

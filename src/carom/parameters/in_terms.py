@@ -22,7 +22,7 @@ Side = Literal["up", "down", "nearest"]
 _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}
 _SECONDARY_DIGITS = 3
 EXACT = 17
-"""Significant digits with which a value is told without rounding."""
+"""Significant digits with which a value is stated without rounding."""
 Digits = Annotated[int, whole(1, EXACT)]
 """Significant digits."""
 

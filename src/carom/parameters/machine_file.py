@@ -27,7 +27,7 @@ _SETTING = "--set"
 _Table = TypeVar("_Table", Gravity, TouchdownBearing)
 UNUSED = 0.0
 """Restitution of a machine whose touchdown bearing is compliant."""
-_UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
+_UNITS_SHOWN = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
 
 
@@ -174,7 +174,7 @@ class Case(Tabular):
             for name, field in LIMIT_FIELDS.items()
             if (value := getattr(self.limits, name)) is not None
         ]
-        units = [f"{shown_in(kind, None)[1]} = {format_quantity(1.0, kind, scales)}" for kind in _UNITS_TOLD]
+        units = [f"{shown_in(kind, None)[1]} = {format_quantity(1.0, kind, scales)}" for kind in _UNITS_SHOWN]
         rows = {
             "touchdown bearing": self.touchdown and self.touchdown.words,
             "drive": self.drive and self.drive.words,
@@ -309,7 +309,7 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
-    # If the machine cannot be read any scales do, so that all errors are told.
+    # If the machine cannot be read any scales do, so that all errors are stated.
     scales = (Scales(1.0, 1.0, 1.0) if of_machine else None) if base is None else base.scales
     requirement = problems.attempt(Requirement.of_table, tables.survive, scales) or Requirement()
     own = {name: text for name, text in texts.items() if not name.startswith(PREFIX)}

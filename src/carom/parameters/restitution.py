@@ -101,7 +101,7 @@ def restitution_of_damping(damping_ratio: NotNegative) -> float:
 
 @checked
 def damping_ratio_of(restitution: Restitution) -> float:
-    """Damping ratio of the Kelvin–Voigt wall without tension that restitutes a free mass as told.
+    """Damping ratio of the Kelvin–Voigt wall without tension that restitutes a free mass as stated.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def restitution_of_dissipation(dissipation: NotNegative, speed: Positive) -> flo
 
 @checked
 def dissipation_of(restitution: Restitution, speed: Positive) -> float:
-    """Dissipation of the Hunt–Crossley wall that restitutes a free mass as told at one speed.
+    """Dissipation of the Hunt–Crossley wall that restitutes a free mass as stated at one speed.
 
     Parameters
     ----------

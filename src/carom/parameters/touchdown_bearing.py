@@ -224,10 +224,10 @@ class TouchdownBearing(Table):
     @property
     def words(self) -> str:
         """Law and entries in the units of people."""
-        told = (
+        shown_now = (
             f"{name.replace('_', ' ')} {number(value)} {self.unit(name)}".rstrip() for name, value in self.given.items()
         )
-        return ", ".join([self.law, *told])
+        return ", ".join([self.law, *shown_now])
 
     def unit(self, name: str) -> str:
         """SI unit of an entry."""

@@ -118,7 +118,7 @@ def paint(
     mesh = axes.pcolormesh(*corners, shown, cmap=colours, norm=levels, shading="flat", rasterized=True, gid="cells")
     mesh.set_edgecolor("face")
     mesh.set_linewidth(0.1)
-    for entry in motions:  # hatched, so that they can be told apart without colour too
+    for entry in motions:  # hatched, so that they can be distinguished without colour too
         if entry.look.hatch and (index == entry.index).any():
             drawn: dict[str, Any] = {"hatch": entry.look.hatch, "ec": ink(entry.colour), "lw": 0.0, "zorder": 1.2}
             axes.add_patch(PathPatch(cells_path(corners, index == entry.index), fc="none", rasterized=True, **drawn))

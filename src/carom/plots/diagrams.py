@@ -131,9 +131,9 @@ def _speed_line(
     """Draw speeds along a branch, in their display unit."""
     unit, places = diagram.axis.field.usual_size, np.arange(len(branch))
     special = np.array([point.value for point in branch.special])
-    there = diagram.told_speeds(special, np.array(at_special_points))
-    told = diagram.told_speeds(branch.values, speeds)
-    branch_line(axes, branch, places, branch.values / unit, told, there, unit, virtual=virtual)
+    there = diagram.shown_speeds(special, np.array(at_special_points))
+    shown = diagram.shown_speeds(branch.values, speeds)
+    branch_line(axes, branch, places, branch.values / unit, shown, there, unit, virtual=virtual)
 
 
 def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:
@@ -152,7 +152,7 @@ def _mark_points(diagram: Diagram, upper: list[Axes], below: Axes, unit: float, 
     seen = set()
     for point in diagram.points:
         row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
-        speed = float(diagram.told_speeds(point.value, point.radial_speed))
+        speed = float(diagram.shown_speeds(point.value, point.radial_speed))
         panels, height = (upper, speed) if row is None else ([below], heights.get(row))
         if height is None or not (point.admissible or virtual):
             continue
@@ -219,7 +219,7 @@ def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
 def _limits(diagram: Diagram) -> tuple[float, float]:
     """Return the range of all speeds of possible orbits, with a margin for virtual ones; its end is 0 if there are none."""
     speeds = [
-        diagram.told_speeds(branch.values[branch.admissible, None], branch.radial_speeds[branch.admissible]).ravel()
+        diagram.shown_speeds(branch.values[branch.admissible, None], branch.radial_speeds[branch.admissible]).ravel()
         for branch in diagram.branches
     ]
     shown = np.concatenate([*speeds, [0.0]])

@@ -45,7 +45,7 @@ def gain_map(
     title: str | None = None,
     *,
     measure: str = "recovered",
-    told_by: Case | None = None,
+    in_terms_of: Case | None = None,
     axes: Axes | None = None,
 ) -> Figure:
     """Draw the share of disturbances that comes back, with contours and the present machine.
@@ -56,8 +56,8 @@ def gain_map(
     ----------
     measure : {"recovered", "smallest_unrecovered_kick"}
         The measure that the shades show; contours always show the share that comes back.
-    told_by : Case, optional
-        A machine in whose terms and units both parameters are told: ``derivative_gain`` in A s/m where its file has that.
+    in_terms_of : Case, optional
+        A machine in whose terms and units both parameters are stated: ``derivative_gain`` in A s/m where its file has that.
 
     Raises
     ------
@@ -68,10 +68,10 @@ def gain_map(
     if measure not in known:
         raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
-    told = [_told(axis, now, told_by) for axis, now in zip(found.axes, found.present, strict=True)]
+    stated = [_shown(axis, now, in_terms_of) for axis, now in zip(found.axes, found.present, strict=True)]
     x, y = (
         np.array([of(value) for value in found.dataset[axis.name].values.tolist()])
-        for axis, (_, of) in zip(found.axes, told, strict=True)
+        for axis, (_, of) in zip(found.axes, stated, strict=True)
     )
     values = np.ma.masked_invalid(found.dataset[measure].values)
     bar = _MEASURES[measure][0]
@@ -80,7 +80,7 @@ def gain_map(
         values, bar = factor * values, f"{bar} ({unit})"
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
-    here = told[0][1](found.present[0]), told[1][1](found.present[1])
+    here = stated[0][1](found.present[0]), stated[1][1](found.present[1])
     replaced = {"none": "every kick tried comes back"}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
@@ -93,7 +93,7 @@ def gain_map(
         colours.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
     mark_present(drawn, here, f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back")
-    drawn.set(xlabel=told[0][0], ylabel=told[1][0], xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+    drawn.set(xlabel=stated[0][0], ylabel=stated[1][0], xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     if title:
         drawn.set_title(title)
     key(figure, [drawn], columns=2)  # one where they have no room
@@ -118,7 +118,7 @@ def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> No
         axes.plot([], [], color="#1a1a1a", ls=line, lw=0.9, label=f"{100 * level:g} % come back")
 
 
-def _told(axis: Axis, now: float, case: Case | None) -> tuple[str, Callable[[float], float]]:
+def _shown(axis: Axis, now: float, case: Case | None) -> tuple[str, Callable[[float], float]]:
     """Label of a parameter in the terms of a machine's file, and a value in its unit; stiffness and damping are named as gains of a position controller."""
     unit, field, name = axis.field.usual_size, axis.field, _NAMES.get(axis.name, "")
     if case is None:

@@ -42,14 +42,14 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
     own.tick_params(axis=direction, which="both", **{far: True, f"label{far}": True})
     functions = (to_machine, from_machine)
     if direction == "x":
-        told = axes.secondary_xaxis("bottom", functions=functions)
-        told.set_xlabel(parameter_label(partner))
-        told.xaxis.set_major_formatter(lambda value, _: plain(value))
+        shown = axes.secondary_xaxis("bottom", functions=functions)
+        shown.set_xlabel(parameter_label(partner))
+        shown.xaxis.set_major_formatter(lambda value, _: plain(value))
         own.xaxis.set_label_position("top")
     else:
-        told = axes.secondary_yaxis("left", functions=functions)
-        told.set_ylabel(parameter_label(partner))
-        told.yaxis.set_major_formatter(lambda value, _: plain(value))
+        shown = axes.secondary_yaxis("left", functions=functions)
+        shown.set_ylabel(parameter_label(partner))
+        shown.yaxis.set_major_formatter(lambda value, _: plain(value))
         own.yaxis.set_label_position("right")
     own.set(**{f"{direction}label": label})
     return True

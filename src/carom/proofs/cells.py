@@ -134,8 +134,8 @@ def show(function: Analytic, cells: Cells) -> None:
     """Show what is said of each cell; :class:`NotShownError` if it is not so."""
     for low, high, kind in zip(cells.cuts, cells.cuts[1:], cells.kinds, strict=False):
         sign, slope = (0, 0) if kind == OPEN else function.on(low, high)
-        told = {POSITIVE: sign > 0, NEGATIVE: sign < 0, RISING: slope > 0, FALLING: slope < 0, OPEN: True}
-        if not told.get(kind, False):
+        stated = {POSITIVE: sign > 0, NEGATIVE: sign < 0, RISING: slope > 0, FALLING: slope < 0, OPEN: True}
+        if not stated.get(kind, False):
             raise NotShownError(f"the certificate does not show {kind!r} between {low} and {high}")
 
 

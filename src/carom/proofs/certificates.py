@@ -77,12 +77,12 @@ def _proof_of(document: Mapping[str, Any], tell: Reporter) -> Proof:
     return replace(proof, claims=_confirmed(proof.claims, document["claims"]))
 
 
-def _confirmed(found: Sequence[Claim], told: Sequence[Mapping[str, Any]]) -> tuple[Claim, ...]:
+def _confirmed(found: Sequence[Claim], given: Sequence[Mapping[str, Any]]) -> tuple[Claim, ...]:
     """Claims of a certificate whose words are those found and whose numbers enclose those found."""
-    if len(found) != len(told):
+    if len(found) != len(given):
         raise NotShownError("its claims are not those that the evidence shows")
     claims = []
-    for claim, words in zip(found, told, strict=True):
+    for claim, words in zip(found, given, strict=True):
         if {**claim.document(), "enclosures": None} != {**words, "enclosures": None}:
             raise NotShownError(f"its evidence does not show what it claims: {claim.name}")
         stated = words["enclosures"]
@@ -97,12 +97,12 @@ def _held(found: Enclosure, stated: Sequence[str], name: str) -> Enclosure:
     """The stated enclosure, if it holds the ball that was found."""
     if len(stated) != 2 or not all(_DECIMAL.fullmatch(end) for end in stated):
         raise NotShownError(f"a number is not a pair of decimal numbers: {name}")
-    told = Enclosure(stated[0], stated[1], found.inner)
-    if not told.holds(found):
+    given = Enclosure(stated[0], stated[1], found.inner)
+    if not given.holds(found):
         raise NotShownError(f"a number is not between those stated: {name}")
-    if told.width > _WIDEST * found.width:
+    if given.width > _WIDEST * found.width:
         raise NotShownError(f"a number is stated much wider than it is known: {name}")
-    return told
+    return given
 
 
 def _read(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -86,8 +86,8 @@ def claim_of(
     The reason is kept unless the claim is proven.  ``limited`` says whether more bits may decide an undecided claim.
     """
     status: Status = "proven" if sign > 0 else "refuted" if sign < 0 else "undecided"
-    told = "" if sign > 0 else reason
-    return Claim(about, kind, statement, status, told, enclosures or {}, limited_by_precision=limited and sign == 0)
+    shown = "" if sign > 0 else reason
+    return Claim(about, kind, statement, status, shown, enclosures or {}, limited_by_precision=limited and sign == 0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -146,8 +146,8 @@ class Proof(Members[Claim]):
 
     def rows(self) -> list[tuple[str, str]]:
         """Each claim with its status, and the reason where it is not proven."""
-        told = [(claim.name, ": ".join(filter(None, (claim.status, claim.reason)))) for claim in self.claims]
-        return [*told, ("precision", f"{self.bits} bits")]
+        shown = [(claim.name, ": ".join(filter(None, (claim.status, claim.reason)))) for claim in self.claims]
+        return [*shown, ("precision", f"{self.bits} bits")]
 
     def brief_rows(self) -> list[tuple[str, str]]:
         """The theorem, the machine, how many claims have each status, and which are undecided."""

@@ -58,7 +58,7 @@ class Family:
         Name of the largest size, in Python and in certificates.
     size : str
         Name of sizes among enclosures.
-    told : str
+    stated : str
         What they are, before the largest size.
     smaller : str
         Each of them below a size.
@@ -69,7 +69,7 @@ class Family:
     about: str
     option: str
     size: str
-    told: str
+    stated: str
     smaller: str
     reads: Callable[[str, Hypotheses], Scale]
 

@@ -107,12 +107,12 @@ class Hypotheses:
     def document(self) -> dict[str, Any]:
         """As plain data for JSON; ``exact`` holds what follows, for the reader."""
         exact = {name: str(self.numbers[name]) for name in (*NUMBERS, "phi")}
-        told = {"helpers": dict(self.helpers)} if self.helpers else {}
+        stated = {"helpers": dict(self.helpers)} if self.helpers else {}
         return {
             "table": self.table,
             "values": dict(self.values),
             "settings": dict(self.settings),
-            **told,
+            **stated,
             "exact": exact,
         }
 

@@ -22,7 +22,7 @@ from carom.proofs.runs import in_brackets, written
 
 BOX_THEOREM = "kicks of a box of machines"
 NOT_CLAIMED = (
-    "that what is open does not return, or that it does; why it is open is told by the search",
+    "that what is open does not return, or that it does; why it is open is stated by the search",
     "that the impacts stated happen: they are bounds from above",
     "anything beyond the largest size, of starts other than levitation, or of compliant walls",
 )
@@ -31,7 +31,7 @@ BOX_NOT_CLAIMED = (
     "anything of machines with parameters outside of the intervals, or whose parameters move while they are kicked",
 )
 _STRETCHES = 16
-"""Stretches of the interval of a parameter on each of which a speed is told."""
+"""Stretches of the interval of a parameter on each of which a speed is stated."""
 
 
 def options_of(family: Family) -> tuple[str, str]:
@@ -72,12 +72,12 @@ def _reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
     parts: dict[str, Fraction] = {}
     for cell, letter in known:
         parts[letter] = parts.get(letter, Fraction(0)) + cell.share
-    told = [
+    shown = [
         (letter, f"{100 * float(part):.3g} % of the {of}")
         for letter, part in sorted(parts.items(), key=lambda entry: -entry[1])
     ]
-    refuted = [f"{share} does not return" for letter, share in told if letter == REFUTED]
-    return "; ".join([*refuted, *(f"{share}: {OPEN[letter]}" for letter, share in told if letter in OPEN)])
+    refuted = [f"{share} does not return" for letter, share in shown if letter == REFUTED]
+    return "; ".join([*refuted, *(f"{share}: {OPEN[letter]}" for letter, share in shown if letter in OPEN)])
 
 
 def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
@@ -87,10 +87,10 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
     rest = [cell for cell, letter in known if letter not in IMPACTS]
     refuted = share_of(cell for cell, letter in known if letter == REFUTED)
     most = max((impacts for _, impacts in proven), default=0)
-    family, told = disc.family, f"{disc.family.told} {disc.largest}"
-    of_all, where, area, always = f"All {told}", f"Of {told}", " of the area", " "
+    family, shown = disc.family, f"{disc.family.stated} {disc.largest}"
+    of_all, where, area, always = f"All {shown}", f"Of {shown}", " of the area", " "
     if disc.along:
-        of_all, area, always = f"For all {disc.box.words}, all {told}", "", ", for all these values, "
+        of_all, area, always = f"For all {disc.box.words}, all {shown}", "", ", for all these values, "
         where += f", and of the values {disc.box.words}, area of the disc times widths of the intervals"
     numbers = _sizes(disc, min((cell.speeds[0] for cell in rest), default=Fraction(1)))
     shares = {"share_proven": share_of(cell for cell, _ in proven), "share_refuted": refuted}

@@ -259,7 +259,7 @@ class BoxPart:
         place, rate, _ = self.held.start.plain_response(self.held, busy)
         back = np.exp(-1j * busy)
         starts, velocities = rotor.equilibrium + sizes * place * back, sizes * (rate - 1j * place) * back
-        # What is outside by then is tried, to be told why it is open.
+        # What is outside by then is tried, to be stated why it is open.
         outside = np.abs(starts) >= 1
         starts[outside], velocities[outside] = rotor.equilibrium, 0
         endings = settle(rotor, starts, velocities, threads=1, progress=False)

@@ -61,14 +61,14 @@ def search(disc: Disc, limit: float, workers: int, tell: Reporter) -> Tree:
 
 def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
     """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
-    told = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
-    ahead, done = iter([told[first : first + BATCH] for first in range(0, len(told), BATCH)]), 0
+    shown = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
+    ahead, done = iter([shown[first : first + BATCH] for first in range(0, len(shown), BATCH)]), 0
     # The same batches go on where those asked for before have ended.
     for cells, problem in _each(disc, _shown, lambda: ahead, workers):
         if problem:
             raise NotShownError(problem)
         done += len(cells)
-        tell(done / len(told), f"{done} of {len(told)} cells verified")
+        tell(done / len(shown), f"{done} of {len(shown)} cells verified")
 
 
 def _push(heap: list[tuple[float, Cell]], cell: Cell, letter: str) -> None:

@@ -233,16 +233,16 @@ def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evide
 
 def _runs(condition: Analytic, cells: Cells) -> Iterator[tuple[Fraction, Fraction, str, int, int]]:
     """Both ends, kind and signs at the ends of runs of monotone cells, and of open ones."""
-    told = {POSITIVE: 1, NEGATIVE: -1}
+    shown = {POSITIVE: 1, NEGATIVE: -1}
     first = 0
     while first < len(cells.kinds):
         kind, last = cells.kinds[first], first
         while last + 1 < len(cells.kinds) and cells.kinds[last + 1] == kind:
             last += 1
-        if kind not in told:
+        if kind not in shown:
             low, high = cells.cuts[first], cells.cuts[last + 1]
-            before = told.get(cells.kinds[first - 1], 0) if first else 0
-            after = told.get(cells.kinds[last + 1], 0) if last + 1 < len(cells.kinds) else 0
+            before = shown.get(cells.kinds[first - 1], 0) if first else 0
+            after = shown.get(cells.kinds[last + 1], 0) if last + 1 < len(cells.kinds) else 0
             yield low, high, kind, before or condition.sign(low), after or condition.sign(high)
         first = last + 1
 

@@ -98,7 +98,7 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
     found = evidence.take("points", lambda: _all_searched(line))
     claims: list[Claim] = []
-    told: set[tuple[str, str]] = set()
+    given: set[tuple[str, str]] = set()
     shown: dict[tuple[str, str], list[Point]] = {}
     if len(found) > _MOST_POINTS:
         raise NotShownError(f"the certificate has more than {_MOST_POINTS} points")
@@ -108,10 +108,10 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
             raise NotShownError(
                 f"the certificate has a point of {label!r}, which names no motion or has other entries than a point"
             )
-        while (entry["kind"], label) in told:
+        while (entry["kind"], label) in given:
             count += 1
             label = f"{entry['label']} ({count})"
-        told.add((entry["kind"], label))
+        given.add((entry["kind"], label))
         if "centre" not in entry:
             near = f"{float(entry['near'][-1]):.9g}"
             reason = f"the search in double precision found one near {near}, which could not be shown"

@@ -120,7 +120,7 @@ class ProvenKicks(Result):
         ----------
         proof : Proof
         machine : Machine, Case, Parameters or model, optional
-            The machine, in the units of which it is told; by default that of the hypotheses.
+            The machine, in the units of which it is stated; by default that of the hypotheses.
 
         Raises
         ------
@@ -168,8 +168,8 @@ class ProvenKicks(Result):
         return max(self.all_up_to, self.harmless)
 
     @property
-    def told_up_to(self) -> str:
-        """The same in the unit that people are told, rounded down."""
+    def shown_up_to(self) -> str:
+        """The same in the unit that people see, rounded down."""
         factor, unit = shown_in("velocity", self.rotor.scales)
         return f"{number(rounded_down(factor * self.sure_up_to))} {unit}"
 
@@ -184,9 +184,9 @@ class ProvenKicks(Result):
             return f"every kick up to {disc} comes back, {after}"
         lost = f"; {number(rounded_down(100.0 * self.refuted_share))} % end in the rub" if self.refuted_share else ""
         if not self.share:
-            return f"every kick up to {self.told_up_to} comes back; of those up to {disc} no more is proven{lost}"
+            return f"every kick up to {self.shown_up_to} comes back; of those up to {disc} no more is proven{lost}"
         share = number(rounded_down(100.0 * self.share))
-        return f"{share} % of the kicks up to {disc} come back, {after}, and every one up to {self.told_up_to}{lost}"
+        return f"{share} % of the kicks up to {disc} come back, {after}, and every one up to {self.shown_up_to}{lost}"
 
     @cached_property
     def tree(self) -> Tree:

@@ -159,8 +159,8 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter
             reason = next((fact.doubt for fact in facts if fact.doubt), "")
         except OpenError as problem:
             if known == DECIDED:
-                told = f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
-                raise NotShownError(told) from None
+                shown = f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
+                raise NotShownError(shown) from None
             reason = str(problem)
         if reason and known == ENDED:
             reason = "the search ended before"
@@ -230,14 +230,14 @@ def _orbit_claims(line: Line, name: str, stretches: Sequence[Stretch]) -> list[C
     claims = []
     for kind, (words, holds) in kinds.items():
         runs: dict[bool | None, list[tuple[Fraction, Fraction]]] = {True: [], False: [], None: []}
-        for value, group in groupby(stretches, key=partial(_told, name, holds)):
+        for value, group in groupby(stretches, key=partial(_shown, name, holds)):
             members = list(group)
             runs[value].append((members[0].low, members[-1].high))
         claims.append(claim_of_runs(name, kind, f"For all {line.words}, {words}.", runs))
     return claims
 
 
-def _told(name: str, holds: Callable[[OrbitFact], bool | None], stretch: Stretch) -> bool | None:
+def _shown(name: str, holds: Callable[[OrbitFact], bool | None], stretch: Stretch) -> bool | None:
     """Whether something holds for an orbit on a stretch; ``None`` if this is open."""
     fact = stretch.fact(name)
     return holds(fact) if fact else None if stretch.facts is None else False
@@ -249,12 +249,12 @@ def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
     if stretch.reason:
         statement = "The orbits with one impact a period and what they are do not change."
         return claim_of(about, "orbits", statement, 0, reason=stretch.reason, limited=False)
-    told, enclosures, facts = [], {}, stretch.facts or ()
+    shown, enclosures, facts = [], {}, stretch.facts or ()
     for fact in facts:
         motion = "motion of the machine" if fact.admissible else f"no motion ({fact.reason})"
-        told.append(f"{fact.name}: {motion}, {'stable' if fact.stable else f'unstable ({fact.instability})'}")
+        shown.append(f"{fact.name}: {motion}, {'stable' if fact.stable else f'unstable ({fact.instability})'}")
         enclosures[f"{fact.name}{PERIOD}"] = enclosure_of(fact.period)
         enclosures[f"{fact.name} radial_speed"] = enclosure_of(fact.speed)
     statement = "The closing conditions have exactly these solutions, and each keeps its properties: "
-    claim = claim_of(about, "orbits", statement + ("; ".join(told) or "none"), 1, enclosures=enclosures, limited=False)
+    claim = claim_of(about, "orbits", statement + ("; ".join(shown) or "none"), 1, enclosures=enclosures, limited=False)
     return replace(claim, interval=stretch.inner, motions=tuple(fact.name for fact in facts if fact.admissible))

@@ -101,8 +101,8 @@ def _followed(held: Held, patch: Patch, most: int, is_end: Callable[[Patch | Non
                     found = max(found, before + 1)
         except LeftOpenError as problem:
             # How slow a touch may be is a matter of how wide the patch was in it, which its spans do not tell any more.
-            told = touched if touched and problem.reason == SLOW else problem.weights
-            raise LeftOpenError(problem.reason, told) from None
+            shown = touched if touched and problem.reason == SLOW else problem.weights
+            raise LeftOpenError(problem.reason, shown) from None
     return found
 
 

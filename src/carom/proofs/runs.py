@@ -52,7 +52,7 @@ def claim_of_runs(about: str, kind: str, statement: str, runs: Runs) -> Claim:
             side: Enclosure(end, end, (Fraction(end),) * 2) for side, end in zip(("from", "to"), ends, strict=True)
         }
     headings = {True: "shown on", False: "the contrary on", None: "open on"}
-    reason = "; ".join(f"{told} {where[value]}" for value, told in headings.items() if where[value])
+    reason = "; ".join(f"{stated} {where[value]}" for value, stated in headings.items() if where[value])
     status: Status = "refuted" if runs[False] else "undecided" if runs[None] else "proven"
     return Claim(about, kind, statement, status, "" if status == "proven" else reason, enclosures)
 

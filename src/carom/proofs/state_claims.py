@@ -80,11 +80,11 @@ def _lost_claim(limit: LargestSpeed, slowest: Lost | None) -> Claim:
         numbers = enclosures_of(speed=slowest.speed)
         if limit.physical:
             numbers |= enclosures_of(speed_si=slowest.speed * limit.unit)
-    told = "" if slowest is None else f": {slowest.words}"
+    stated = "" if slowest is None else f": {slowest.words}"
     return claim_of(
         "states",
         "lost",
-        f"For every speed above the upper end of speed there is a slower state {_WHERE} from which the rotor never returns to levitation{told}.",
+        f"For every speed above the upper end of speed there is a slower state {_WHERE} from which the rotor never returns to levitation{stated}.",
         0 if slowest is None else 1,
         reason="no rub, no whirl in lasting contact and no orbit with one impact a period is proven of it, or looked for",
         enclosures=numbers,

@@ -69,8 +69,8 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
             claims.append(rotor.claim(names, "solution", statement, -1 if known else 0, reason))
             doubts += [] if found is not None else [f"it is open whether {names} exist"]
         for name, course in (found or {}).items():
-            told, status = orbit_claims(rotor, name, course)
-            claims += told
+            shown, status = orbit_claims(rotor, name, course)
+            claims += shown
             admissible += [name] if status == "proven" else []
             doubts += [f"it is open whether {name} is a motion"] if status == "undecided" else []
     statement = "The machine has no motion with one impact a period that is synchronous with the shaft."
@@ -113,7 +113,7 @@ THEOREMS: Mapping[str, Theorem] = {
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
             "which disturbances end in a rub",
-            "which slides and whirls repeat that are not told, or that there is no whirl that bounces",
+            "which slides and whirls repeat that are not stated, or that there is no whirl that bounces",
         ),
         ("longest_period", "cells"),
     ),

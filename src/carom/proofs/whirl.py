@@ -104,9 +104,9 @@ def drag_sign(n: Numbers) -> int | None:
 def _claim(rotor: Rotor, kind: str, statement: str, sign: int | None, reason: str = "", **balls: Any) -> Claim:
     """Claim about whirl.  More bits may decide it where the sign is ``None``."""
     limited = rotor.hypotheses.exact and sign is None
-    told = reason or ("the sign of a condition is open" if sign is None else "")
+    shown = reason or ("the sign of a condition is open" if sign is None else "")
     numbers = enclosures_of(**balls) if sign == 1 else {}
-    return claim_of("whirl", kind, statement, sign or 0, reason=told, enclosures=numbers, limited=limited)
+    return claim_of("whirl", kind, statement, sign or 0, reason=shown, enclosures=numbers, limited=limited)
 
 
 def _rolling_claim(rotor: Rotor, exact: Numbers) -> Claim:

@@ -25,8 +25,8 @@ _ORBIT = (
 _SOFT = "Distance from the centre, forces of the contact, its slip and the speed of the surface of the race."
 _RIGID = "Distance from the centre, forces of lasting contact with the impulse of each impact, and slip of the contact."
 _WALLS = {
-    True: "The pressure of balls, if it is told, is that of Hertz under the peak force, of which the most loaded ball bears 5/Z (Stribeck).",
-    False: "The wall is rigid: an impact has an impulse and no duration, so no peak force can be told.",
+    True: "The pressure of balls, if it is stated, is that of Hertz under the peak force, of which the most loaded ball bears 5/Z (Stribeck).",
+    False: "The wall is rigid: an impact has an impulse and no duration, so no peak force can be stated.",
 }
 
 

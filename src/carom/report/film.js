@@ -19,7 +19,7 @@ const playFilm = (figure) => {
     return [low, Math.min(1, Math.max(0, (time - film.t[low]) / (film.t[high] - film.t[low] || 1)))];
   };
   const at = (name, [place, share]) => (film[name] ? film[name][place] + share * (film[name][place + 1] - film[name][place]) : 0);
-  const told = (value, digits = 3) => {
+  const format = (value, digits = 3) => {
     const text = Number((Math.abs(value) < 1e-3 ? 0 : value).toPrecision(digits)).toLocaleString("en", { maximumSignificantDigits: digits });
     return text.replace("-", "\u2212");
   };
@@ -68,13 +68,13 @@ const playFilm = (figure) => {
     const [normal, friction, slip] = blow
       ? [film.hardest[0] * blow[1], film.hardest[1] * Math.abs(blow[2]), blow[3]]
       : [film.largest[0] * at("n", here), film.largest[1] * Math.abs(at("f", here)), at("v", here)];
-    readings.time.textContent = `${told(now, 4)} ${ofTime}`;
+    readings.time.textContent = `${format(now, 4)} ${ofTime}`;
     one('[data-name="gap"]').textContent = gap < 0 && !film.blows ? "depth" : "gap";
-    readings.gap.textContent = `${told(film.blows ? Math.max(0, gap) : Math.abs(gap))} ${ofLength}`;
-    readings.normal.textContent = held || blow ? `${told(normal)} ${blow ? ofImpulse : ofForce}` : none;
-    readings.friction.textContent = held || blow ? `${told(friction)} ${blow ? ofImpulse : ofForce}` : none;
-    readings.slip.textContent = held || blow ? `${told(slip)} ${ofSpeed}` : none;
-    if (readings.race) readings.race.textContent = `${told(at("q", here))} ${ofSpeed}`;
+    readings.gap.textContent = `${format(film.blows ? Math.max(0, gap) : Math.abs(gap))} ${ofLength}`;
+    readings.normal.textContent = held || blow ? `${format(normal)} ${blow ? ofImpulse : ofForce}` : none;
+    readings.friction.textContent = held || blow ? `${format(friction)} ${blow ? ofImpulse : ofForce}` : none;
+    readings.slip.textContent = held || blow ? `${format(slip)} ${ofSpeed}` : none;
+    if (readings.race) readings.race.textContent = `${format(at("q", here))} ${ofSpeed}`;
     slider.value = Math.round((slider.max * now) / end);
     slider.setAttribute("aria-valuetext", readings.time.textContent);
   };

@@ -113,8 +113,8 @@ class Film:
             ]
             sizes = [*impacts, *sizes]
         return [
-            (name, f"{words}, up to {told(self._largest(values))}")
-            for name, words, values, told in sizes
+            (name, f"{words}, up to {shown(self._largest(values))}")
+            for name, words, values, shown in sizes
             if values.any()
         ]
 

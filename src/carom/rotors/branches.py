@@ -27,7 +27,7 @@ class Motions(NamedTuple):
 
 
 def followed(equations: Equations, speeds: np.ndarray) -> np.ndarray:
-    """Exponents of all free motions at each of the speeds, 1/s, shape (m, N); each column is one motion, as far as it can be told.
+    """Exponents of all free motions at each of the speeds, 1/s, shape (m, N); each column is one motion, as far as it can be stated.
 
     Two motions are alike by ``|a b|``, where ``a`` is the share of the first in the second and ``b`` that of the second in the first: 1 of the
     same motion, whatever its size.  Where two whirls come near each other their shapes mix, and a whirl keeps its shape rather than its

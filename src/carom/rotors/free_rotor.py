@@ -67,7 +67,7 @@ class FreeRotor(ABC):
     matrices: RotorMatrices
     """``M``, ``K`` and ``G``."""
     places: np.ndarray
-    """Places along the shaft whose displacements are told, m, shape (N,)."""
+    """Places along the shaft whose displacements are stated, m, shape (N,)."""
     node_places: np.ndarray
     """Where its nodes are, from node 0 on, m."""
 

@@ -73,7 +73,7 @@ def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None =
     """Compute the sensitivity of the loops of a flexible machine, from all its modes.
 
     With gyroscopic moments a direction, such as x, sees both whirls: ``S(iω)`` of the complex loop and the conjugate of ``S(−iω)``, half of each.
-    Where supports are anisotropic, so are the two axes of a bearing; told is the one with the larger peak.
+    Where supports are anisotropic, so are the two axes of a bearing; stated is the one with the larger peak.
 
     Parameters
     ----------

@@ -251,23 +251,23 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
     rotor, rooms = machine.rotor, machine.clearances
     sections = rotor.sections if isinstance(rotor, FlexibleRotor) else ()
     length = float(np.ptp(rotor.places))
-    told = [
+    stated = [
         f"[[section]] {number}: outer_diameter = {each.outer_diameter:g} m: thicker than the shaft is long, {length:.4g} m"
         for number, each in enumerate(sections, start=1)
         if each.outer_diameter > length
     ]
-    told += [
+    stated += [
         f"[[section]] {number}: length = {each.length:g} m: more than {SLENDEREST:g} times its diameter"
         for number, each in enumerate(sections, start=1)
         if each.length > SLENDEREST * each.outer_diameter
     ]
-    told += [
+    stated += [
         f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {room:g} m"
         for number, (each, room) in enumerate(zip(machine.touchdowns, rooms, strict=True), start=1)
         if each.rotor_radius < LEAST_RADIUS * room
     ]
-    if told:
-        text = f"{'; '.join(told)}: check the units (a number without a unit is in m)"
+    if stated:
+        text = f"{'; '.join(stated)}: check the units (a number without a unit is in m)"
         warnings.warn(text, CaromWarning, stacklevel=4)
 
 

@@ -1,4 +1,4 @@
-"""What matrices of a free rotor must be; each fault is told in one line that names the matrix."""
+"""What matrices of a free rotor must be; each fault is stated in one line that names the matrix."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def checked_matrix(name: str, given: Any, size: int) -> np.ndarray:
     uneven = np.abs(matrix - matrix.T)
     row, column = np.unravel_index(uneven.argmax(), uneven.shape)
     if uneven[row, column] > ROUNDED * np.abs(matrix).max():
-        told = f"unsymmetric: {matrix[row, column]:g} in row {row}, column {column}, and {matrix[column, row]:g} across"
-        raise InputError(name, told, "a symmetric matrix (rows and columns are counted from 0)")
+        shown = f"unsymmetric: {matrix[row, column]:g} in row {row}, column {column}; {matrix[column, row]:g} opposite"
+        raise InputError(name, shown, "a symmetric matrix (rows and columns are counted from 0)")
     matrix = 0.5 * (matrix + matrix.T)
     matrix.flags.writeable = False
     return matrix
@@ -39,8 +39,8 @@ def check_mass(mass: np.ndarray) -> None:
     """Refuse masses with which a motion would have no kinetic energy, or less."""
     least = int(mass.diagonal().argmin())
     if mass[least, least] <= 0.0:
-        told = f"indefinite: {mass[least, least]:g} on the diagonal in row {least}"
-        raise InputError("M", told, f"masses above zero; of {_kind(least)} give the inertia of the shaft there")
+        shown = f"indefinite: {mass[least, least]:g} on the diagonal in row {least}"
+        raise InputError("M", shown, f"masses above zero; of {_kind(least)} give the inertia of the shaft there")
     lowest = float(_scaled(mass)[0])
     if lowest <= DEFINITE:
         allowed = "a positive definite matrix: each motion has kinetic energy"
@@ -54,24 +54,24 @@ def check_free(stiffness: np.ndarray, nodes: np.ndarray) -> None:
     along, up, down = np.tile([1.0, 0.0], count), _tilted(at, 1.0), _tilted(at, -1.0)
     least = int(stiffness.diagonal().argmin())
     if stiffness[least, least] <= 0.0:
-        told = f"indefinite: {stiffness[least, least]:g} on the diagonal in row {least}"
-        raise InputError("K", told, f"stiffness above zero for {_kind(least)}")
+        shown = f"indefinite: {stiffness[least, least]:g} on the diagonal in row {least}"
+        raise InputError("K", shown, f"stiffness above zero for {_kind(least)}")
     if _resists(stiffness, along):
         raise InputError(
             "K", "holds the rotor when it moves as a whole", "the stiffness of the rotor without its bearings"
         )
     if _resists(stiffness, up):
         turned = not _resists(stiffness, down)
-        told = "has tilts of the other sign" if turned else "holds the rotor when it tilts as a whole"
+        shown = "has tilts of the other sign" if turned else "holds the rotor when it tilts as a whole"
         allowed = "tilts dx/ds" if turned else "the stiffness of the rotor without its bearings, and nodes in m"
-        raise InputError("K", told, allowed)
+        raise InputError("K", shown, allowed)
     first, second, third = _scaled(stiffness)[: RIGID + 1].tolist()
     if third <= APART * max(abs(first), abs(second)) or first < -ROUNDED:
-        told = f"three lowest eigenvalues, with ones on the diagonal: {first:.3g}, {second:.3g}, {third:.3g}"
+        shown = f"three lowest eigenvalues, with ones on the diagonal: {first:.3g}, {second:.3g}, {third:.3g}"
         allowed = (
             "two that vanish, for the rotor moves freely, and others well above zero; numbers need all their digits"
         )
-        raise InputError("K", told, allowed)
+        raise InputError("K", shown, allowed)
 
 
 def check_gyroscopic(gyroscopic: np.ndarray, nodes: np.ndarray) -> None:

@@ -169,12 +169,12 @@ def _order(coordinates: Sequence[str] | None, mass: np.ndarray, count: int) -> t
     each = len(mass) // count if mass.ndim == 2 else 0
     found = tuple(ORDERS.get(each, ())) if coordinates is None else tuple(coordinates)
     if not set(SIGNS) <= set(found) or len(set(found)) < len(found):
-        told = f"an array of shape {mass.shape}" if coordinates is None else shown(", ".join(map(str, found)))
+        given = f"an array of shape {mass.shape}" if coordinates is None else shown(", ".join(map(str, found)))
         field = "M" if coordinates is None else "coordinates"
         allowed = (
             f"2 (complex), 4 or 6 coordinates at each of {count} nodes, or coordinates that name x, y, alpha and beta"
         )
-        raise InputError(field, told, allowed)
+        raise InputError(field, given, allowed)
     return found
 
 

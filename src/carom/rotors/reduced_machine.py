@@ -69,7 +69,7 @@ class ReducedMachine(Result):
         """Change of the force in a touchdown bearing with half as many vectors more, relative to that force.
 
         It is the root of the means of the squares while the first contact lasts, when the free rotor comes straight with all its mass, tilting, or in
-        its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is told with the motion.
+        its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is stated with the motion.
         """
         return self.machine.error_of(self.basis)
 
@@ -146,7 +146,7 @@ class ReducedMachine(Result):
         ------
         InputError
             There are magnetic bearings or supports, and a motion of the machine with all its modes grows, or of these vectors alone; or an
-            integrator is so slow that under weight it cannot be told from none.
+            integrator is so slow that under weight it cannot be distinguished from none.
         """
         rotor = self.unchecked
         if self.machine.bearings or self.machine.supports:
@@ -163,14 +163,14 @@ class ReducedMachine(Result):
         if slowest.grows:
             more = len(slowest.exponents) - 1
             others = f", {more} more slowly" if more else ""
-            told = f"unstable: {self._named(worst)} grows with {worst.real:.4g} 1/s{others}"
-            raise InputError(UNHELD, told, needed)
+            stated = f"unstable: {self._named(worst)} grows with {worst.real:.4g} 1/s{others}"
+            raise InputError(UNHELD, stated, needed)
         if abs(worst) <= slowest.rounding:
             raise InputError(UNHELD, "not stable: a displacement to one side does not come back", needed)
         if self.unchecked.system.decay < 0.0 and not self.comes_back:
             grown = complex(slowest_of(self.equations, speed).exponents[0])
-            told = f"{self.vectors} vectors, of which {self._named(grown)} grows that the machine does not have"
-            raise InputError("reduction", told, "more modes, or a smaller accuracy")
+            stated = f"{self.vectors} vectors, of which {self._named(grown)} grows that the machine does not have"
+            raise InputError("reduction", stated, "more modes, or a smaller accuracy")
 
     def _named(self, exponent: complex) -> str:
         """A motion that grows, by its exponent, 1/s."""
@@ -201,16 +201,16 @@ class ReducedMachine(Result):
         for number, bearing in enumerate(self.machine.bearings, start=1):
             if np.abs(np.linalg.eigvals(bearing.loop.A)).min(initial=1.0) <= SLOWEST * self.machine.speed:
                 gain = getattr(bearing.controller, "integral", None)
-                name, told, faster = "controller", "a slow integrator", SLOWEST / max(slowest, 1e-300)
-                allowed = f"none, or one {faster:.2g} times as fast: this one cannot be told from none under weight"
+                name, stated, faster = "controller", "a slow integrator", SLOWEST / max(slowest, 1e-300)
+                allowed = f"none, or one {faster:.2g} times as fast: this one acts as none under weight"
                 if gain is not None:
-                    name, told = "integral", f"{gain:g} A/m/s"
-                    allowed = f"0, or at least {faster * gain:.2g} A/m/s: less cannot be told from none under weight"
-                raise InputError(f"[[magnetic_bearing]] {number}: {name}", told, allowed)
+                    name, stated = "integral", f"{gain:g} A/m/s"
+                    allowed = f"0, or at least {faster * gain:.2g} A/m/s: less acts as none under weight"
+                raise InputError(f"[[magnetic_bearing]] {number}: {name}", stated, allowed)
         if not self.machine.bearings:
             raise InputError(UNHELD, "no magnetic bearing, under weight", "one or more that hold the rotor")
-        told = f"none under weight: a motion comes back with {slowest * self.machine.speed:.2g} 1/s"
-        raise InputError(UNHELD, told, f"controllers that hold the rotor{self._weak}")
+        stated = f"none under weight: a motion comes back with {slowest * self.machine.speed:.2g} 1/s"
+        raise InputError(UNHELD, stated, f"controllers that hold the rotor{self._weak}")
 
     @cached_property
     def limited(self) -> Rotor:
@@ -304,5 +304,5 @@ class ReducedMachine(Result):
         wide, ratio = clearance / whole.length, plane.rotor_radius / clearance
         scales = Scales(whole.mass / wide**2, clearance, whole.speed)
         law, race = law_of(bearing, scales, bearing.restitution or 0.0), race_of(bearing, ratio, scales)
-        told = None if plane.bearing.balls is None else plane.bearing
-        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide, told, plane.farthest or FARTHEST)
+        stated = None if plane.bearing.balls is None else plane.bearing
+        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide, stated, plane.farthest or FARTHEST)

@@ -63,7 +63,7 @@ def contact_error(coarse: Basis, fine: Basis, row: np.ndarray, stiffness: float)
     """Difference of the force on a wall between two sets of vectors, relative to the force: root of the means of the squares.
 
     The free rotor comes to a wall with this stiffness, N/m, at what a row measures: straight, with all its mass; tilting; and in its first
-    bending mode.  Compared is the force until contact ends; told is the largest difference.
+    bending mode.  Compared is the force until contact ends; stated is the largest difference.
     """
     end = 2.0 * np.pi * np.sqrt(1.0 / (stiffness * fine.shapes[0, 0] ** 2))  # twice as long as the rigid rotor stays
     times = np.linspace(0.0, end, TIMES)

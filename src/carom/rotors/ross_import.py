@@ -72,10 +72,10 @@ def import_rotor(source: str | os.PathLike[str], name: str | None = None, python
     if not path.is_file():
         raise InputError("source", shown(str(path)), "there is no such file")
     with TemporaryDirectory() as folder:
-        told = _read_by_ross(path, name or "", python or sys.executable, folder)
+        given = _read_by_ross(path, name or "", python or sys.executable, folder)
         rotor, damped = _of_matrices(Path(folder) / "rotor.npz", str(path))
-    bearings, remarks = (tuple(told[key]) for key in ("bearings", "remarks"))
-    return ImportedRotor(rotor, damped, bearings, remarks, told["speed"])
+    bearings, remarks = (tuple(given[key]) for key in ("bearings", "remarks"))
+    return ImportedRotor(rotor, damped, bearings, remarks, given["speed"])
 
 
 def _of_matrices(path: Path, called: str | None = None) -> tuple[MatrixRotor, bool]:
@@ -98,11 +98,11 @@ def _read_by_ross(path: Path, name: str, python: str, folder: str) -> dict[str, 
         )
     except OSError as problem:
         raise InputError("python", shown(python), f"a Python that has ROSS ({problem.strerror})") from None
-    told = Path(folder) / "rotor.json"
-    if not told.is_file():
+    given = Path(folder) / "rotor.json"
+    if not given.is_file():
         last = done.stderr.strip().rpartition("\n")[2] or f"exit code {done.returncode}"
         raise InputError("source", shown(str(path)), f"a file that ROSS can read; it ended with: {shown(last)}")
-    found: dict[str, Any] = json.loads(told.read_text(encoding="utf-8"))
+    found: dict[str, Any] = json.loads(given.read_text(encoding="utf-8"))
     if "refused" in found:
         raise InputError(*found["refused"])
     return found

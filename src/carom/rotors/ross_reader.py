@@ -1,7 +1,7 @@
 """Read a rotor of ROSS in a process of its own: ``python ross_reader.py SOURCE NAME FOLDER``.
 
 Importing ROSS takes seconds, and it may live in another environment, so this program imports nothing of carom.  It writes ``rotor.npz`` and
-``rotor.json`` to the folder.  Matrices are those of the shaft with its discs and point masses, free in space; of bearings their numbers are told.
+``rotor.json`` to the folder.  Matrices are those of the shaft with its discs and point masses, free in space; of bearings their numbers are stated.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ def main(source: str, name: str, folder: str) -> None:
     # Modules beside this file are none of the script's.
     sys.path[0] = str(Path(source).resolve().parent)
     try:
-        told = read(source, name, Path(folder))
+        shown = read(source, name, Path(folder))
     except RefusedError as problem:
-        told = {"refused": problem.args}
-    (Path(folder) / "rotor.json").write_text(json.dumps(told), encoding="utf-8")
+        shown = {"refused": problem.args}
+    (Path(folder) / "rotor.json").write_text(json.dumps(shown), encoding="utf-8")
 
 
 def read(source: str, name: str, folder: Path) -> dict[str, Any]:
@@ -80,9 +80,9 @@ def of_script(source: str, name: str, kind: type) -> Any:
         return made
     rotors = {id(value): (key, value) for key, value in found.items() if isinstance(value, kind)}
     if len(rotors) != 1:
-        told = ", ".join(key for key, _ in rotors.values()) or "none"
+        shown = ", ".join(key for key, _ in rotors.values()) or "none"
         raise RefusedError(
-            "rotors", told, f"one rotor of ROSS in {source}, or --name of one, or of a function that returns it"
+            "rotors", shown, f"one rotor of ROSS in {source}, or --name of one, or of a function that returns it"
         )
     return next(iter(rotors.values()))[1]
 
@@ -99,33 +99,33 @@ def names_of(rotor: Any) -> list[str]:
 def bearing_of(element: Any, speed: float | None) -> dict[str, Any]:
     """Node, kind and numbers of a bearing, at a speed, rad/s, if they depend on it."""
     kind = type(element).__name__
-    told: dict[str, Any] = {"node": int(element.n), "tag": element.tag, "kind": kind}
+    shown: dict[str, Any] = {"node": int(element.n), "tag": element.tag, "kind": kind}
     if kind != "MagneticBearingElement":
         numbers = coefficients_of(element, speed)
         if any(np.ptp(np.ravel(getattr(element, name))) for name in COEFFICIENTS):
-            told["taken"] = f"taken are those at {speed:.10g} rad/s" if speed else "taken are the first"
+            shown["taken"] = f"taken are those at {speed:.10g} rad/s" if speed else "taken are the first"
         alike = all(numbers[f"{of}xx"] == numbers[f"{of}yy"] for of in "kc")
         alike &= not any(numbers[f"{of}{axes}"] for of in "kc" for axes in ("xy", "yx"))
         usual = {"stiffness": numbers["kxx"], "damping": numbers["cxx"]}
-        return {**told, **usual, "alike": alike, "coefficients": numbers}
+        return {**shown, **usual, "alike": alike, "coefficients": numbers}
     gains = [
         np.unique(np.asarray(values, float)) for values in (element.ki, element.ks, element.k_amp, element.k_sense)
     ]
     if any(len(each) != 1 for each in gains):
         raise RefusedError(f"{element.tag}", "other numbers in x and y", "isotropic magnets and amplifiers")
     ki, ks, amplifier, sensor = (float(each[0]) for each in gains)
-    told |= {"ki": ki, "ks": ks}
+    shown |= {"ki": ki, "ks": ks}
     factor, numerator = amplifier * sensor, element.controller_transfer_function_num
     if numerator is not None:
         above, below = (
             np.ravel(each).astype(float).tolist() for each in (numerator, element.controller_transfer_function_den)
         )
-        return {**told, "numerator": [factor * each for each in above], "denominator": below}
+        return {**shown, "numerator": [factor * each for each in above], "denominator": below}
     pid = {"proportional": element.kp_pid, "integral": element.ki_pid, "derivative": element.kd_pid}
     if any(pid.values()):
-        told |= {name: factor * float(value) for name, value in pid.items() if value}
-        told["filter_time"] = 1.0 / float(element.n_f)
-    return told
+        shown |= {name: factor * float(value) for name, value in pid.items() if value}
+        shown["filter_time"] = 1.0 / float(element.n_f)
+    return shown
 
 
 def coefficients_of(element: Any, speed: float | None) -> dict[str, float]:

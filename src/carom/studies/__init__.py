@@ -5,7 +5,7 @@ Read them in this order.
 =======================  ========================================================================================
 ``assembly``             :func:`study` and the frozen :class:`Study`
 ``questions``            the questions of a study, how many events each may take, and what was not reached
-``study_data``           :class:`StudyData`: what a study has found, before it is told
+``study_data``           :class:`StudyData`: what a study has found, before it is stated
 ``ranges``               for which values of a parameter each simple motion exists
 ``trials``               disturbances followed at one value of a parameter after another
 ``recovery``             :func:`find_recovery`: which values of any parameter leave only recovery
@@ -34,7 +34,7 @@ Read them in this order.
 ``document``             results as JSON
 ``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft, and as JSON
 ``critical_speeds``      peaks of the response, with their separation from the operating speeds
-``response_data``        what it has found, before it is told
+``response_data``        what it has found, before it is stated
 ``response_words``       what it says about the machine, in sentences
 ``standards``            limits of vibration: API 617, ISO 14839-2
 =======================  ========================================================================================

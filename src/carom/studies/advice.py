@@ -169,9 +169,9 @@ class Recommendation(Result):
 
     def rows(self) -> list[tuple[str, str]]:
         """Each change in the terms of the machine file, and what came back with it."""
-        told = [(one.terms.entry, f"{one.bound} {one.terms.text}: {one.check.drawn.words}") for one in self.changes]
+        shown = [(one.terms.entry, f"{one.bound} {one.terms.text}: {one.check.drawn.words}") for one in self.changes]
         margins = [(f"margin of {margin.parameter}", percent(margin.share)) for margin in self.margins]
-        return [("kind", self.kind), *told, *margins]
+        return [("kind", self.kind), *shown, *margins]
 
 
 def recommend(

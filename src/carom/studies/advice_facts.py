@@ -38,17 +38,17 @@ _fact = partial(Fact, "Recommendation")
 
 def advice_facts(study: StudyData) -> Iterator[Fact]:
     """The machine, what it does now, the changes that help, and how sure all this is."""
-    say, machine, recommended, told = (
+    say, machine, recommended, shown = (
         study.wording,
         study.case.machine,
         study.recommendation,
         [present_values(study.case)],
     )
     if machine is not None:
-        told += [
+        shown += [
             f"{name} {format_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
         ]
-    yield _fact(", ".join(told), "Machine")
+    yield _fact(", ".join(shown), "Machine")
     kind = recommended.kind
     if kind in _NO_CHANGE:
         unfinished = kind == "no-change-found" and not all(

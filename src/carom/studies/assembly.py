@@ -89,7 +89,7 @@ class Study(StudyData):
 
     @cached_property
     def facts(self) -> tuple[Fact, ...]:
-        """All that was found, in the order in which it is told."""
+        """All that was found, in the order in which it is stated."""
         return tuple(facts_of(self))
 
     @cached_property
@@ -139,7 +139,7 @@ def study(
     proof_time : str or float
         Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
     time_limit : str or float, optional
-        Time in s or with a unit after which no further motions are followed, and what was not reached is told.  Otherwise a budget of
+        Time in s or with a unit after which no further motions are followed, and what was not reached is stated.  Otherwise a budget of
         events (:mod:`carom.studies.questions`) alone decides what is followed, so that the answer does not depend on the computer.
 
     Raises

@@ -38,7 +38,7 @@ NOT_COVERED = (SAMPLED.format(but=""), LONGER_MOTIONS, RIGID_WALL, PLANAR)
 def not_covered(study: StudyData) -> tuple[str, ...]:
     """What the study does not cover, by what the rotor has."""
     rotor, exact = study.rotor, study.known.orbits
-    told = {
+    shown = {
         SAMPLED.format(but=PROVEN_KICKS if study.kicks is not None and study.kicks.share else ""): True,
         LONGER_MOTIONS: True,
         COMPLIANT_WALL if (rotor.system.arrays["stiffness"] > 0.0).any() else RIGID_WALL: True,
@@ -47,4 +47,4 @@ def not_covered(study: StudyData) -> tuple[str, ...]:
         CLOSED_FORMS: not exact,
         AT_LIMITS: bool(rotor.system.limits),
     }
-    return tuple(text for text, holds in told.items() if holds)
+    return tuple(text for text, holds in shown.items() if holds)

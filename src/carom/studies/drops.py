@@ -93,8 +93,8 @@ class DropStudy(Result):
         }
         if loads.shaft is not None:
             document["shaft"] = record(loads.shaft, SHAFT, scales)
-        told = {"reduction": self.reduction, "magnets": loads.magnets}
-        document |= {name: part.document() for name, part in told.items() if part is not None}
+        shown = {"reduction": self.reduction, "magnets": loads.magnets}
+        document |= {name: part.document() for name, part in shown.items() if part is not None}
         return document | {"touchdown_bearings": load_entries(loads, case.limits)}
 
 

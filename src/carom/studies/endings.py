@@ -23,7 +23,7 @@ def ending_words(outcome: Outcome, motions: Iterable[MotionName] = ()) -> str:
     """Say where a disturbance with an outcome ends: ``it ends in synchronous rub``; undecided outcomes are no ends.
 
     The motion has its own name if it is the only one of the known motions with this outcome.  Bouncing on no known orbit may
-    have been given up after its last impact that was followed, and is not told as an end.
+    have been given up after its last impact that was followed, and is not stated as an end.
     """
     if outcome is Outcome.BEYOND_MODEL:
         return f"it goes {outcome.words}"

@@ -31,7 +31,7 @@ RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 
 
 def facts_of(study: StudyData) -> Iterator[Fact]:
-    """List all facts of a study, in the order in which they are told."""
+    """List all facts of a study, in the order in which they are stated."""
     yield from verdict_facts(study)
     yield from drop_headline(study)
     yield from advice_facts(study)

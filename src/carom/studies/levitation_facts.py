@@ -78,7 +78,7 @@ def response_words(at_speed: SynchronousResponse) -> str:
 def critical_speed_facts(found: Levitating) -> Iterator[Fact]:
     """Peaks of the response to unbalance, with their separation from the speed of the machine."""
     if found.machine is not None and found.response is None:
-        yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
+        yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be stated.")
     for each in found.criticals:
         text = critical_words(each, (found.speed, found.speed), found.measured_at)
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
@@ -93,11 +93,11 @@ def critical_speed_facts(found: Levitating) -> Iterator[Fact]:
 def bearing_facts(found: Levitating) -> Iterator[Fact]:
     """Sensitivity of the loops, and whirls of which a node lies at a bearing."""
     if any(each.zone is None for each in found.loops):
-        text = "No sensitivity is told of a loop that is unstable: it measures how far a stable one is from that."
+        text = "No sensitivity is stated of a loop that is unstable: it measures how far a stable one is from that."
         yield Fact("Magnetic bearings", text, "Sensitivity")
     elif found.loops:
-        told = listed([f"{_peak(each)}, zone {each.zone}, of bearing {each.bearing}" for each in found.loops])
-        yield Fact("Magnetic bearings", f"Largest sensitivity: {told} ({SENSITIVITY_LIMITS}).", "Sensitivity")
+        shown = listed([f"{_peak(each)}, zone {each.zone}, of bearing {each.bearing}" for each in found.loops])
+        yield Fact("Magnetic bearings", f"Largest sensitivity: {shown} ({SENSITIVITY_LIMITS}).", "Sensitivity")
     doubtful = [each for each in found.collocations if each.opposed or each.hardly]
     for each in doubtful:
         name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"

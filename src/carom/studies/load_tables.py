@@ -39,7 +39,7 @@ RIGID = (
     ("lasting contact", "force up to {force}, {contact_time} together"),
     *_IN_BOTH,
 )
-"""What people are told of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
+"""What people see of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 
 

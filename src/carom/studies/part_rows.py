@@ -40,8 +40,8 @@ def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):
         room = format_entry(PLANE_FIELDS["clearance"], clearance)
         others = {name: field for name, field in PLANE_FIELDS.items() if name != "clearance"}
-        told = f"clearance {room}, {_entries(plane, others)}; {plane.bearing.words}"
-        yield f"touchdown bearing {place}", f"at {at(plane.node)}: {told}"
+        shown = f"clearance {room}, {_entries(plane, others)}; {plane.bearing.words}"
+        yield f"touchdown bearing {place}", f"at {at(plane.node)}: {shown}"
     for place, unbalance in enumerate(machine.unbalances, start=1):
         yield (
             f"unbalance {place}",

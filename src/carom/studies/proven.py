@@ -65,6 +65,6 @@ def is_proven(proof: Any, orbit: Orbit) -> bool:
     """Whether what a study says of an orbit is proven: that it is a motion or not, and stable or not."""
     if proof is None:
         return False
-    told = {f"{orbit.name} admissible": orbit.admissible, f"{orbit.name} stable": orbit.stable}
-    known = {claim.name: claim.status for claim in proof if claim.name in told}
-    return all(known.get(name) == ("proven" if holds else "refuted") for name, holds in told.items())
+    shown = {f"{orbit.name} admissible": orbit.admissible, f"{orbit.name} stable": orbit.stable}
+    known = {claim.name: claim.status for claim in proof if claim.name in shown}
+    return all(known.get(name) == ("proven" if holds else "refuted") for name, holds in shown.items())

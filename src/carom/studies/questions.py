@@ -1,4 +1,4 @@
-"""The questions of a study, how many events each may take, and what is told where these did not suffice.
+"""The questions of a study, how many events each may take, and what is stated where these did not suffice.
 
 An event, an impact or a step of lasting contact, takes some 10 microseconds, of a rotor of 64 modes 70; a motion without contact counts as
 60.  Motions of planar rotors on a rigid wall do not count (:mod:`carom.motions.budget`).
@@ -46,9 +46,9 @@ def events_for(rotor: Rotor, question: str) -> int:
 def unfinished_facts(questions: Sequence[Question]) -> Iterator[Fact]:
     """What was not followed to its end, and how much of it was."""
     if questions:
-        told = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in questions]
+        shown = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in questions]
         text = (
-            f"Not followed to the end: {listed(told)}. Each question of a study has a fixed number of events, so that "
+            f"Not followed to the end: {listed(shown)}. Each question of a study has a fixed number of events, so that "
             "its answer does not depend on the computer; a time limit ends it earlier."
         )
         yield Fact("Not reached", text, values={"questions": [record(each, UNFINISHED) for each in questions]})

@@ -126,11 +126,11 @@ def motion_ranges(rotor: Rotor, along: Axis, progress: ShowProgress = None) -> t
 def _of_the_machine(rotor: Rotor, along: Axis, entry: MotionRange) -> MotionRange:
     """The same range of what a machine has in place of a dimensionless parameter."""
 
-    def told(span: Span) -> Span:
+    def shown(span: Span) -> Span:
         return Span(*(replace(edge, value=own_entry(entry.parameter, edge.value, rotor.scales)[1]) for edge in span))
 
-    searched = told(entry.searched) if entry.searched else None
-    return replace(entry, parameter=along.name, spans=tuple(map(told, entry.spans)), searched=searched)
+    searched = shown(entry.searched) if entry.searched else None
+    return replace(entry, parameter=along.name, spans=tuple(map(shown, entry.spans)), searched=searched)
 
 
 def _steady_ranges(rotor: Rotor, along: Axis, values: Sequence[float]) -> list[MotionRange]:

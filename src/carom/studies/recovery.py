@@ -77,7 +77,7 @@ class Recovery(Result):
     complete: bool = True
 
     def line_of(self, name: str, value: object) -> str:
-        """Spans are told in the unit of the parameter."""
+        """Spans are stated in the unit of the parameter."""
         if name not in ("searched", "spans"):
             return super().line_of(name, value)
         ranges = ((span.low.value, span.high.value) for span in getattr(self, name))

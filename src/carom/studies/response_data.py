@@ -1,4 +1,4 @@
-"""The unbalance response over the speed of the shaft, before it is told in words."""
+"""The unbalance response over the speed of the shaft, before it is stated in words."""
 
 from __future__ import annotations
 

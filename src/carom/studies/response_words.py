@@ -71,15 +71,13 @@ def critical_words(critical: Critical, operating: tuple[float, float], place: st
     at = f"{rpm(critical.speed)}, {micrometres(critical.amplitude)} 0-to-peak at {place} {critical.bearing}"
     if factor is None:
         return f"{at}; critically damped peak: API 617 requires no separation margin."
-    told = f"amplification factor {number(factor, 3)}"
+    shown = f"amplification factor {number(factor, 3)}"
     if factor < CRITICALLY_DAMPED:
-        return f"{at}; {told}: critically damped: API 617 requires no separation margin."
+        return f"{at}; {shown}: critically damped: API 617 requires no separation margin."
     low, high = operating
     run = rpm(low if margin.side == "below" else high)
     where = f"{number(100.0 * margin.actual, 3)} % {margin.side} {run}" if margin.side != "inside" else f"at {run}"
-    return (
-        f"{at}; {told}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
-    )
+    return f"{at}; {shown}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
 
 
 def _limit(response: ResponseData) -> str:

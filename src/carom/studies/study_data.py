@@ -1,4 +1,4 @@
-"""What a study has found of a machine, before it is told in words."""
+"""What a study has found of a machine, before it is stated in words."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ class MotionRow:
     """Number of disturbances that ended there."""
     remark: str = ""
     multipliers: str = ""
-    """Non-trivial ones of an orbit, where they are told."""
+    """Non-trivial ones of an orbit, where they are stated."""
 
 
 MOTIONS: dict[Motion, str] = {

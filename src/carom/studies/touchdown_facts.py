@@ -28,7 +28,7 @@ BORNE = {
         ("lasting", "{force} in {contact_time} of lasting contact"),
     ),
 }
-"""What is told of a compliant touchdown bearing, and of a rigid one."""
+"""What is stated of a compliant touchdown bearing, and of a rigid one."""
 HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
 NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
 
@@ -55,13 +55,13 @@ def drop_headline(study: StudyData) -> Iterator[Fact]:
     drop = study.drop
     if drop is None:
         return
-    told = [
+    shown = [
         f"{title and f'{title.lower()} '}{', '.join(f'{label} {words}' for label, words in rows if label in HEADLINE) or 'no contact'}"
         for title, rows in drop.tables
     ]
     limits = "" if study.case.limits.given else "; no limit of a touchdown bearing is stated to compare them with"
     loads = drop.loads
-    text = f"{loads.outcome.words} after {study.wording.time(loads.time)}; {'; '.join(told)}{limits}"
+    text = f"{loads.outcome.words} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
     yield Fact("Verdict", f"{text}{ASSUMED if drop.assumed else ''}", "Drop", "sampled")
 
 

@@ -117,7 +117,7 @@ def survived_cells(study: StudyData, name: Kind, found: SmallestUnrecovered) -> 
     """What of one kind of disturbance is survived, by :data:`SURVIVED`; what is not known is left out."""
     cells = size_cells(study.wording, found, lost_to(study, name, found))
     if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
-        cells["sure"] = f"{study.kicks.told_up_to} (proven)"
+        cells["sure"] = f"{study.kicks.shown_up_to} (proven)"
     return {column: cells[column] for column in SURVIVED if column in cells}
 
 
@@ -131,11 +131,11 @@ def size_cells(wording: Wording, found: SmallestUnrecovered, *remarks: str) -> d
     if (up_to := found.largest if none else found.all_back) is not None:
         most = "; with more it cannot levitate" if none and name == "blade_loss" else ""
         cells["back"] = f"{size(up_to)} ({found.tried:,} tried{most})"
-    told = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "not searched to the end")))
+    shown = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "not searched to the end")))
     if found.size is not None:
-        cells["lost"] = f"{size(found.size)} ({told})"
+        cells["lost"] = f"{size(found.size)} ({shown})"
     elif not found.complete:
-        cells["lost"] = told
+        cells["lost"] = shown
     return cells
 
 
@@ -151,8 +151,8 @@ def condition_of(study: StudyData, name: Kind) -> str:
 
 def _survived(study: StudyData, name: Kind, found: SmallestUnrecovered) -> str:
     of, cells = condition_of(study, name), survived_cells(study, name, found)
-    told = ", ".join(f"{SURVIVED[column]} {cell}" for column, cell in cells.items())
-    return f"{of}: {told}" if of else told
+    shown = ", ".join(f"{SURVIVED[column]} {cell}" for column, cell in cells.items())
+    return f"{of}: {shown}" if of else shown
 
 
 def lost_to(study: StudyData, name: Kind, found: SmallestUnrecovered) -> str:

@@ -109,7 +109,7 @@ class Wording:
 
     @property
     def of_machine(self) -> Scales | None:
-        """Scales by which parameters are told in the terms of the machine; ``None`` where dimensionless numbers are."""
+        """Scales by which parameters are stated in the terms of the machine; ``None`` where dimensionless numbers are."""
         return self.scales if self.in_terms else None
 
     def write(self, value: Any, kind: str = "") -> str:

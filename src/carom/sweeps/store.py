@@ -134,8 +134,8 @@ class SweepStore:
         """Return the first failed points: index in the grid, parameters and error of each."""
         found: list[dict[str, Any]] = []
         for number in sorted(self._failed):
-            told = self._record(number)
-            found += told.failures if told else []
+            shown = self._record(number)
+            found += shown.failures if shown else []
             if len(found) >= MOST_FAILURES:
                 break
         return found[:MOST_FAILURES]
@@ -197,7 +197,7 @@ class SweepStore:
             self._write_file(status, status_data)
             sync_directory(status.parent)
         except OSError as problem:
-            raise self._refusal(problem, told=True) from None
+            raise self._refusal(problem, shown=True) from None
         self._finished[number] = True
         self._points += plan.size(number)
         self._note(kept)
@@ -213,9 +213,9 @@ class SweepStore:
     def _write_file(self, target: Path, data: bytes) -> None:
         write_whole(target, data, self.path / PARTS)
 
-    def _refusal(self, problem: OSError, told: bool = False) -> InputError:
+    def _refusal(self, problem: OSError, shown: bool = False) -> InputError:
         reason = problem.strerror or str(problem)
-        if not told:
+        if not shown:
             place = f": {problem.filename}" if problem.filename and Path(problem.filename) != self.path else ""
             return InputError(
                 OPTION, self.path, f"cannot be read or written ({reason}{place}); fix this or give another directory"

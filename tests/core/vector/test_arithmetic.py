@@ -166,9 +166,9 @@ def test_each_lane_is_as_one_number(compute, edges):
             for row in np.flatnonzero(~close):
                 case = cases[row][0]
                 # A real factor has no imaginary part here; NumPy's is zero, and times infinity no number.
-                told = f"{case.expression} with {one}: {results[row, :, lane]}, not {values[row]}"
-                assert case.size, told
-                assert edges, told
+                stated = f"{case.expression} with {one}: {results[row, :, lane]}, not {values[row]}"
+                assert case.size, stated
+                assert edges, stated
 
 
 def test_what_is_no_number_is_in_no_order(compute):

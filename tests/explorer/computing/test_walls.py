@@ -27,8 +27,8 @@ def test_impacts_of_a_rigid_wall_are_those_of_its_log():
     assert hits.count == len(log.time) > 0
     np.testing.assert_array_equal(hits.blow, log.normal_impulse)
     assert (hits.hardest, hits.deepest) == (log.normal_impulse.max(), 0.0)
-    assert RIGID.told(hits, SCALES).startswith("hardest impulse ")
-    assert RIGID.told(hits, SCALES).endswith(" N s")
+    assert RIGID.stated(hits, SCALES).startswith("hardest impulse ")
+    assert RIGID.stated(hits, SCALES).endswith(" N s")
 
 
 def test_arrivals_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion(motion):

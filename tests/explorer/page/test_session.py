@@ -24,15 +24,15 @@ class Page:
     """A session whose answers are kept."""
 
     def __init__(self, ready: threading.Event) -> None:
-        self.told: queue.Queue = queue.Queue()
+        self.stated: queue.Queue = queue.Queue()
         self.seen: list[tuple[str, object]] = []
         origin = Origin(MACHINE, (), carom.load(MACHINE))
-        self.session = Session(origin, lambda name, value: self.told.put((name, value)), ready)
+        self.session = Session(origin, lambda name, value: self.stated.put((name, value)), ready)
 
     def until(self, name, fits=lambda value: True):
         """Wait for an answer."""
         while True:
-            found, value = self.told.get(timeout=SOON)
+            found, value = self.stated.get(timeout=SOON)
             self.seen.append((found, value))
             if found == name and fits(value):
                 return value

@@ -37,7 +37,7 @@ def compiles_plainly() -> bool:
         return False
     warnings.warn(
         f"Numba {numba.__version__} has not been tried with carom, so its kernels take several times as long to compile "
-        f"when they are first called; set {VARIABLE}={PLAIN} to be told no more, or install Numba {TRIED[-1]}",
+        f"when they are first called; set {VARIABLE}={PLAIN} to silence this, or install Numba {TRIED[-1]}",
         CaromWarning,
         stacklevel=2,
     )

@@ -80,7 +80,7 @@ def picture_along(rotor: Rotor, control: Control, progress: ShowProgress = None)
 
 
 def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:
-    return diagram.told_speeds(branch.values, branch.radial_speed)
+    return diagram.shown_speeds(branch.values, branch.radial_speed)
 
 
 def _lines(branch: OrbitBranch, unit: float, speeds: np.ndarray) -> list[Line]:
@@ -113,7 +113,7 @@ def _points(diagram: Diagram, unit: float) -> list[Point]:
     points = []
     for found in diagram.points:
         look = BOUNDARIES.get(found.detail, POINTS[found.kind])
-        height = 0.0 if np.isnan(found.radial_speed) else float(diagram.told_speeds(found.value, found.radial_speed))
+        height = 0.0 if np.isnan(found.radial_speed) else float(diagram.shown_speeds(found.value, found.radial_speed))
         words = look.words if found.motion != "orbit" else f"{look.words}, {found.name}"
         points.append(Point(found.value / unit, height, words, look.colour, found.admissible))
     return points

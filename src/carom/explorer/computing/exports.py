@@ -176,13 +176,13 @@ def _disturbance(rotor: Rotor, kick: Kick) -> tuple[str, str, str, str]:
         model = f"RestKick({kick.largest!r}, {kick.rest.place!r}{among})"
         start = f"machine, cm.State({_numbers(kick.state.position)}, {_numbers(kick.state.velocity)})"
         return "carom.explorer.computing.rest", model, grid, start
-    told, turned = kick.texts(rotor)
-    told = json.dumps(told) if rotor.scales else told
+    stated, turned = kick.texts(rotor)
+    stated = json.dumps(stated) if rotor.scales else stated
     return (
         "carom.disturbances",
         f"KickPlane({kick.largest!r})",
         grid,
-        f"machine, cm.kick({told}, {json.dumps(turned)})",
+        f"machine, cm.kick({stated}, {json.dumps(turned)})",
     )
 
 

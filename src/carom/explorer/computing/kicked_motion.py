@@ -145,7 +145,7 @@ def _at_bearing(shown: Trajectory, times: np.ndarray, every: Hits) -> AtBearing:
         forward=log.angular_speed > -1.0,
         spans=tuple(map(span_of, shown.lasting_contacts)),
         hardest=every.hardest,
-        words=f"{counted(every.count, wall.noun)}; {wall.told(every, shown.scales)}"
+        words=f"{counted(every.count, wall.noun)}; {wall.stated(every, shown.scales)}"
         if every.count
         else f"no {wall.noun}",
     )
@@ -174,7 +174,7 @@ def _words(motion: Trajectory, begin: str, hits: list[Hits], ending: str) -> str
     wall, seen = wall_at(motion.rotor, worst), motion.seen_at(worst)
     met = [str(place) for place, every in enumerate(hits, start=1) if every.count]
     where = f" at touchdown bearing{'s' if len(met) > 1 else ''} {listed(met)}" if len(hits) > 1 and met else ""
-    load, count = wall.told(hits[worst], seen.scales), sum(every.count for every in hits)
+    load, count = wall.stated(hits[worst], seen.scales), sum(every.count for every in hits)
     if motion.outcome in REPEATING:
         return f"{begin} ends in {ending}; {load}."
     impacts = f"without {wall.one}" if count == 0 else f"after {counted(count, wall.noun)}{where}; {load}"

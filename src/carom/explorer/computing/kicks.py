@@ -141,7 +141,7 @@ def _ending(look: MotionLook) -> Ending:
 def _map_losses(rotor: Rotor, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
     """The same of losses of a blade.
 
-    Changes that leave one size of the unbalance lead to one machine.  So a cell shows the nearest of few sizes, each with many phases; motions are told
+    Changes that leave one size of the unbalance lead to one machine.  So a cell shows the nearest of few sizes, each with many phases; motions are stated
     by their outcome alone.
     """
     before, middles = rotor.value("rho"), (np.arange(cells) + 0.5) * 2.0 / cells - 1.0

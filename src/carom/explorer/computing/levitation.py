@@ -117,7 +117,7 @@ def response_of(case: Case, progress: ShowProgress = None) -> tuple[SynchronousR
     found = unbalance_response(case)
     tell(0.5)
     loops = tuple(fact.text for fact in bearing_facts(levitating(case, rotor)))
-    told = {"Response to unbalance": found.words, **({"Magnetic bearings": loops} if loops else {})}
+    shown = {"Response to unbalance": found.words, **({"Magnetic bearings": loops} if loops else {})}
     if rotor.finite_elements is not None:
-        told["Accuracy"] = (reduction_words(rotor.finite_elements), ALONG)
-    return found.whirl, told
+        shown["Accuracy"] = (reduction_words(rotor.finite_elements), ALONG)
+    return found.whirl, shown

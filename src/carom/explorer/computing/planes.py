@@ -80,11 +80,11 @@ class Plane:
         return size / float(getattr(scales, self.scale)) if scales else size
 
     def shown(self, scales: Scales | None) -> tuple[float, str]:
-        """Factor from sizes in units of the equations to those that people are told, and their unit."""
+        """Factor from sizes in units of the equations to those that people see, and their unit."""
         return shown_in(self.scale, scales)
 
     def per_unit(self, scales: Scales | None) -> float:
-        """A size of one in the unit that people are told."""
+        """A size of one in the unit that people see."""
         return (float(getattr(scales, self.scale)) if scales else 1.0) / self.shown(scales)[0]
 
     @property
@@ -125,8 +125,8 @@ class Plane:
         if self.name == "kick":
             velocity = rest.velocity(first, second)
             turned = format_angle(cmath.phase(velocity) % math.tau)
-            told_size = format_quantity(abs(velocity), "velocity", rotor.scales)
-            return rotor, rest.kicked(first, second), f"A kick of {told_size} at {turned}"
+            kick_size = format_quantity(abs(velocity), "velocity", rotor.scales)
+            return rotor, rest.kicked(first, second), f"A kick of {kick_size} at {turned}"
         words = f"{format_quantity(size, self.scale, rotor.scales)}"
         turned = format_angle(angle % math.tau)
         if self.name == "shock":

@@ -91,7 +91,7 @@ class Wall:
         """Write a blow with its unit."""
         return Wording(scales).force(hardest) if self.compliant else Wording(scales).impulse(hardest)
 
-    def told(self, hits: Hits, scales: Scales | None) -> str:
+    def stated(self, hits: Hits, scales: Scales | None) -> str:
         """The load of a motion in words."""
         load = self.load(hits.hardest, scales)
         if not self.compliant:

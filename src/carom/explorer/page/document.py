@@ -40,7 +40,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         try:
             document.add_next_tick_callback(partial(setattr, answers, name, value))
         except AttributeError:
-            # Bokeh has taken the document of a closed page apart; its session is told of it only after that.
+            # Bokeh has taken the document of a closed page apart; its session is stated of it only after that.
             raise SupersededError from None
 
     session = Session(origin, hand_over, ready)

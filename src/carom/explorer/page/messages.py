@@ -64,12 +64,12 @@ def units_message(scales: Scales | None) -> Message:
     return message
 
 
-WAITS = "told when the picture is fine"
+WAITS = "stated when the picture is fine"
 """What a coarse picture says of the smallest that is lost."""
 
 
 def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message:
-    """The picture of a basin, its legend, and what is read off it; sizes in the unit that people are told."""
+    """The picture of a basin, its legend, and what is read off it; sizes in the unit that people see."""
     plane, scales = found.plane, rotor.scales
     factor, unit = plane.shown(scales)
     lost, (share, words) = None if coarse else found.smallest_lost, judged_share(found, rotor)
@@ -173,7 +173,7 @@ def response_message(found: SynchronousResponse, words: dict[str, tuple[str, ...
         "walls": walls,
         "speed": rotor.scales.speed / RPM if rotor.scales else 0.0,
         "top": top,
-        "told": words,
+        "stated": words,
     }
 
 
@@ -183,7 +183,7 @@ def table_message(table: MotionTable) -> Message:
 
 
 def loss_message(found: Loss, plane: Plane, scales: Scales | None) -> Message:
-    """The smallest loss, with its size in the unit that people are told."""
+    """The smallest loss, with its size in the unit that people see."""
     size = 0.0 if found.size is None else plane.shown(scales)[0] * found.size
     return {"size": size, "value": found.value, "remark": found.remark}
 

@@ -12,7 +12,7 @@ class Requests(DataModel):
     ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged), ``along``
     (the control moved last) and ``view``: the ``kind`` of disturbances shown, the ``largest`` of the picture and the
     ``kicks`` that are drawn, all of which may be missing.  ``kick`` holds ``number``, ``slot`` (from 0), ``first`` and
-    ``second``: one of them, by its components.  Sizes are in the unit that people are told.
+    ``second``: one of them, by its components.  Sizes are in the unit that people see.
     ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.  ``wish`` holds the ``name`` of what takes long and is
     begun only so, and counts how often it was asked for.
     """

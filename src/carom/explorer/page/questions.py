@@ -152,7 +152,7 @@ class Questions:
         return values_of(subject.case, self.controls)
 
     def kicks(self, shown: Shown) -> Pairs:
-        """Components of both disturbances drawn, in the unit that people are told: those asked for, or those found telling."""
+        """Components of both disturbances drawn, in the unit that people see: those asked for, or those found telling."""
         asked = shown.view.kicks
         if asked is not None and len(asked) == len(SLOTS):
             return asked

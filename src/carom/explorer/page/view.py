@@ -21,7 +21,7 @@ class View:
     ----------
     kind : str
     largest : float or None
-        Range of the picture, in the unit that people are told.
+        Range of the picture, in the unit that people see.
     kicks : tuple of pairs of float, or None
         Components of the disturbances that are drawn, in this unit.
     active : int

@@ -5,7 +5,7 @@ carom.address = {};
 (() => {
   const machine = at("controls").dataset.machine, views = ["show", "range", "kick", "other", "ring", "frame"];
   const depth = () => (history.state && history.state.depth) || 0;
-  const told = () => at("undo").toggleAttribute("disabled", depth() === 0);
+  const update = () => at("undo").toggleAttribute("disabled", depth() === 0);
 
   const fragment = () => {
     const parts = { ...carom.controls.settings, ...carom.stage.kept() };
@@ -16,7 +16,7 @@ carom.address = {};
     if (words === location.hash) return;
     if (anew) history.pushState({ depth: depth() + 1 }, "", words || location.pathname);
     else history.replaceState({ depth: depth() }, "", words || location.pathname);
-    told();
+    update();
   };
 
   const read = () => {
@@ -29,9 +29,9 @@ carom.address = {};
     carom.controls.replace(texts);
     carom.stage.restore(Object.fromEntries([...kept].filter(([name]) => views.includes(name))));
     carom.controls.ask(false, false);
-    told();
+    update();
   };
-  carom.address.begin = () => { read(); carom.address.keep(false); told(); };
+  carom.address.begin = () => { read(); carom.address.keep(false); update(); };
   window.addEventListener("popstate", read);
   const undo = () => { if (depth() > 0) history.back(); };
   at("undo").addEventListener("click", undo);

@@ -67,8 +67,8 @@
   });
   carom.on("response", (message) => {
     carom.panels.shown("response", message);
-    const told = Object.entries(message.told || { "Response to unbalance": [message.refused] });
-    at("told").replaceChildren(...told.flatMap(([heading, sentences]) => {
+    const stated = Object.entries(message.stated || { "Response to unbalance": [message.refused] });
+    at("stated").replaceChildren(...stated.flatMap(([heading, sentences]) => {
       const title = document.createElement("h4"), list = document.createElement("ul");
       title.textContent = heading;
       list.append(...listed(sentences));

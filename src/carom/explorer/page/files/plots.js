@@ -37,7 +37,7 @@ carom.begin_plots = (parts, plots) => {
   theme();
   carom.parts.push(theme);
 
-  // The same marks as in carom's figures: by the direction of whirl, told apart without colour.
+  // The same marks as in carom's figures: by the direction of whirl, distinguished without colour.
   const marks = (forward) => ({
     colour: forward.map((one) => (one ? carom.looks.forward : carom.looks.backward)),
     marker: forward.map((one) => (one ? "triangle" : "inverted_triangle")),

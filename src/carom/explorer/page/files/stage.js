@@ -84,7 +84,7 @@ carom.stage = {};
     const message = basin.message, [one, many] = message.nouns, [share, cells] = basin.ring ? basin.shareWithin(basin.ring) : [1, 0];
     at("ring-note").textContent = basin.ring
       ? `${message.coarse ? "Coarse so far: about " : ""}${share > 0.999 && share < 1 ? "almost 100" : short(100 * share, 3)} % of the ${many} inside the ring come back${cells < 30 ? " (few cells; narrow the range)" : ""}. Drag the ring to ask about another size.`
-      : message.coarse ? "The picture is coarse: what is lost, and what comes back inside a ring, is told when it is fine." : `None of the ${many} tried is lost.`;
+      : message.coarse ? "The picture is coarse: what is lost, and what comes back inside a ring, is stated when it is fine." : `None of the ${many} tried is lost.`;
     legend(message);
   };
   const ringed = () => { basin.setRing(ringOf(basin.message)); note(); };
