@@ -19,6 +19,7 @@
 ``restitution``           restitution and what a compliant wall dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
+``columns``               columns of tables and JSON: key, heading and text of each, declared once
 ``formats``               sizes and numbers as people write them: mm/s, g, degrees
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
 ========================  ========================================================================================================================
