@@ -13,10 +13,33 @@ import mpmath
 import numpy as np
 from scipy.linalg import expm
 
-from carom.parameters import Parameters
+from carom.parameters import Machine, Parameters
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 """The machine of the source paper at a damping in the middle of its range."""
+DECIMAL = {
+    "gamma": "0.1",
+    "omega": "0.76",
+    "rho": "3/7",
+    "phi": "0.21",
+    "mu": "0.15",
+    "d": "0.95",
+    "radius_ratio": "400/7",
+}
+"""The same by the exact numbers of the paper."""
+REAL = Machine(
+    mass="50 kg",
+    damping="1400 N s/m",
+    stiffness="9.8e5 N/m",
+    eccentricity="0.3 mm",
+    clearance="0.7 mm",
+    rotor_radius="40 mm",
+    speed="184.2 rad/s",
+    unbalance_phase="0.21 rad",
+    friction=0.15,
+    restitution=0.95,
+)
+"""The machine of the examples."""
 
 
 def random_parameters(random: np.random.Generator, **fixed: float) -> Parameters:

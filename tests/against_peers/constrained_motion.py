@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from carom.base.outcome import Phase
 from carom.parameters import Parameters
@@ -122,41 +121,6 @@ class HeyokaIntegrator:
         path = set_out(_heyoka_integrator(phase, False), values, time, state).propagate_grid(times)[-1]
         # heyoka numbers terminal events −1, −2, …
         return Segment(phase, times, path[:, 0], path[:, 1], -1 - code if -100 < code < 0 else None)
-
-
-class ScipyIntegrator:
-    """Explicit Runge–Kutta of order 8 with dense output (Dormand and Prince) and Brent's root search."""
-
-    precision = 1e-11
-
-    def segment(
-        self, parameters: Parameters, phase: Phase, angle: float, rate: float, time: float, until: float
-    ) -> Segment:
-        sign, mu = SIGN[phase], parameters.mu
-
-        def flow(_, state):
-            free = pull(parameters, *state)
-            return state[1], 0.0 if sign == 0.0 else free - sign * mu * push(parameters, *state)
-
-        def first(_, state):
-            across = push(parameters, *state)
-            return mu * across - pull(parameters, *state) if sign == 0.0 else across
-
-        def second(_, state):
-            if sign == 0.0:
-                return mu * push(parameters, *state) + pull(parameters, *state)
-            return sign * (parameters.radius_ratio + 1.0 + state[1])
-
-        for event in (first, second):
-            event.terminal, event.direction = True, -1
-        settings = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14, "max_step": 0.02}
-        start = min(time + LEAD, until)
-        lead = solve_ivp(flow, (time, start), (angle, rate), **settings)
-        main = solve_ivp(flow, (start, until), lead.y[:, -1], events=(first, second), dense_output=True, **settings)
-        times = np.linspace(time, main.t[-1], 9)
-        path = np.column_stack([(angle, rate), main.sol(times[1:])])
-        event = None if main.status == 0 else (LIFT_OFF if main.t_events[0].size else SLIP_STOP)
-        return Segment(phase, times, path[0], path[1], event)
 
 
 def random_contact(random: np.random.Generator) -> tuple[Parameters, float, float]:

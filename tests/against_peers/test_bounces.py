@@ -20,7 +20,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.parameters import Parameters
 
-from .bouncing import HeyokaFlights, ScipyFlights, bounces, error_bounds
+from .bouncing import HeyokaFlights, bounces, error_bounds
 
 LARGEST = 1e-6
 """Errors up to which their growth is a matter of first derivatives."""
@@ -56,12 +56,10 @@ CASES = {
 }
 
 
-@pytest.fixture(params=["heyoka", "scipy"], scope="module")
-def peer_of(request):
-    if request.param == "heyoka":
-        pytest.importorskip("heyoka", reason="heyoka is not installed (it has no package for this platform)")
-        return HeyokaFlights
-    return lambda parameters: ScipyFlights(parameters, 1e-12, longest_step=0.05, careful=True)
+@pytest.fixture(scope="module")
+def peer_of():
+    pytest.importorskip("heyoka", reason="heyoka is not installed (it has no package for this platform)")
+    return HeyokaFlights
 
 
 def compare(parameters: Parameters, position: complex, velocity: complex, until: float, peer) -> dict[str, float]:

@@ -14,7 +14,6 @@ from carom.parameters import Parameters
 
 from .constrained_motion import (
     HeyokaIntegrator,
-    ScipyIntegrator,
     Segment,
     contact_phases,
     friction,
@@ -44,12 +43,10 @@ CASES = {
 }
 
 
-@pytest.fixture(params=["heyoka", "scipy"], scope="module")
-def integrator(request):
-    if request.param == "heyoka":
-        pytest.importorskip("heyoka", reason="heyoka is not installed (it has no package for this platform)")
-        return HeyokaIntegrator()
-    return ScipyIntegrator()
+@pytest.fixture(scope="module")
+def integrator():
+    pytest.importorskip("heyoka", reason="heyoka is not installed (it has no package for this platform)")
+    return HeyokaIntegrator()
 
 
 def on_wall(parameters: Parameters, angle: float, rate: float, until: float) -> Trajectory:

@@ -6,8 +6,8 @@ import pickle
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from refusals import ALLOWED, error_of
 
-from carom.base.outcome import InputError
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     PHYSICAL_PARTNER,
@@ -28,29 +28,9 @@ SI = {
     "friction": 0.15,
     "restitution": 0.95,
 }
-ALLOWED = {
-    "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
-    "damping": "must be a damping in N s/m, >= 0 (0, or 1e-30 to 1e+30)",
-    "stiffness": "must be a stiffness in N/m, > 0 (1e-30 to 1e+30)",
-    "eccentricity": "must be a length in m, >= 0 (0, or 1e-30 to 1e+06)",
-    "clearance": "must be a length in m, > 0 (1e-09 to 1000)",
-    "rotor_radius": "must be a length in m, > 0 (1e-09 to 1e+06)",
-    "speed": "must be an angular speed in rad/s, > 0 (1e-06 to 1e+06)",
-    "unbalance_phase": "must be an angle in rad, -1e+06 to 1e+06",
-    "friction": "must be a number, 0 to 10",
-    "restitution": "must be a number, 0 to 1",
-}
 POSITIVE = ("mass", "stiffness", "clearance", "rotor_radius", "speed")
 NOT_NEGATIVE = ("damping", "eccentricity", "friction", "restitution")
 NUMBERS = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
-
-
-def error_of(call):
-    """The input error a call raises; its message is one line."""
-    with pytest.raises(InputError) as caught:
-        call()
-    assert "\n" not in str(caught.value)
-    return caught.value
 
 
 def ulps(number, other):

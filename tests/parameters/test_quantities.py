@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import ALLOWED, error_of
 
 from carom.base.outcome import InputError
 from carom.parameters import (
@@ -25,28 +26,6 @@ from carom.parameters.common_units import COMMON_UNITS
 from carom.parameters.exact import read_exact
 from carom.parameters.formats import format_entry
 from carom.parameters.quantities import read_decimal, without_separators
-
-ALLOWED = {
-    "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
-    "damping": "must be a damping in N s/m, >= 0 (0, or 1e-30 to 1e+30)",
-    "stiffness": "must be a stiffness in N/m, > 0 (1e-30 to 1e+30)",
-    "eccentricity": "must be a length in m, >= 0 (0, or 1e-30 to 1e+06)",
-    "clearance": "must be a length in m, > 0 (1e-09 to 1000)",
-    "rotor_radius": "must be a length in m, > 0 (1e-09 to 1e+06)",
-    "speed": "must be an angular speed in rad/s, > 0 (1e-06 to 1e+06)",
-    "unbalance_phase": "must be an angle in rad, -1e+06 to 1e+06",
-    "friction": "must be a number, 0 to 10",
-    "restitution": "must be a number, 0 to 1",
-}
-
-
-def error_of(call):
-    """The input error a call raises; its message is one line."""
-    with pytest.raises(InputError) as caught:
-        call()
-    assert "\n" not in str(caught.value)
-    return caught.value
-
 
 # ------------------------------------------------------------------------------------------ units
 

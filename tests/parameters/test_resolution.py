@@ -5,20 +5,12 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from refusals import error_of
 
-from carom.base.outcome import InputError
 from carom.loading import load
 from carom.parameters import MACHINE_FIELDS, TERMS, Machine
 
 REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
-
-
-def error_of(call):
-    """The input error a call raises; its message is one printable line."""
-    with pytest.raises(InputError) as caught:
-        call()
-    assert str(caught.value).isprintable()
-    return caught.value
 
 
 # ------------------------------------------------------------------------------------------ settings

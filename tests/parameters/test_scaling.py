@@ -3,19 +3,11 @@
 import math
 
 import pytest
+from refusals import error_of
 
-from carom.base.outcome import InputError
 from carom.parameters import Parameters, Scales
 
 NUMBERS = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
-
-
-def error_of(call):
-    """The input error a call raises; its message is one line."""
-    with pytest.raises(InputError) as caught:
-        call()
-    assert "\n" not in str(caught.value)
-    return caught.value
 
 
 def test_scales_are_products_of_mass_clearance_and_speed():

@@ -6,6 +6,7 @@ import tomllib
 import mpmath
 import numpy as np
 import pytest
+from refusals import error_of
 
 from carom.base.outcome import InputError
 from carom.parameters import (
@@ -37,14 +38,6 @@ BEARING = {"magnetic_bearings": 2, "force_current_factor": "70 N/A", "negative_s
 def machine(without=(), **entries):
     without = (without,) if isinstance(without, str) else without
     return Machine(**{name: value for name, value in PLAIN.items() if name not in without}, **entries)
-
-
-def error_of(call):
-    """The input error a call raises; its message is one printable line."""
-    with pytest.raises(InputError) as caught:
-        call()
-    assert str(caught.value).isprintable()
-    return caught.value
 
 
 # ------------------------------------------------------------------------------------------ one machine, given in many ways

@@ -8,6 +8,7 @@ import random
 import re
 from fractions import Fraction
 
+import machines
 import pytest
 from compilation import sized
 from machines import PAPER
@@ -16,15 +17,7 @@ from carom.base.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import Enclosure
 
-DECIMAL = {
-    "gamma": "0.1",
-    "omega": "0.76",
-    "rho": "3/7",
-    "phi": "0.21",
-    "mu": "0.15",
-    "d": "0.95",
-    "radius_ratio": "57",
-}
+DECIMAL = {**machines.DECIMAL, "radius_ratio": "57"}
 
 
 @pytest.fixture(scope="module")

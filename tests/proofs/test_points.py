@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, exact_return
+from machines import DECIMAL, PAPER, exact_return
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -26,15 +26,6 @@ from carom.proofs.points import _searched, _system, point_claims
 from carom.proofs.proving import proof_of
 from carom.proofs.rotor import Rotor
 
-DECIMAL = {
-    "gamma": "0.1",
-    "omega": "0.76",
-    "rho": "3/7",
-    "phi": "0.21",
-    "mu": "0.15",
-    "d": "0.95",
-    "radius_ratio": "400/7",
-}
 KNOWN = {
     "boundary-equilibrium of contact-free": "0.07246867866709798125333961",
     "fold of B1,d": "0.1780277256707203794962817",

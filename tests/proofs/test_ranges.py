@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER
+from machines import DECIMAL, PAPER
 
 from carom.base.outcome import InputError
 from carom.orbits import find_orbits
@@ -18,15 +18,6 @@ from carom.proofs.proving import proof_of
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
 
-DECIMAL = {
-    "gamma": "0.1",
-    "omega": "0.76",
-    "rho": "3/7",
-    "phi": "0.21",
-    "mu": "0.15",
-    "d": "0.95",
-    "radius_ratio": "400/7",
-}
 LIMITS = {"blocks": 60, "narrowest": "1/200"}
 
 

@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, ExactMotion, exact_return, path, random_parameters
+from machines import DECIMAL, PAPER, ExactMotion, exact_return, path, random_parameters
 from precise_orbits import PreciseOrbit, number
 from scipy.optimize import brentq
 
@@ -16,16 +16,6 @@ import carom as cm
 from carom.orbits import find_orbits, period_condition
 from carom.parameters import Parameters
 from carom.proofs import Proof, prove
-
-DECIMAL = {
-    "gamma": "0.1",
-    "omega": "0.76",
-    "rho": "3/7",
-    "phi": "0.21",
-    "mu": "0.15",
-    "d": "0.95",
-    "radius_ratio": "400/7",
-}
 
 
 def status(proof: Proof, name: str) -> str:

@@ -6,6 +6,7 @@ import copy
 import json
 from fractions import Fraction
 
+import machines
 import numpy as np
 import pytest
 from compilation import sized
@@ -20,15 +21,7 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
 
-DECIMAL = {
-    "gamma": "0.1",
-    "omega": "0.76",
-    "rho": "3/7",
-    "phi": "0.21",
-    "mu": "0.15",
-    "d": "0.95",
-    "radius_ratio": "57",
-}
+DECIMAL = {**machines.DECIMAL, "radius_ratio": "57"}
 LONG = 400.0
 
 

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from machines import REAL
 
 import carom as cm
 from carom.models import jeffcott
@@ -17,18 +18,6 @@ from carom.studies.kinds import required_disturbances
 
 pytestmark = pytest.mark.jit_only
 
-REAL = Machine(
-    mass="50 kg",
-    damping="1400 N s/m",
-    stiffness="9.8e5 N/m",
-    eccentricity="0.3 mm",
-    clearance="0.7 mm",
-    rotor_radius="40 mm",
-    speed="184.2 rad/s",
-    unbalance_phase="0.21 rad",
-    friction=0.15,
-    restitution=0.95,
-)
 GAINS = {
     "proportional_gain": "9000 A/m",
     "derivative_gain": "7 A s/m",

@@ -6,11 +6,12 @@ import re
 
 import numpy as np
 import pytest
+from machines import REAL
 from studies import study_once
 
 from carom.base.files import as_json
 from carom.base.outcome import Outcome
-from carom.parameters import Case, Machine, Parameters, Zones
+from carom.parameters import Case, Parameters, Zones
 from carom.studies.coverage import NOT_COVERED
 from carom.studies.facts import about
 from carom.studies.summaries import motion_rows
@@ -18,18 +19,6 @@ from carom.studies.summaries import motion_rows
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 QUIET = SOURCE.replace(gamma=0.5, mu=0.0)
 """Damped enough that no rub and no bounce is left, with too little friction to roll."""
-REAL = Machine(
-    mass="50 kg",
-    damping="1400 N s/m",
-    stiffness="9.8e5 N/m",
-    eccentricity="0.3 mm",
-    clearance="0.7 mm",
-    rotor_radius="40 mm",
-    speed="184.2 rad/s",
-    unbalance_phase="0.21 rad",
-    friction=0.15,
-    restitution=0.95,
-)
 
 RUB_FOLD = 3407.846808
 """Damping in N s/m at the fold of synchronous rubs of this machine: m Omega (rho sqrt(1 + mu^2) - mu (1 - omega^2))."""

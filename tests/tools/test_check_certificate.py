@@ -13,19 +13,11 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from machines import DECIMAL as PAPER
 
 from carom.proofs import prove, prove_kicks, prove_states
 
 PROGRAM = Path(__file__).parents[2] / "tools" / "check_certificate.py"
-PAPER = {
-    "gamma": "0.1",
-    "omega": "0.76",
-    "rho": "3/7",
-    "phi": "0.21",
-    "mu": "0.15",
-    "d": "0.95",
-    "radius_ratio": "400/7",
-}
 KEOGH = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 
 
