@@ -71,7 +71,6 @@ SLOWEST = (
     "explorer/test_stage.py",
     "cli/test_basins.py",
     "disturbances/test_blade_loss.py",
-    "attractors/test_characters.py",
 )
 """Files that take longest: if one began last, a worker would have nothing to do until it ends."""
 

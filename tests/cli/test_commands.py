@@ -1,17 +1,14 @@
 """What the commands print."""
 
 import json
-import math
 
 import pytest
 from studies import QUICK
 
 from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import BaseShock
 from carom.loading import load
 from carom.models import jeffcott
-from carom.motions import simulate
 from carom.orbits.single_impact import find_orbits
 
 pytestmark = pytest.mark.jit_only
@@ -108,40 +105,6 @@ def test_simulate_follows_a_motion_to_its_end(carom, machine):
     assert value["outcome"] == "forward-rub"
     assert value["contacts"][-1]["kind"] == "slide"
     assert value["contacts"][-1]["end"] == value["time"]
-
-
-def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
-    case, options = load(machine), ("simulate", machine, "--shock")
-    value = document(carom(*options, "20 g, 11 ms, 30 deg", "--json"))
-
-    shock = BaseShock.of(case, "20 g", "11 ms")
-    rotor, state = shock.apply(case, math.radians(30.0))
-    motion = simulate(rotor, state)
-    assert complex(*value["start"]["U"]) == pytest.approx(state.position, abs=1e-12)
-    assert complex(*value["start"]["V"]) == pytest.approx(state.velocity, abs=1e-12)
-    assert value["outcome"] == motion.outcome.label
-    # Sizes in texts differ by rounding from those of the shock.
-    assert value["time"] == pytest.approx(motion.begins + motion.time, rel=1e-12)
-    # Contacts during the shock are logged too, and their loads count.
-    during, after = motion.parts
-    assert len(value["impacts"]) == len(during.contacts) + len(after.contacts) > len(after.contacts)
-    assert [stage["begins"] for stage in value["stages"]] == [0.0, shock.duration]
-    hardest = max(part.contacts.normal_impulse.max() for part in motion.parts)
-    assert value["touchdown_bearings"][0]["loads"]["impulse"] == pytest.approx(hardest, rel=1e-9)
-    taken = value["disturbance"]
-    assert taken["words"] == (
-        "Shock of the base: half-sine, 20 g for 11 ms at 30°; angles count from the x axis that turns with the shaft, as it lies when the "
-        "shock begins, in the sense of rotation (the unbalance lies at 12°); times count from then"
-    )
-    assert (taken["peak_si"], taken["duration_si"]) == (pytest.approx(20 * 9.80665), pytest.approx(0.011))
-    assert document(carom(*options, "20 g", "--json")) == document(carom(*options, "20 g, 11 ms", "--json"))
-    _, out, _ = carom(*options, "20 g")
-    assert " ".join(out.split()).startswith("Shock of the base: half-sine, 20 g for 11 ms at 0°; angles count from ")
-    for text in ("20", "20 g, 11", "20 g, 11 ms, 30", "20 g, 11 ms, 30 deg, 1"):
-        code, _, err = carom(*options, text)
-        assert code == 2
-        assert err.startswith("carom: --shock = ")
-        assert err.count("\n") == 1
 
 
 def test_simulate_for_people(carom, machine):

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
+from compilation import sized
 from flights import (
     Tally,
     board,
     by_lane,
     compare,
     inside_task,
+    near_grazing_task,
     parameters,
+    random_wall_task,
     rotors,
     task_from_state,
 )
@@ -21,6 +26,46 @@ from carom.models import jeffcott
 
 HORIZON = 15.0
 STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "verdict")
+
+
+def count(flights: int) -> int:
+    """How many flights to try: all in a deep run, every tenth by day."""
+    return sized(math.ceil(0.1 * flights), math.ceil(0.002 * flights), flights)
+
+
+def test_random_flights(record_property):
+    tally, undecided = Tally("random flights in lanes"), []
+    for number, (rotor, rng) in enumerate(rotors(900, count(1_000))):
+        for _ in range(20):
+            compare(inside_task(rotor, rng), HORIZON, tally, by_lane(number % LANES, undecided))
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert len(undecided) < 0.1 * tally.tried
+
+
+def test_starts_on_the_wall(record_property):
+    tally, undecided = Tally("starts on the wall in lanes"), []
+    for number, (rotor, rng) in enumerate(rotors(901, count(1_000))):
+        for kind in range(10):
+            task = random_wall_task(rotor, rng, kind % 3)
+            if task is not None:
+                compare(task, HORIZON, tally, by_lane(number % LANES, undecided))
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert len(undecided) < 0.5 * tally.tried
+
+
+def test_near_grazing_flights(record_property):
+    tally, undecided = Tally("near-grazing flights in lanes"), []
+    for number, (rotor, rng) in enumerate(rotors(902, count(1_000))):
+        for _ in range(20):
+            drawn = near_grazing_task(rotor, rng)
+            if drawn is not None:
+                compare(drawn[0], drawn[1] + 5.0, tally, by_lane(number % LANES, undecided))
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert tally.tried >= count(2_000)
+    assert len(undecided) < 0.9 * tally.tried
 
 
 @pytest.mark.parametrize("lane", [0, LANES - 1])

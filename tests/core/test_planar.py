@@ -2,19 +2,64 @@
 
 from __future__ import annotations
 
+import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, random_parameters
+from machines import PAPER, ExactMotion, random_parameters
 
 from carom import find_orbits
-from carom.core.planar import radial_course, radial_profile, radial_rates
+from carom.core.planar import orbit_conditions, radial_course, radial_profile, radial_rates
 from carom.models import jeffcott
 
 
 def machines(count: int, seed: int):
     random = np.random.default_rng(seed)
     return [random_parameters(random) for _ in range(count)]
+
+
+def conditions(parameters, period, speed):
+    return orbit_conditions(
+        parameters.gamma,
+        parameters.omega,
+        parameters.rho,
+        parameters.mu,
+        parameters.d,
+        parameters.radius_ratio + 1.0,
+        period,
+        speed,
+    )
+
+
+def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
+    seen = 0
+    for parameters in [PAPER, *machines(60, 7)]:
+        rest = abs(jeffcott(parameters).equilibrium)
+        for orbit in find_orbits(jeffcott(parameters), 20.0):
+            if orbit.slip < 0 or not 1e-6 < abs(orbit.radial_speed) < 1e3 or orbit.period < 1e-3:
+                continue
+            seen += 1
+            values = conditions(parameters, orbit.period, orbit.radial_speed)
+            lever, turn = values[-2:]
+            assert values[0] == pytest.approx(0.0, abs=1e-12 * (1.0 + abs(turn)) * (1.0 + abs(values[2])))
+            assert values[1] == pytest.approx(0.0, abs=1e-11 * max(1.0, rest**2, abs(lever * orbit.radial_speed) ** 2))
+            assert orbit.angular_speed == pytest.approx(-turn.imag * orbit.radial_speed, rel=1e-9, abs=1e-12)
+            arrays = orbit.rotor.system.arrays
+            loss = arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed
+            scale = 1.0 + abs(orbit.angular_speed) + parameters.radius_ratio
+            assert values[5] == pytest.approx(arrays.surface_speed[0] + orbit.angular_speed - loss, abs=1e-9 * scale)
+            if min(values[5], arrays.surface_speed[0] + orbit.angular_speed) <= 0.0:
+                continue
+            section = (orbit.angle, orbit.radial_speed, orbit.angular_speed)
+            with mpmath.workdps(40):
+                jacobian = ExactMotion(parameters).jacobian(section, 1, orbit.period)
+            eigenvalues = np.linalg.eigvals(jacobian)
+            size = (1.0 + np.abs(jacobian).max()) ** 3
+            assert values[6] == pytest.approx(np.prod(eigenvalues + 1.0).real, abs=1e-9 * size)
+            one, two, three = eigenvalues
+            pairs = (one * two - 1.0) * (one * three - 1.0) * (two * three - 1.0)
+            assert values[7] == pytest.approx(pairs.real, abs=1e-9 * size**2)
+    assert seen > 3
 
 
 def test_radial_profile_agrees_with_dense_sampling():

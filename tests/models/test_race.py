@@ -173,17 +173,3 @@ def test_an_impact_is_stopped_by_the_least_impulse_that_stops_the_slip():
     assert contacts.sticks[0]
     weak = cm.simulate(rotor_with(Rigid(0.6), race, friction=0.01, surface_speed=slip), cm.State(0.2, 2.0), 1.5)
     assert abs(weak.contacts.friction_impulse[0]) == pytest.approx(0.01 * weak.contacts.normal_impulse[0], rel=1e-12)
-
-
-@pytest.mark.parametrize("drag", [0.0, 0.02, 20.0])
-def test_a_rub_slips_at_rest_only_while_drag_keeps_the_race_slower(drag):
-    still, turning = (rotor_with(SOFT, race, 0.05, 11.0) for race in (None, Race(20.0, 11.0, drag)))
-    expected = [rub for rub in cm.find_equilibria(still)[1:] if rub.stable]
-    assert len(expected) == 1
-    # Friction mu N at the radius 11 drives the race up to the speed mu N 11/drag, and the shaft turns with 1.
-    slower = drag > 0.0 and 0.05 * expected[0].normal_force * 11.0 / drag < 1.0
-    assert slower == (drag == 20.0)
-    found = cm.find_equilibria(turning)
-    places = [rub.places[0] for rub in found if rub.kind == "rub" and rub.stable]
-    assert places == pytest.approx([expected[0].places[0]] if slower else [], abs=1e-12)
-    assert not found.complete

@@ -90,14 +90,6 @@ def with_two_walls(first, second, scales=None) -> Rotor:
     )
 
 
-def test_numbers_of_walls_are_per_mass_that_the_plane_feels():
-    touchdown = Touchdown([2.0], SPRING, 0.2, 5.0)
-    wall = touchdown.wall(0.25)
-    assert (wall.stiffness, wall.loss, wall.friction, wall.surface_speed) == (1.2e5, 28.0, 0.2, 5.0)
-    wall = Touchdown([2.0], BALLS, 0.2, 5.0).wall(0.25)
-    assert (wall.stiffness, wall.loss, wall.law_number) == (2e5, 0.3, 1.5)
-
-
 def test_parameters_of_walls_have_names_by_law_and_plane():
     both = with_two_walls(SPRING, BALLS)
     walls = {name for name in both.varied if name.startswith("wall")}

@@ -104,23 +104,6 @@ def test_stages_count_together(machine):
         assert plane.impulse_at == falls.contacts.time[hardest]
 
 
-def test_contact_that_goes_on_over_two_stages_began_in_the_first():
-    case = cm.load(BALLS, ["touchdown_dissipation=20 s/m"])
-    falling, start = cm.drop().stages(case)
-    halves = cm.models.in_stages(
-        (
-            cm.models.Stage(falling, cm.models.Trigger(time=1500.0)),
-            cm.models.Stage(falling, cm.models.Trigger(time=50.0)),
-        )
-    )
-    motion = cm.simulate(halves, start)
-    (plane,) = drop_loads(motion).planes
-    begun = motion.parts[0].contacts.time[-1]
-    assert motion.parts[0].contacts.lasts[-1]
-    assert plane.in_contact_since == pytest.approx(begun, abs=1e-9)
-    assert plane.contacts == len(motion.parts[0].contacts)
-
-
 def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():
     """A rigid wall that stands still is rolled round at ``ΩR/c_r``, backward, for good."""
     found = drop_loads(cm.simulate(cm.load(RIGID), cm.drop(whirl("0.2 mm", "-150 Hz"))))

@@ -15,17 +15,3 @@ def test_every_equilibrium_is_at_its_place(damped, read):
     saddle, stable = sorted(read.lines(whole, "rub"), key=lambda line: line.get_xdata()[0])
     assert saddle.get_markerfacecolor() == "white"
     assert stable.get_markerfacecolor() == plots.LOOKS["rub"].colour
-
-
-def test_words(damped, read):
-    figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria, title="A machine")
-    assert figure.get_suptitle() == "A machine"
-    assert set(read.legend(figure)) == {
-        "clearance circle (touchdown bearing)",
-        "levitation: admissible, stable",
-        "synchronous rub: admissible, stable",
-        "synchronous rub: admissible, unstable",
-        "periodic orbit: admissible, stable",
-        "periodic orbit: admissible, unstable",
-    }
-    assert figure.axes[0].get_xlabel() == "position Re $U$ (mm)"

@@ -8,9 +8,8 @@ from matplotlib.colors import to_rgb
 
 import carom
 from carom import plots
-from carom.base.outcome import InputError
 from carom.basins import map_basins
-from carom.disturbances import Grid, KickPlane, Sample, VelocityKick
+from carom.disturbances import Grid, KickPlane
 
 pytestmark = pytest.mark.jit_only
 
@@ -68,21 +67,3 @@ def test_both_have_the_same_range_and_colours(before, after):
         (ring,) = [line for line in axes.get_lines() if line.get_gid() == "circle"]
         assert np.hypot(*ring.get_data()) == pytest.approx(0.8e3 * MACHINE.scales.velocity)
     assert fits(figure)
-
-
-@pytest.mark.parametrize(
-    ("panels", "said"),
-    [
-        (lambda: [("now", "nothing")], "at least one"),
-        (
-            lambda: [
-                (kind.kind, map_basins(DAMPED, Grid(kind, (2, 2)))) for kind in (KickPlane(0.1), VelocityKick(0.1))
-            ],
-            "kick and kick-plane",
-        ),
-        (lambda: [("now", map_basins(DAMPED, Sample(KickPlane(0.1), 4)))], "grids"),
-    ],
-)
-def test_what_cannot_be_compared_is_refused(panels, said):
-    with pytest.raises(InputError, match=said):
-        plots.basin_pair(panels())

@@ -11,7 +11,6 @@ from flexible_machines import SOFT, munich
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.base.outcome import InputError
 from carom.models import Rigid, Touchdown, from_matrices
 from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
@@ -149,21 +148,6 @@ class _Dropped:
         change[: self.count] = state[self.count :]
         change[self.count + self.kept] = push / self.unit
         return change
-
-
-def test_clearances_are_parameters_of_the_machine():
-    machine = with_clearances(munich(), (0.2e-3, 0.3e-3), 0.2e-3)
-    assert machine.replace(clearance_2="0.25 mm").clearances == pytest.approx((0.2e-3, 0.25e-3))
-    assert machine.value("clearance_2") == 0.3e-3
-    wide = machine.replace(clearance="0.4 mm")
-    assert wide.clearances == pytest.approx((0.4e-3, 0.4e-3))
-    assert wide.value("clearance") == pytest.approx(0.4e-3)
-    with pytest.raises(InputError, match=r"^clearance = \[0.0002, 0.0003\]: the same at all here"):
-        machine.value("clearance")
-    model = machine.with_modes(4).linear
-    assert model.value("radius_ratio_2") == pytest.approx(4.8 / 0.3)
-    same = model.replace(radius_ratio=30.0).finite_elements.machine
-    assert [each.rotor_radius for each in same.touchdowns] == pytest.approx([6e-3, 9e-3])
 
 
 @pytest.mark.jit_only

@@ -12,7 +12,7 @@ from scipy import signal
 from carom.base.outcome import InputError
 from carom.rotors import PID, MagneticBearing, StateSpace, TransferFunction
 from carom.rotors.controllers import state_space_of
-from carom.rotors.state_spaces import delay, lag
+from carom.rotors.state_spaces import delay
 
 AT = 1j * np.array([-3e4, -200.0, 1.0, 30.0, 900.0, 2e4])
 GAINS = {"proportional": "5000 A/m", "integral": 1500.0, "derivative": 5.0, "filter_time": "0.1 ms"}
@@ -55,11 +55,6 @@ def test_balancing_changes_sizes_and_nothing_else():
         assert np.linalg.norm(whole[state]) == pytest.approx(np.linalg.norm(whole[:, state]), rel=0.03)
 
 
-def test_one_after_the_other():
-    first, second = state_space_of(PID(**GAINS)), lag(3000.0)
-    assert first.then(second).at(AT) == pytest.approx(first.at(AT) * 3000.0 / (AT + 3000.0), rel=1e-13)
-
-
 @pytest.mark.parametrize("order", [1, 2, 3, 4])
 def test_a_delay_keeps_sizes_and_turns_phases(order):
     """Padé: all-pass, with an error of the power ``2n + 1`` of the frequency."""
@@ -70,11 +65,6 @@ def test_a_delay_keeps_sizes_and_turns_phases(order):
     errors = np.abs(found - np.exp(-AT * 50e-6))
     assert (errors <= 1.2 * leading * turns ** (2 * order + 1) + 1e-13).all()
     assert errors.max() > 0.3 * (leading * turns ** (2 * order + 1)).max()
-
-
-def test_the_order_of_delays_is_as_good_as_it_says():
-    error = np.abs(np.angle(delay(1.0, 3).at(np.array([2j])) * np.exp(2j)))
-    assert np.degrees(error) < 0.1
 
 
 def test_a_bearing_has_controller_delay_and_amplifier_in_a_row():

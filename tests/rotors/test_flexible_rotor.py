@@ -10,7 +10,7 @@ from exact_shafts import frequencies
 from scipy.linalg import eigh
 
 from carom.base.outcome import InputError
-from carom.rotors import Disc, FlexibleRotor, Material, ModalDamping, ProportionalDamping, Section
+from carom.rotors import Disc, FlexibleRotor, Material, ModalDamping, Section
 
 STEEL = Material("210 GPa", 7800.0, 0.3)
 UNDAMPED = ModalDamping(0.0)
@@ -51,15 +51,6 @@ def test_mass_and_inertias_are_those_of_the_cylinders():
     assert rotor.diametral_inertia == pytest.approx(polar / 2.0 + mass * length**2 / 12.0, rel=1e-12)
 
 
-def test_discs_add_what_they_have():
-    bare, rotor = plain(), plain(discs=[Disc(1, 3.0, 0.02, 0.03)])
-    assert rotor.mass == pytest.approx(bare.mass + 3.0, rel=1e-14)
-    assert rotor.centre == pytest.approx((bare.mass * 0.5 + 3.0) / rotor.mass, rel=1e-13)
-    arms = bare.mass * (rotor.centre - 0.5) ** 2 + 3.0 * (1.0 - rotor.centre) ** 2
-    assert rotor.diametral_inertia == pytest.approx(bare.diametral_inertia + 0.02 + arms, rel=1e-12)
-    assert rotor.polar_inertia == pytest.approx(bare.polar_inertia + 0.03, rel=1e-12)
-
-
 def test_a_disc_of_dimensions_is_a_short_shaft():
     body = Section("20 mm", "200 mm", "40 mm", STEEL)
     disc = Disc.of_body(0, body)
@@ -76,12 +67,6 @@ def test_rigid_motions_bend_nothing():
     assert np.abs(rotor.matrices.stiffness @ rotor.tilt).max() < 1e-15 * size
     # A rotor that is displaced turns about no axis.
     assert np.abs(rotor.matrices.gyroscopic @ rotor.translation).max() < 1e-15 * np.abs(rotor.matrices.gyroscopic).max()
-
-
-def test_matrices_are_symmetric():
-    rotor = stepped()
-    for matrix in (rotor.matrices.mass, rotor.matrices.stiffness, rotor.matrices.gyroscopic, rotor.damping_matrix):
-        assert np.allclose(matrix, matrix.T, rtol=0, atol=1e-15 * np.abs(matrix).max())
 
 
 def test_a_slender_shaft_bends_as_by_euler_and_bernoulli():
@@ -166,21 +151,6 @@ def test_free_modes_are_those_of_the_pencil():
     whole = modes.flexibility(row, 2)
     push = row - mass @ modes.shapes[:, :2] @ (row @ modes.shapes[:, :2])
     assert np.abs(stiffness @ whole - push).max() < 1e-8
-
-
-def test_proportional_damping_is_a_sum_of_both_matrices():
-    parts = stepped()
-    rotor = FlexibleRotor(parts.sections, parts.discs, ProportionalDamping("10 1/s", "10 us"), 0.05)
-    expected = 10.0 * rotor.matrices.mass + 1e-5 * rotor.matrices.stiffness
-    assert np.allclose(rotor.damping_matrix, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
-
-
-def test_modal_damping_leaves_the_rotor_as_a_whole_alone():
-    parts = stepped()
-    rotor = FlexibleRotor(parts.sections, parts.discs, ModalDamping(0.01))
-    shapes, frequencies_found = rotor.free_modes.shapes, rotor.free_modes.frequencies
-    rates = np.diag(shapes.T @ rotor.damping_matrix @ shapes)
-    assert rates == pytest.approx(0.02 * frequencies_found, rel=1e-9, abs=1e-6)
 
 
 def test_long_sections_are_divided_and_nodes_stay_where_they_are():

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-from flexible_machines import munich, replaced, symmetric
+from flexible_machines import munich, symmetric
 
 from carom.base.outcome import InputError
 from carom.rotors import (
-    MagneticBearing,
     Unbalance,
     campbell,
     find_whirls,
@@ -49,34 +46,6 @@ def test_whirls_solve_the_equations_of_the_finite_elements():
         shape = (vectors[-1].conj() / np.sqrt(np.diag(rotor.matrices.stiffness)))[::2]
         shape /= shape[np.abs(whirl.shape).argmax()] / whirl.shape[np.abs(whirl.shape).argmax()]
         assert shape == pytest.approx(whirl.shape, abs=1e-6)
-
-
-def test_senses_and_damping_ratios():
-    whirls = find_whirls(MACHINE)
-    assert {each.sense for each in whirls} == {"forward", "backward"}
-    for each in whirls:
-        assert each.frequency == pytest.approx(abs(each.exponent.imag) / 2.0 / math.pi)
-        assert 0.0 < each.damping_ratio < 1.0
-    # Of one pair the forward whirl is the faster one: gyroscopic moments stiffen it.
-    lowest = {each.sense: each.frequency for each in whirls[1::-1]}
-    assert lowest["forward"] > lowest["backward"]
-
-
-def test_a_column_is_one_whirl_over_all_speeds():
-    """Its shape stays alike from speed to speed, where another whirl crosses its frequency too."""
-    speeds = np.linspace(20.0, 900.0, 45)
-    found = campbell(MACHINE, speeds.tolist(), count=10)
-    assert not np.isnan(found.exponents).any()
-    for column in found.exponents.T:
-        # No jumps: second differences are small against the frequency.
-        assert np.abs(np.diff(column.imag, 2)).max() < 0.02 * np.abs(column.imag).max()
-        # Each is an exponent of the machine at every speed.
-        for speed, exponent in zip(speeds[::11].tolist(), column[::11], strict=True):
-            own = MACHINE.whole.equations.exponents(speed)[0]
-            assert np.abs(own - exponent).min() < 1e-9 * abs(exponent)
-    # Whirls cross: their order by frequency changes.
-    order = np.argsort(np.abs(found.frequencies), axis=1)
-    assert (order != order[0]).any()
 
 
 def test_unbalance_response_is_that_of_the_finite_elements():
@@ -136,21 +105,6 @@ def test_sensitivity_of_a_rigid_rotor_on_bearings_alike():
     found = sensitivity(machine, frequencies.tolist())
     assert found.values[:, 0] == pytest.approx(expected, rel=1e-3)
     assert found.values[:, 1] == pytest.approx(expected, rel=1e-3)
-
-
-def test_peaks_and_zones():
-    found = sensitivity(MACHINE)
-    sizes = np.abs(found.values)
-    assert (found.peaks >= sizes.max(axis=0)).all()
-    assert found.peaks == pytest.approx(sizes.max(axis=0), rel=0.02)
-    for number, frequency in enumerate(found.peak_frequencies.tolist()):
-        near = sensitivity(MACHINE, [frequency * 0.999, frequency, frequency * 1.001])
-        assert np.abs(near.values[:, number]).argmax() == 1
-    limits = {"A": 3.0, "B": 4.0, "C": 5.0, "D": math.inf}
-    for zone, peak in zip(found.zones, found.peaks.tolist(), strict=True):
-        assert peak <= limits[zone]
-    late = [MagneticBearing(each.node, each.ki, each.ks, each.controller, delay="1 ms") for each in MACHINE.bearings]
-    assert (sensitivity(replaced(MACHINE, bearings=late)).peaks > found.peaks).all()
 
 
 @pytest.mark.parametrize(

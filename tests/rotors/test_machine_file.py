@@ -9,12 +9,11 @@ import pytest
 from flexible_machines import munich
 
 import carom as cm
-from carom.base.outcome import CaromWarning, InputError
+from carom.base.outcome import InputError
 from carom.models import rotor_of
 from carom.rotors import PID, StateSpace
 
 EXAMPLE = Path("examples/tum-flexible-rotor.toml")
-TEXT = EXAMPLE.read_text(encoding="utf-8")
 SMALL = """
 [rotor]
 speed = "3000 rpm"
@@ -208,16 +207,6 @@ def test_the_rig_of_uberlandia_has_the_dimensions_of_its_source():
         assert each.ks == pytest.approx(-factor / gap**3, rel=1e-3)
 
 
-@pytest.mark.jit_only
-def test_the_rig_of_uberlandia_levitates_and_drops():
-    machine = cm.rotors.load_machine(UBERLANDIA)
-    assert max(cm.rotors.find_whirls(machine), key=lambda each: each.exponent.real).exponent.real < 0.0
-    assert cm.rotors.sensitivity(machine).zones == ("A", "A")
-    loads = cm.motions.drop_loads(cm.simulate(cm.load(UBERLANDIA), cm.drop(), "12 ms")).planes
-    weight = machine.rotor.mass * 9.81
-    assert all(each.si()["force"] > weight for each in loads)
-
-
 def test_a_machine_with_all_modes_is_read_with_its_settings(tmp_path):
     machine = cm.rotors.load_machine(EXAMPLE, ["speed=6000 rpm", "gravity=1.62 m/s^2"])
     assert machine.speed == pytest.approx(200.0 * np.pi)
@@ -230,51 +219,3 @@ def test_a_machine_with_all_modes_is_read_with_its_settings(tmp_path):
         InputError, match=r"^machine file = examples/keogh-cole.toml: a \[rotor\] table; it holds \[machine\]$"
     ):
         cm.rotors.load_machine("examples/keogh-cole.toml")
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "says"),
-    [
-        (
-            'outer_diameter = "20 mm"',
-            "outer_diameter = 2.0",
-            r"section\]\] 1: outer_diameter = 2 m: thicker than the shaft is long",
-        ),
-        (
-            'rotor_radius = "10 mm"',
-            'rotor_radius = "0.9 mm"',
-            r"rotor_radius = 0.0009 m: less than 5 clearances of 0.0002 m",
-        ),
-    ],
-)
-def test_sizes_that_no_rotor_has_are_warned_of(tmp_path, old, new, says):
-    path = tmp_path / "flexible.toml"
-    path.write_text(SMALL.replace(old, new, 1), encoding="utf-8")
-    with pytest.warns(CaromWarning, match=says):
-        cm.rotors.load_machine(path)
-
-
-@pytest.mark.parametrize(("kind", "name"), [("magnetic_bearing", "bearing"), ("touchdown", "touchdown")])
-def test_two_bearings_at_one_node_are_refused(load, kind, name):
-    start = SMALL.index(f"[[{kind}]]")
-    end = SMALL.find("[[", start + 2)
-    again = SMALL[start : end if end > 0 else None]
-    with pytest.raises(InputError, match=f"^{name} node = 1: a node of its own for each"):
-        load(SMALL + again)
-
-
-@pytest.mark.filterwarnings("ignore::carom.base.outcome.CaromWarning")
-def test_numbers_that_no_modes_come_from_are_refused_by_their_field(tmp_path):
-    """Eight micrometres for eight millimetres, and sections without number."""
-    section = '[[section]]\nlength = "1 mm"\nouter_diameter = "8 mm"\n'
-    first, rest = TEXT.index("[[section]]"), TEXT.index("[[disc]]")
-    for text, says in (
-        (
-            TEXT.replace('outer_diameter = "8 mm"', 'outer_diameter = "8 um"'),
-            r"^\[\[section\]\] 1: outer_diameter = 8e-06:",
-        ),
-        (TEXT[:first] + 501 * section + TEXT[rest:], r"\[\[section\]\] = 501 tables: at most 500 tables; neighbouring"),
-    ):
-        (tmp_path / "machine.toml").write_text(text, encoding="utf-8")
-        with pytest.raises(InputError, match=says):
-            cm.load(tmp_path / "machine.toml")

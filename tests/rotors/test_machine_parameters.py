@@ -12,7 +12,6 @@ from flexible_machines import symmetric
 import carom as cm
 from carom.base.outcome import InputError
 from carom.models import LinearEquations, Rotor
-from carom.rotors import PID, MagneticBearing, StateSpace
 
 EXAMPLE = Path("examples/tum-flexible-rotor.toml")
 SETTINGS = (
@@ -94,17 +93,6 @@ def test_numbers_of_the_equations_are_told_to_the_machine(case):
     )
 
 
-def test_several_controllers_have_what_all_have():
-    other = MagneticBearing(2, 50.0, -1e5, StateSpace([[-1e4]], [1e4], [-1e5], 1.09e5))
-    machine = symmetric(bearings=[MagneticBearing(1, 50.0, -1e5, PID(9000.0, 0.0, 10.0, 1e-4)), other])
-    assert {"proportional_1", "ki", "ki_2", "ks"} <= set(machine.varied)
-    assert not {"proportional", "proportional_2", "amplifier_bandwidth"} & set(machine.varied)
-    with pytest.raises(
-        InputError, match=r"^ki = \[50.0, 60.0\]: the same at all here; ki_1, ki_2 are those of each mag"
-    ):
-        machine.replace(ki_2=60.0).value("ki")
-
-
 def test_a_model_keeps_its_states():
     """What would add or take away states of a controller is for the machine: disturbances and branches keep their coordinates."""
     machine = symmetric()
@@ -116,19 +104,6 @@ def test_a_model_keeps_its_states():
     with pytest.raises(InputError, match=r"^derivative = 0.0: must be a gain"):
         model.replace(derivative=0.0)
     assert len(machine.replace(integral=100.0).reduce(0.5).linear.equations.mass) == len(model.equations.mass) + 2
-
-
-def test_units_of_states_do_not_jump():
-    """The coordinates of controllers change smoothly, by which orbits are followed along a gain: no step of a power of two."""
-    gains = np.linspace(4900.0, 5100.0, 41)
-    loops = [
-        MagneticBearing(1, 50.0, -1e5, PID(P, 1500.0, 5.0, 1e-4), delay=1e-4, amplifier_bandwidth=3e3).loop
-        for P in gains
-    ]
-    for name in ("A", "B", "C"):
-        values = np.array([getattr(each, name) for each in loops])
-        second = np.abs(np.diff(values, n=2, axis=0)).max()
-        assert second <= 1e-4 * np.abs(values).max()
 
 
 def test_an_unstable_levitation_is_refused_where_a_machine_is_read(case):

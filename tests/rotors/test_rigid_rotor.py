@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.parameters import Machine, TouchdownBearing
-from carom.rotors import Support, TouchdownPlane, Unbalance, find_whirls, load_machine, rigid_rotor
+from carom.parameters import TouchdownBearing
+from carom.rotors import Support, TouchdownPlane, find_whirls, load_machine, rigid_rotor
 
 MASS, POLAR, DIAMETRAL, SPEED = 12.0, 0.04, 0.15, 2000.0
 WALL = TouchdownBearing("rigid", restitution=0.8)
@@ -94,35 +94,6 @@ def test_tilts_between_equal_bearings_whirl_as_in_closed_form():
     straight = np.sqrt(2.0 * k / MASS)
     found = [each.exponent.imag for each in whirls]
     assert sorted(found) == pytest.approx(sorted([*tilts, -straight, straight]), rel=1e-12)
-
-
-def test_a_kick_through_the_centre_is_that_of_the_planar_rotor():
-    k, c = 4e5, 300.0
-    machine = on_supports((-0.15, 0.15), (k, k), (c, c), unbalances=[Unbalance(0, 6e-4), Unbalance(1, 6e-4)])
-    planar = Machine(
-        mass=MASS,
-        stiffness=2.0 * k,
-        damping=2.0 * c,
-        eccentricity=1.2e-3 / MASS,
-        clearance="0.25 mm",
-        rotor_radius="20 mm",
-        speed=SPEED,
-        friction=0.15,
-        restitution=0.8,
-    )
-    both = cm.simulate(machine.model, cm.kick("300 mm/s", "30 deg"), "8 ms")
-    one = cm.simulate(planar, cm.kick("300 mm/s", "30 deg"), "8 ms")
-    log = one.contacts
-    assert (
-        len(log) > 5
-    )  # later ones differ: a tilt by rounding grows, and both planes are then struck one after the other
-    for plane in (0, 1):
-        seen = both.seen_at(plane).contacts
-        assert seen.time == pytest.approx(log.time, rel=1e-11)
-        # An impulse is in the unit of the whole mass; each bearing gets half of it.
-        assert 2.0 * seen.normal_impulse == pytest.approx(log.normal_impulse, rel=1e-11)
-    assert both.final.position[0] == pytest.approx(one.final.position, rel=1e-8)
-    assert abs(both.final.position[1]) < 1e-8
 
 
 def test_a_file_says_the_same_as_python(tmp_path):

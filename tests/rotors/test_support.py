@@ -7,7 +7,6 @@ import dataclasses
 import numpy as np
 import pytest
 from flexible_machines import munich, replaced
-from scipy.linalg import eigvals
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -70,30 +69,6 @@ def test_whirls_solve_the_equations_of_both_planes():
         sizes = np.abs(whirl.shape) + np.abs(whirl.opposite)
         assert sizes.max() == pytest.approx(1.0)
         assert np.abs(whirl.widest).max() == pytest.approx(1.0)
-
-
-def test_every_free_motion_is_told_once():
-    """Without controllers the exponents are those of two real planes."""
-    machine = replaced(MACHINE, bearings=[], supports=[SEAL, Support(2, 1e5, 2e5, cxx=10.0, cyy=10.0)])
-    mass, damping, stiffness = planes(machine)
-    zero, one = np.zeros_like(mass), np.eye(len(mass))
-    exponents = eigvals(np.block([[zero, one], [-stiffness.real, -damping]]), np.block([[one, zero], [zero, mass]]))
-    turning = exponents[exponents.imag > 0.1 * np.abs(exponents)]  # the others fade before they go round
-    slowest = turning[np.argsort(turning.imag)][:10]
-    found = find_whirls(machine, count=10)
-    assert [each.frequency * 2.0 * np.pi for each in found] == pytest.approx(slowest.imag.tolist(), rel=1e-8)
-    assert [each.exponent.real for each in found] == pytest.approx(slowest.real.tolist(), rel=1e-6)
-
-
-def test_senses():
-    still = replaced(MACHINE, supports=[Support(7, 2e5, 2e5)], speed=1e-3)
-    assert {each.sense for each in find_whirls(still)} <= {"forward", "backward"}
-    apart = replaced(MACHINE, supports=[Support(7, 2e5, 5e4)], speed=1e-3)
-    whirls = find_whirls(apart)
-    # Without a noteworthy speed the rotor vibrates along x and along y, at two frequencies.
-    assert sum(np.abs(each.shape).max() - np.abs(each.opposite).max() < 1e-3 for each in whirls) >= 4
-    circulating = replaced(MACHINE, supports=[Support(7, 2e5, 2e5, 1e4, -1e4)])
-    assert not circulating.whole.equations.is_anisotropic
 
 
 @pytest.mark.parametrize("speed", [100.0, 330.0, 900.0])
@@ -173,14 +148,6 @@ def test_sensitivity_is_the_worse_of_both_axes():
         own = np.diag(np.linalg.inv(np.eye(4) + opened)).reshape(2, 2)
         axis = [int(np.abs(own[0, number] - found.values[place, number]) > 1e-8) for number in range(2)]
         assert found.values[place] == pytest.approx(own[axis, range(2)], rel=1e-8)
-
-
-def test_sensitivity_of_supports_that_are_nearly_alike_is_that_of_alike_ones():
-    frequencies = [200.0, 416.3]
-    nearly, alike = (
-        sensitivity(replaced(MACHINE, supports=[Support(7, 1e5, other)]), frequencies) for other in (1e5 + 1e-6, 1e5)
-    )
-    assert np.abs(nearly.values) == pytest.approx(np.abs(alike.values), rel=1e-8)
 
 
 def test_a_support_that_drives_whirl_is_refused():

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from machines import PAPER
 
 import carom
-from carom.explorer.computing.exports import Kick
 from carom.explorer.computing.kicked_motion import LONGEST, follow_kick
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import hits_of
 from carom.models import jeffcott, rotor_of
 
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))
@@ -39,21 +35,6 @@ def test_it_is_the_motion(rotor, radial, tangential):
     np.testing.assert_allclose(kicked.planes[0].impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
     assert kicked.planes[0].hardest == motion.contacts.normal_impulse.max()
     assert np.hypot(kicked.planes[0].x, kicked.planes[0].y).max() <= 1.0 + SINGLE
-
-
-@pytest.mark.jit_only
-@pytest.mark.parametrize("machine", ["gravity", "real", "offset", "flexible-support"])
-def test_it_is_the_motion_that_the_command_line_follows(machine):
-    """Of a machine under weight the rotor hangs off the centre, and goes round in the frame of the shaft."""
-    case = carom.load(Path(__file__).parents[2] / "machines" / f"{machine}.toml")
-    rotor = rotor_of(case)
-    plane = planes_of(case)[0]
-    size = plane.own(2.0 * plane.usual, rotor.scales)
-    shown = Kick(plane, rest_of(rotor), 0.6 * size, -0.8 * size, size)
-    kicked = follow_kick(rotor, plane, shown.first, shown.second)
-    motion = carom.simulate(rotor, carom.kick(*shown.texts(rotor)), settle=True)
-    for place, seen in enumerate(kicked.planes):
-        assert seen.hardest == pytest.approx(hits_of(motion.seen_at(place)).hardest, rel=1e-5)
 
 
 def test_every_impact_is_on_the_wall_at_its_instant():

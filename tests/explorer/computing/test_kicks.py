@@ -10,7 +10,7 @@ from compilation import sized
 from machines import PAPER
 
 import carom
-from carom.disturbances import FASTEST, BaseShock, BladeLoss, Grid, KickPlane
+from carom.disturbances import FASTEST, Grid, KickPlane
 from carom.explorer.computing.kicks import NOWHERE, map_kicks
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import RestKick
@@ -66,28 +66,3 @@ def test_sizes_stay_in_si_units_where_the_speed_changes():
     assert shown.largest * faster.scales.velocity == pytest.approx(kicks.usual, rel=1e-14)
     assert kicks.usual == pytest.approx(np.sqrt(4.0 * 9.80665 * case.parameters.scales.clearance))
     assert planes_of(carom.load(EXAMPLES / "source-paper.toml"))[0].usual == 1.0
-
-
-@pytest.mark.jit_only
-def test_pictures_of_shocks_and_losses_of_a_blade_are_those_of_the_library():
-    case = carom.load(EXAMPLES / "balanced-rotor.toml")
-    rotor, (_, shocks, losses) = jeffcott(case.parameters), planes_of(case)
-    for plane in (shocks, losses):
-        found = map_kicks(rotor, plane, 16, 3.0 * plane.usual)
-        assert 0 < found.share.count < found.share.total
-        for place in zip(*np.nonzero(found.exists), strict=True):
-            size = found.sizes[place]
-            angle = np.arctan2(found.middles[place[1]], found.middles[place[0]])
-            if plane is losses:
-                # A cell shows the unbalance after it by the nearest of few sizes, a cell apart, and phases, at most a cell apart.
-                before, width = rotor.value("rho"), found.largest / 8
-                left = before + size * np.exp(1j * angle)
-                phases = np.ceil(2.0 * np.pi * (before + found.largest) / width)
-                turned = np.rint(np.angle(left) / (2.0 * np.pi) * phases) / phases * 2.0 * np.pi
-                shown = np.rint(abs(left) / width) * width * np.exp(1j * turned) - before
-                assert abs(shown - size * np.exp(1j * angle)) < width
-                after, start = BladeLoss(abs(shown)).apply(rotor, np.angle(shown))
-            else:
-                after, start = rotor, BaseShock(size, plane.lasting(rotor)).release(rotor, angle)
-            if place[0] % 3 == 0:
-                assert found.outcomes[place] == carom.simulate(after, start, settle=True).outcome

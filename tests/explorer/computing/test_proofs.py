@@ -11,7 +11,6 @@ from carom.closed_forms import harmless_kick
 from carom.explorer.computing import proofs
 from carom.explorer.computing.planes import planes_of
 from carom.models import rotor_of
-from carom.proofs import prove_kicks
 
 pytestmark = pytest.mark.jit_only
 
@@ -30,27 +29,6 @@ def test_kicks_that_never_touch_are_proven(monkeypatch):
     assert not found.open[size < 0.8 * harmless_kick(rotor)].any()
     assert found.open[size > largest].all()
     assert found.words.endswith(("mm/s", "impact", "impacts"))
-
-
-def test_rows_are_the_second_component(monkeypatch):
-    """The upper half alone is proven, which a search could not be made to show."""
-
-    def upper(*given, **options):
-        from carom.proofs.evidence import Evidence
-        from carom.proofs.families import KICKS
-        from carom.proofs.kick_search import BITS
-        from carom.proofs.proving import proof_at
-
-        proof = prove_kicks(*given, **options | {"time_limit": 1e-3})
-        return proof_at(BITS, KICKS.about, proof.hypotheses, proof.options, Evidence({"cells": "a0g"}))
-
-    monkeypatch.setattr("carom.proofs.prove_kicks", upper)
-    rotor = rotor_of(CASE)
-    found = proofs.find_proven(rotor, PLANES["kick"], 0.9 * harmless_kick(rotor))
-    half = proofs.CELLS // 2
-    inside = np.s_[half // 2 : half], np.s_[half // 2 : half]  # lower left
-    assert found.open[inside].all()
-    assert not found.open[half + 5 : half + 40, half + 5 : half + 40].any()
 
 
 def test_of_other_disturbances_nothing_is_proven():

@@ -111,14 +111,6 @@ def test_a_kick_is_followed(page):
     assert motion["words"].startswith("A kick of 92.6 mm/s at 185° ends in regular bouncing; hardest impulse")
 
 
-@pytest.mark.jit_only
-def test_both_kicks_of_a_picture_end_differently(page):
-    page.session.show(request(1, held=True, eccentricity="0.15 mm"))
-    back, lost = page.numbered("motion", 1), page.numbered("beside", 1)
-    assert back["outcome"] == "levitated"
-    assert lost["outcome"] != "levitated"
-
-
 def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     begun = threading.Event()
 
