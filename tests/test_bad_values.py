@@ -159,5 +159,5 @@ FIELDS = {name: getattr(Machine.from_parameters(PAPER, Scales(50.0, 7e-4, 184.2)
 def test_a_set_of_results_is_a_sequence_of_them():
     case = cm.load("examples/keogh-cole.toml")
     sets = cm.find_equilibria(case), cm.find_orbits(case)
-    document = cm.studies.orbits_document(case.parameters, *sets, case.machine)
+    document = cm.studies.orbits_document(case.parameters, *sets, case)
     assert len(document["equilibria"]) == len(sets[0])

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from carom.base.arguments import checked
 from carom.base.outcome import Problems, printable
-from carom.parameters.machine_file import Case, read_planar_case, split_settings
+from carom.parameters.machine_file import Case, read_case, split_settings
 from carom.parameters.toml_reader import read_machine_tables
 
 
@@ -56,9 +57,11 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     problems = Problems()
     tables = read_machine_tables(path, problems)
     texts, name = split_settings(settings, problems), printable(Path(path).stem)
-    if tables.kind != "rotor":
-        return read_planar_case(name, tables, texts, problems)
-    # Who reads a planar rotor does not wait for models and kernels to load.
-    from carom.rotors.machine_file import read_flexible_case
+    return read_case(name, tables, texts, problems, _read_rotor)
 
-    return read_flexible_case(name, tables, texts, problems)
+
+def _read_rotor(*given: Any) -> dict[str, Any]:
+    """Read a rotor of parts; who reads a planar one does not wait for models and kernels to load."""
+    from carom.rotors.machine_file import read_rotor_tables
+
+    return read_rotor_tables(*given)

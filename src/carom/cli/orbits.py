@@ -70,7 +70,7 @@ def orbits(
                 found = orbits_within_reach(model) if longest is None else find_orbits(model, longest)
             else:
                 found = OrbitSet.none(model)
-            document = orbits_document(model, steady, found, case.machine)
+            document = orbits_document(model, steady, found, case)
             for entry, each in zip(document["equilibria"], steady, strict=True):
                 entry["touchdown_bearings"] = [place + 1 for place in each.planes]
             document["whirls"] = [

@@ -227,14 +227,13 @@ def _varied(case: Case, option: str, given: str, entry: str, name: str, others: 
 
 def _stated_by(case: Case, option: str, given: str, entry: str) -> Case:
     """The same machine with a field stated by this entry, as ``--set`` would; its value changes by rounding alone."""
-    machine = case.machine
-    if machine is None or entry in machine.given.get(set_by(entry), {}):
+    if set_by(entry) not in case.si or entry in case.given.get(set_by(entry), {}):
         return case
     needed = (set_by(entry), *TERMS[entry].needs)
-    if missing := [name for name in needed if getattr(machine, name) is None]:
+    if missing := [name for name in needed if name not in case.si]:
         allowed = f"{entry} needs {' and '.join(missing)}, which the machine file does not state"
         raise InputError(option, given, allowed)
-    exact = (Decimal(repr(getattr(machine, name))) for name in needed)
+    exact = (Decimal(repr(case.si[name])) for name in needed)
     return case.replace(**{entry: float(TERMS[entry].entry(*exact))})
 
 
@@ -245,7 +244,7 @@ def _read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[f
     for part in split_text(option, text, (2,), allowed):
         try:
             read_quantity(_of_command_line(SETTABLE[entry]), part)
-            ends.append(float(getattr(case.replace(**{entry: part}).machine, set_by(entry))))
+            ends.append(float(case.replace(**{entry: part}).si[set_by(entry)]))
         except InputError as problem:
             first = problem.errors[0]
             raise InputError(option, first.value, f"{entry} {first.allowed}") from None

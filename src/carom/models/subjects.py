@@ -41,7 +41,7 @@ def rotor_of(subject: Subject) -> Rotor:
     if isinstance(subject, Case):
         rotor = rotor_of(subject.parameters)
         if (subject.touchdown or subject.drive) and rotor.has_closed_forms:
-            gap = None if subject.machine is None else subject.machine.air_gap
+            gap = subject.si.get("air_gap")
             rotor = jeffcott(rotor.parameters, subject.touchdown or RIGID, drive=subject.drive, air_gap=gap)
         rotor = _limited(rotor, subject.machine)
         return rotor.under_gravity(subject.gravity) if subject.gravity else rotor

@@ -177,6 +177,11 @@ class Machine(Tabular, pydantic.BaseModel):
         return f"{text} ({'; '.join(beside)})" if beside else text
 
     @property
+    def values(self) -> Mapping[str, float]:
+        """All numbers that are stated, or have a default, in SI units."""
+        return self._resolved.values
+
+    @property
     def given(self) -> Mapping[str, Mapping[str, Any]]:
         """For each number the entries that gave it, as they were written, the one that sets it first.
 

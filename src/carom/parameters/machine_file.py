@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
@@ -154,12 +154,26 @@ class Case(Tabular):
         return f"Case {self.name}"
 
     @property
+    def si(self) -> Mapping[str, float]:
+        """Numbers of ``[machine]`` that are stated, or have a default, in SI units; empty without this table."""
+        return {} if self.machine is None else self.machine.values
+
+    @property
+    def given(self) -> Mapping[str, Mapping[str, Any]]:
+        """For each of them the entries that gave it: :attr:`carom.parameters.Machine.given`."""
+        return {} if self.machine is None else self.machine.given
+
+    @property
+    def given_texts(self) -> Mapping[str, Mapping[str, str]]:
+        """The same as texts that can be shown anywhere."""
+        return {} if self.machine is None else self.machine.given_texts
+
+    @property
     def written(self) -> Mapping[str, Any]:
         """The numbers of ``[machine]`` or ``[dimensionless]`` as they were written, with their units; of one that follows from others the double that it is."""
-        machine = self.machine
-        if machine is None:
+        if not self.si:
             return self.stated
-        return {name: machine.given.get(name, {}).get(name, getattr(machine, name)) for name in MACHINE_FIELDS}
+        return {name: self.given.get(name, {}).get(name, self.si[name]) for name in MACHINE_FIELDS}
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine in the units of people, and what is stated beside it."""
@@ -189,15 +203,19 @@ class Case(Tabular):
     def _of_machine(self) -> list[tuple[str, str]]:
         """The machine, without its restitution if its touchdown bearing is compliant."""
         numbers = self.parameters
+        if numbers.finite_elements is not None:
+            return numbers.finite_elements.machine.rows()
         if self.machine is None:
             return [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
         left_out = ENTRIES["restitution"].words if self.touchdown and self.touchdown.is_compliant else None
         return [row for row in self.machine.rows() if row[0] != left_out]
 
     def to_toml(self) -> str:
-        """Return the text of a machine file that is read as this case, bit for bit; empty if it is a rotor of matrices or parts."""
+        """Return the text of a machine file that is read as this case, bit for bit; empty if its rotor has matrices that are in no file."""
         numbers, machine = self.parameters, self.machine
-        if machine is not None:
+        if numbers.finite_elements is not None:
+            text = numbers.finite_elements.to_toml()
+        elif machine is not None:
             text = machine.to_toml()
             if self.touchdown and self.touchdown.is_compliant:  # whose law has its own restitution
                 text = re.sub("(?m)^restitution = .*\n", "", text)
@@ -205,10 +223,12 @@ class Case(Tabular):
             lines = [f"{name} = {value!r}" for name, value in numbers.as_dict().items()]
             text = "\n".join(["[dimensionless]", *lines]) + "\n"
         else:
+            text = ""
+        if not text:
             return ""
         zones = f"[zones]\nlimits = {list(self.zones.limits)}\n"
         tables = [table.to_toml() for table in (self.limits, self.touchdown, self.drive, self.gravity) if table]
-        required = self.requirement.to_toml(has_scales=machine is not None)
+        required = self.requirement.to_toml(has_scales=numbers.scales is not None)
         return "\n".join(filter(None, [text, zones, required, *tables]))
 
     def _required(self) -> str:
@@ -270,27 +290,30 @@ class Case(Tabular):
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
-class Beside(NamedTuple):
-    """What a file states beside its machine, in tables that all kinds of files share."""
-
-    zones: Zones
-    limits: LoadLimits
-    gravity: Gravity | None
-    drive: Drive | None
+Fields = dict[str, Any]
+"""Attributes of a case by their names."""
 
 
-def read_beside(tables: MachineTables, problems: Problems, has_scales: bool = True) -> Beside:
-    """Read the tables ``[zones]``, ``[limits]``, ``[gravity]`` and ``[drive]``; errors are added to those before."""
-    return Beside(
-        problems.attempt(Zones.of, tables.zones) or Zones(),
-        problems.attempt(LoadLimits.of, tables.limits, has_scales) or LoadLimits(),
-        None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, has_scales),
-        None if tables.drive is None else problems.attempt(Drive.of, tables.drive, has_scales),
-    )
+def read_beside(tables: MachineTables, problems: Problems, has_scales: bool = True) -> Fields:
+    """What all kinds of files state beside their machine: ``[zones]``, ``[limits]``, ``[gravity]`` and ``[drive]``; errors are added to those before."""
+    found = {
+        "zones": problems.attempt(Zones.of, tables.zones) or Zones(),
+        "limits": problems.attempt(LoadLimits.of, tables.limits, has_scales) or LoadLimits(),
+    }
+    for kind in (Gravity, Drive):
+        table = getattr(tables, kind.heading)
+        found[kind.heading] = None if table is None else problems.attempt(kind.of, table, has_scales)
+    return found
 
 
-def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], problems: Problems) -> Case:
-    """Case of a file with a ``[machine]`` or a ``[dimensionless]`` table and these settings.
+def read_case(
+    name: str,
+    tables: MachineTables,
+    texts: Mapping[str, str],
+    problems: Problems,
+    read_rotor: Callable[[MachineTables, Mapping[str, str], Fields, Problems], Fields],
+) -> Case:
+    """Case of a machine file with these settings; ``read_rotor`` reads what a file with ``[rotor]`` states, with its settings.
 
     Raises
     ------
@@ -302,26 +325,34 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     CaromWarning
         The rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
+    has_scales, of_parts = tables.kind != "dimensionless", tables.kind == "rotor"
+    found = read_beside(tables, problems, has_scales)
+    found |= read_rotor(tables, texts, found, problems) if of_parts else _read_planar(tables, problems)
+    # If the machine cannot be read any scales do, so that all errors are stated.
+    scales = Scales(1.0, 1.0, 1.0) if has_scales else None
+    if found["parameters"] is not None:
+        scales = found["parameters"].scales
+    found["requirement"] = problems.attempt(Requirement.of_table, tables.survive, scales) or Requirement()
+    if not of_parts:
+        problems.attempt(check_names, {each: texts[each] for each in texts if not each.startswith(PREFIX)}, SETTINGS)
+    problems.raise_all()
+    case = Case(name, **found)
+    if not of_parts:
+        case = case.replace(**texts)
+        warn_of_proportions(case.machine)
+    return case
+
+
+def _read_planar(tables: MachineTables, problems: Problems) -> Fields:
+    """Of ``[machine]`` or ``[dimensionless]``, and ``[touchdown]``."""
     of_machine = tables.kind == "machine"
-    beside = read_beside(tables, problems, of_machine)
     values, bearing = problems.attempt(_with_restitution, tables.values, tables.touchdown) or (tables.values, {})
     touchdown = problems.attempt(TouchdownBearing.of, bearing, of_machine) if bearing else None
-    base: Machine | Parameters | None = (
-        problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
-    )
-    # If the machine cannot be read any scales do, so that all errors are stated.
-    scales = (Scales(1.0, 1.0, 1.0) if of_machine else None) if base is None else base.scales
-    requirement = problems.attempt(Requirement.of_table, tables.survive, scales) or Requirement()
-    own = {name: text for name, text in texts.items() if not name.startswith(PREFIX)}
-    problems.attempt(check_names, own, SETTINGS)
-    problems.raise_all()
-    machine = base if isinstance(base, Machine) else None
-    numbers = base if machine is None else machine.parameters
-    stated = tables.values if machine is None else {}
-    case = Case(name, numbers, machine, **beside._asdict(), requirement=requirement, touchdown=touchdown, stated=stated)
-    case = case.replace(**texts)
-    warn_of_proportions(case.machine)
-    return case
+    if of_machine:
+        machine = problems.attempt(Machine, **values)
+        return {"parameters": machine and machine.parameters, "machine": machine, "touchdown": touchdown}
+    numbers = problems.attempt(_read_dimensionless, tables)
+    return {"parameters": numbers, "machine": None, "touchdown": touchdown, "stated": tables.values}
 
 
 def split_settings(settings: Iterable[str], problems: Problems) -> dict[str, str]:

@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple, Protocol, Self, runtime_checkable
+from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, Self, runtime_checkable
 
 from carom.base.arguments import checked, having
 from carom.base.outcome import InputError, shown
@@ -66,6 +66,8 @@ class Parameters:
     d: float
     radius_ratio: float
     scales: Scales | None = None
+
+    finite_elements: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         for name in DIMENSIONLESS_FIELDS:
@@ -273,6 +275,10 @@ class Named(Protocol):
     @property
     def varied(self) -> Mapping[str, Field]:
         """Parameters that can be varied."""
+
+    @property
+    def finite_elements(self) -> Any:
+        """The reduced machine of parts that has these numbers; ``None`` without one."""
 
     def value(self, name: str) -> float:
         """Value of a parameter."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import dataclasses
+import json
 import math
 from collections.abc import Mapping
 from functools import cache
@@ -79,6 +80,11 @@ def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
     problems.raise_all()
 
 
+def toml_line(name: str, value: Any, unit: str = "") -> str:
+    """An entry of a table as TOML states it, bit for bit: a number or a list of numbers in the SI unit that follows as a remark, or text."""
+    return f"{name} = {json.dumps(value, ensure_ascii=False)}" + (f"  # {unit}" if unit else "")
+
+
 @dataclasses.dataclass(frozen=True)
 class Table:
     """Base class of a table of a machine file in SI units: a frozen dataclass whose attributes are its entries.
@@ -122,8 +128,8 @@ class Table:
 
     def to_toml(self) -> str:
         """Return the text of a table that is read as this value; nothing if nothing is stated."""
-        lines = [f'{name} = "{getattr(self, name)}"' for name in self.texts]
-        lines += [f"{name} = {value!r}  # {self.unit(name)}".rstrip("# ") for name, value in self.given.items()]
+        lines = [toml_line(name, getattr(self, name)) for name in self.texts]
+        lines += [toml_line(name, value, self.unit(name)) for name, value in self.given.items()]
         return "\n".join([f"[{self.heading}]", *lines]) + "\n" if lines else ""
 
     @classmethod

@@ -204,11 +204,11 @@ def _from_file(path: str | os.PathLike[str], settings: list[str], needs: list[st
     )  # what is proven is of planar rotors without weight and limits, in a rigid wall that stands still, at a constant speed
     values = {name: written_exactly(value) for name, value in case.written.items()}
     given = {name: text for name, text in texts.items() if name not in terms}
-    if case.machine is None:
+    if not case.given:
         return Hypotheses("dimensionless", values, {}).replace(**given)
     entries = {
         **DEFAULTS,
-        **{name: text for each in case.machine.given.values() for name, text in each.items()},
+        **{name: text for each in case.given.values() for name, text in each.items()},
         **texts,
     }
     helpers = {name: written_exactly(entries[name]) for name in needs if name in HELPER_FIELDS and name in entries}

@@ -22,7 +22,6 @@ from carom.studies.coverage import not_covered
 from carom.studies.facts import Fact, about, paragraphs
 from carom.studies.levitating import Levitating
 from carom.studies.levitation_facts import frequency_words
-from carom.studies.part_rows import part_rows
 from carom.studies.summaries import (
     MotionRow,
     motion_rows,
@@ -78,7 +77,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         advice=about_all,
         at_once=AT_ONCE,
         findings=[entry for entry in paragraphs(study.facts) if entry[0] != "Not covered"],
-        machine=part_rows(study.case, study.reduced.machine) if study.reduced else study.case.rows(),
+        machine=study.case.rows(),
         whirls=_whirls(study.levitating),
         motions=motion_rows(study),
         holding=_holding(study),

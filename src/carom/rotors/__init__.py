@@ -16,7 +16,7 @@
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
 ``matrix_checks``         what matrices of a rotor must be
 ``matrix_rotor``          :class:`MatrixRotor`: a rotor by its matrices
-``rigid_body``            :class:`RigidRotor`, :func:`rigid_rotor`: four degrees of freedom
+``rigid_body``            :class:`RigidRotor`: four degrees of freedom
 ``rotor_files``           :func:`read_rotor`, :func:`write_rotor`: files of matrices
 ``array_reader``          the program that reads arrays of a file, in a process of its own
 ``ross_reader``           the program that reads rotors with ROSS, in a process of its own
@@ -25,12 +25,14 @@
 ``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
 ``reduction``             few vectors in place of all coordinates
 ``equations``             equations of motion in SI units
-``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
+``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it; :func:`rigid_rotor`
 ``free_motions``          free motions of a machine, and which of them grow
 ``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
 ``flexible_model``        :class:`FlexibleDefinition`: what defines its rotor, by the parameters of the machine
 ``part_tables``           what each table of a machine file with ``[rotor]`` may hold, and the part that it makes
+``part_rows``             the parts of a machine in the units of people
+``machine_writer``        a machine -> tables of a machine file
 ``machine_file``          :func:`load_machine`; tables of a machine file -> its case
 ``branches``              exponents followed over the speed of the shaft
 ``collocation``           whether sensors see a whirl as the magnet moves it
@@ -45,7 +47,7 @@ from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, TransferFunction
 from carom.rotors.damping import ModalDamping, ProportionalDamping
 from carom.rotors.discs import Disc
-from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.flexible_machine import FlexibleMachine, rigid_rotor
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.flexible_rotor import FlexibleRotor
 from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
@@ -53,7 +55,7 @@ from carom.rotors.machine_file import load_machine
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.reduced_machine import ReducedMachine
-from carom.rotors.rigid_body import RigidRotor, rigid_rotor
+from carom.rotors.rigid_body import RigidRotor
 from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section

@@ -21,8 +21,10 @@ from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import WHOLE, NamedParameters
 from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.part_rows import part_rows
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
+from carom.rotors.rigid_body import RigidRotor
 from carom.rotors.support import Support
 
 ACCURACY = 0.02
@@ -104,6 +106,10 @@ class FlexibleMachine(NamedParameters):
             allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
             raise InputError("law", "rigid", allowed)
 
+    def rows(self) -> list[tuple[str, str]]:
+        """Its parts in the units of people."""
+        return list(part_rows(self))
+
     @cached_property
     def _rows(self) -> list[np.ndarray]:
         """Where forces act and displacements are measured, each place once."""
@@ -171,3 +177,56 @@ class FlexibleMachine(NamedParameters):
     def model(self) -> Rotor:
         """Rotor of the reduced machine that levitates, for ``carom.simulate`` and all the others: see :attr:`ReducedMachine.model`."""
         return self.reduce().model
+
+
+@checked
+def rigid_rotor(
+    *,
+    mass: Any,
+    polar_inertia: Any,
+    diametral_inertia: Any,
+    stations: Sequence[Any],
+    speed: Any,
+    clearance: Any,
+    touchdowns: Sequence[TouchdownPlane],
+    bearings: Sequence[MagneticBearing] = (),
+    supports: Sequence[Support] = (),
+    unbalances: Sequence[Unbalance] = (),
+    gravity: Gravity | None = None,
+    pivot: Any = None,
+) -> FlexibleMachine:
+    """Return the machine of a rigid rotor with two complex degrees of freedom, displacement and tilt.
+
+    Parameters
+    ----------
+    mass, polar_inertia, diametral_inertia, stations, pivot
+        See :class:`RigidRotor`.
+    speed, clearance, touchdowns, bearings, supports, unbalances, gravity
+        See :class:`FlexibleMachine`; the ``node`` of a part is the number of its station, from 0 on.
+
+    Raises
+    ------
+    InputError
+        A value is not allowed.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> from carom.rotors import PID, MagneticBearing, TouchdownPlane
+    >>> ends = [MagneticBearing(node, "100 N/A", "-1e5 N/m", PID("6000 A/m", 0.0, "8 A s/m", "0.1 ms")) for node in (0, 1)]
+    >>> wall = cm.parameters.TouchdownBearing("hunt-crossley", stiffness="5e7 N/m", dissipation="1 s/m")
+    >>> machine = cm.rotors.rigid_rotor(
+    ...     mass="12 kg",
+    ...     polar_inertia="0.01 kg m^2",
+    ...     diametral_inertia="0.15 kg m^2",
+    ...     stations=["-0.12 m", "0.15 m"],
+    ...     speed="20000 rpm",
+    ...     clearance="0.25 mm",
+    ...     bearings=ends,
+    ...     touchdowns=[TouchdownPlane(node, wall, "20 mm", 0.15) for node in (0, 1)],
+    ... )
+    >>> [f"{whirl.frequency:.1f} Hz, {whirl.sense}" for whirl in cm.rotors.find_whirls(machine)[:2]]
+    ['42.1 Hz, backward', '44.6 Hz, forward']
+    """
+    rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
+    return FlexibleMachine(rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports)

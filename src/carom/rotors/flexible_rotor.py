@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -80,6 +80,11 @@ class FlexibleRotor(BendingRotor):
         thickest = max(section.outer_diameter for section in self.sections)
         allowed = f"a diameter nearer to that of the others (up to {thickest:g} m): beside them it bends like a hair; is its unit right?"
         return InputError(f"[[section]] {place + 1}: outer_diameter", thin.outer_diameter, allowed)
+
+    @property
+    def entries(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """The length of its elements."""
+        return {"longest_element": self.longest_element}
 
     @property
     def length(self) -> float:

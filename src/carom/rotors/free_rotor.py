@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -63,6 +63,8 @@ class FreeRotor(ABC):
     """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
     words: str
     """What it is, in a line."""
+    entries: Mapping[str, Any] | None
+    """What ``[rotor]`` of a machine file states of it, beside its damping; ``None`` where no file holds its matrices."""
 
     matrices: RotorMatrices
     """``M``, ``K`` and ``G``."""

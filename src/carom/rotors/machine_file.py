@@ -12,10 +12,10 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import CaromWarning, InputError, Problems, shown
-from carom.parameters import Case, Gravity, Requirement, Scales, read_quantity
+from carom.parameters import Gravity, read_quantity
 from carom.parameters.fields import unknown_name
 from carom.parameters.machine import LEAST_RADIUS
-from carom.parameters.machine_file import read_beside, split_settings
+from carom.parameters.machine_file import Fields, read_beside, split_settings
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 from carom.parameters.touchdown_bearing import LAWS
 from carom.rotors.discs import Disc
@@ -23,28 +23,21 @@ from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
 from carom.rotors.flexible_rotor import MOST_ELEMENTS, FlexibleRotor
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.matrix_rotor import MatrixRotor
-from carom.rotors.part_tables import PARTS, RENAMED, ROTOR_ENTRIES, damping_of, entries_in, require
+from carom.rotors.part_tables import ATTACHED, PARTS, PLACED, RENAMED, ROTOR_ENTRIES, damping_of, entries_in, require
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS, RigidRotor
 from carom.rotors.rotor_files import read_rotor
 from carom.rotors.sections import MATERIAL_FIELDS, Material
 
-OF_RIGID = ("speed", *RIGID_FIELDS)
+OF_RIGID = ("speed", "clearance", *RIGID_FIELDS)
 """Entries of ``[rotor]`` where it states the mass of a rigid rotor."""
+REDUCED = ("accuracy", "modes")
+"""Entries of ``[rotor]`` that say how many vectors the machine is reduced to, one of which may be stated."""
 SLENDEREST = 500.0
 """Length over diameter of a section beyond which a unit was probably forgotten."""
-_PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
-"""Entries of the parts of a rigid rotor, and those that they stand for."""
-_ATTACHED = {
-    "bearings": "magnetic_bearing",
-    "touchdowns": "touchdown",
-    "unbalances": "unbalance",
-    "supports": "support",
-}
-"""Parts of a machine beside its rotor, and their tables."""
 
 
-def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, str], problems: Problems) -> Case:
-    """Case of a file with a ``[rotor]`` table: it holds the reduced machine that levitates, as a model.
+def read_rotor_tables(tables: MachineTables, settings: Mapping[str, str], beside: Fields, problems: Problems) -> Fields:
+    """The reduced machine that levitates, as a model, of a file with a ``[rotor]`` table: attributes of its case.
 
     Raises
     ------
@@ -56,18 +49,17 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     CaromWarning
         A section is thicker than the shaft is long, or thinner than a wire, or the rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
-    beside = read_beside(tables, problems)
-    if beside.drive is not None:
+    if beside["drive"] is not None:
         allowed = "not allowed beside [rotor]: gyroscopic moments change with the speed of the shaft, which is held constant there"
         problems.errors.append(InputError("drive", shown(dict(tables.drive or {})), allowed))
-    accuracy, text = ROTOR_ENTRIES["accuracy"], settings.get("accuracy", tables.values.get("accuracy", ACCURACY))
-    wanted = problems.attempt(read_quantity, accuracy, text)
-    machine = _read_machine(tables, settings, beside.gravity, problems)
-    if beside.limits.pressure is not None and any(each.bearing.balls is None for each in machine.touchdowns):
-        raise InputError("pressure", beside.limits.pressure, "a limit needs balls in all tables [[touchdown]]")
-    rotor = machine.reduce(wanted or ACCURACY).limited
-    required = Requirement.of_table(tables.survive, rotor.scales or Scales(1.0, 1.0, 1.0))
-    return Case(name, rotor, None, **beside._replace(gravity=machine.gravity)._asdict(), requirement=required)
+    stated = entries_in(settings, REDUCED) or tables.values
+    name = next((name for name in REDUCED if name in stated), "accuracy")
+    wanted = problems.attempt(read_quantity, ROTOR_ENTRIES[name], stated.get(name, ACCURACY))
+    machine = _read_machine(tables, settings, beside["gravity"], problems)
+    if beside["limits"].pressure is not None and any(each.bearing.balls is None for each in machine.touchdowns):
+        raise InputError("pressure", beside["limits"].pressure, "a limit needs balls in all tables [[touchdown]]")
+    reduced = machine.with_modes(int(wanted or 1)) if name == "modes" else machine.reduce(wanted or ACCURACY)
+    return {"parameters": reduced.limited, "machine": None, "gravity": machine.gravity}
 
 
 @checked
@@ -104,7 +96,7 @@ def load_machine(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> 
     if tables.kind != "rotor":
         problems.errors.append(InputError("machine file", shown(path), f"a [rotor] table; it holds [{tables.kind}]"))
         problems.raise_all()
-    return _read_machine(tables, texts, read_beside(tables, problems).gravity, problems)
+    return _read_machine(tables, texts, read_beside(tables, problems)["gravity"], problems)
 
 
 def _read_machine(
@@ -114,7 +106,8 @@ def _read_machine(
     whole = dict(tables.values)
     is_rigid = not RIGID_FIELDS.keys().isdisjoint(whole)
     known = {name: field for name, field in ROTOR_ENTRIES.items() if is_rigid or name not in RIGID_FIELDS}
-    whole |= {name: text for name, text in settings.items() if name in known}
+    own = {name: text for name, text in settings.items() if name in known and name != "clearance"}
+    whole |= own
     problems.errors += [
         unknown_name(each, given, ROTOR_ENTRIES, "[rotor]") for each, given in whole.items() if each not in known
     ]
@@ -124,20 +117,30 @@ def _read_machine(
         problems.raise_all()
         tables, stations = _at_stations(tables, problems)
     rotor = _read_rotor(tables, whole, stations if is_rigid else None, problems)
+    everywhere = whole.get("clearance")
+
+    def completed(entry: dict[str, Any]) -> dict[str, Any]:
+        return _numbered(entry, rotor, not is_rigid)
+
+    def with_clearance(entry: dict[str, Any]) -> dict[str, Any]:
+        return completed(entry if everywhere is None else {"clearance": None, **entry})
+
     parts = {
-        name: _each(tables, kind, problems, lambda entry: _numbered(entry, rotor, not is_rigid), rotor)
-        for name, kind in _ATTACHED.items()
+        name: _each(tables, kind, problems, with_clearance if name == "touchdowns" else completed, rotor)
+        for name, kind in ATTACHED.items()
     }
     if not tables.parts.get("touchdown"):
         place = "position" if is_rigid else "node"
         allowed = f"one or more tables, each with its {place}, clearance, rotor_radius, friction and law"
         problems.errors.append(InputError("[[touchdown]]", None, allowed))
     problems.raise_all()
-    rooms = {each.clearance for each in parts["touchdowns"]}
-    if len(rooms) == 1:
-        parts["touchdowns"] = [replace(each, clearance=None) for each in parts["touchdowns"]]
-    machine = FlexibleMachine(rotor, whole.get("speed"), min(rooms), gravity=gravity, **parts)  # type: ignore[arg-type]
-    others = {name: text for name, text in settings.items() if name not in known}
+    if everywhere is None:
+        rooms = {each.clearance for each in parts["touchdowns"]}
+        everywhere = min(rooms)
+        if len(rooms) == 1:
+            parts["touchdowns"] = [replace(each, clearance=None) for each in parts["touchdowns"]]
+    machine = FlexibleMachine(rotor, whole.get("speed"), everywhere, gravity=gravity, **parts)  # type: ignore[arg-type]
+    others = {name: text for name, text in settings.items() if name not in own}
     problems.errors += [machine.unknown(each, others[each], known) for each in others if each not in machine.varied]
     problems.raise_all()
     machine = machine.replace(**others)
@@ -206,15 +209,15 @@ def _at_stations(tables: MachineTables, problems: Problems) -> tuple[MachineTabl
     stations = sorted({at for places in read.values() for given in places.values() for at in np.atleast_1d(given)})
     parts: dict[str, list[Mapping[str, Any]]] = {kind: [] for kind in tables.parts}
     for (kind, number), places in read.items():
-        others = {name: given for name, given in tables.parts[kind][number - 1].items() if name not in _PLACED}
-        numbers = {_PLACED[name]: np.searchsorted(stations, given).tolist() for name, given in places.items()}
+        others = {name: given for name, given in tables.parts[kind][number - 1].items() if name not in PLACED}
+        numbers = {PLACED[name]: np.searchsorted(stations, given).tolist() for name, given in places.items()}
         parts[kind].append({**numbers, **others})
     return replace(tables, parts=parts), stations
 
 
 def _placed(entry: Mapping[str, Any]) -> dict[str, Any]:
     """Where a part of a rigid rotor is, and its sensors, m."""
-    for name, node in _PLACED.items():
+    for name, node in PLACED.items():
         if node in entry:
             raise InputError(node, shown(entry[node]), f"{name}, from the centre of mass: a rigid rotor has no nodes")
     require(entry, ("position",))
@@ -228,9 +231,9 @@ def _placed(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 def _numbered(entry: Mapping[str, Any], rotor: FreeRotor | None, bends: bool) -> dict[str, Any]:
     """The table of a part with numbers in place of the names of nodes, which a rotor of matrices may have."""
-    for name in _PLACED:
+    for name in PLACED:
         if name in entry:
-            allowed = f"{_PLACED[name]}: only a rigid rotor, with its mass in [rotor], has positions"
+            allowed = f"{PLACED[name]}: only a rigid rotor, with its mass in [rotor], has positions"
             raise InputError(name, shown(entry[name]), allowed)
     if bends and entry.get("law") == "rigid":
         allowed = f"must be one of {', '.join(LAWS[1:])}: a rigid wall has no answer on a rotor that bends"
@@ -268,7 +271,7 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
     ]
     if stated:
         text = f"{'; '.join(stated)}: check the units (a number without a unit is in m)"
-        warnings.warn(text, CaromWarning, stacklevel=4)
+        warnings.warn(text, CaromWarning, stacklevel=5)
 
 
 def _each(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -84,6 +84,14 @@ class MatrixRotor(BendingRotor):
         object.__setattr__(self, "discs", listed)
         for disc in self.discs:
             self.check_node("disc node", disc.node)
+
+    source: ClassVar[str] = ""
+    """The file from which it was read, if it was."""
+
+    @property
+    def entries(self) -> Mapping[str, Any] | None:  # type: ignore[override]
+        """Its file, if it is known."""
+        return {"source": self.source} if self.source else None
 
     @classmethod
     def of_planes(

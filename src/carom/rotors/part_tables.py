@@ -27,9 +27,22 @@ ROTOR_ENTRIES: Mapping[str, Any] = {
     "longest_element": LONGEST,
     "source": None,
     "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
+    "modes": Field(
+        "modes", "", "modes of the free rotor, in place of an accuracy", "a whole number", "", 1, 1e4, "8", whole=True
+    ),
+    "clearance": MACHINE_FIELDS["clearance"],
     **dict.fromkeys(RENAMED),
     **RIGID_FIELDS,
 }
+ATTACHED = {
+    "bearings": "magnetic_bearing",
+    "touchdowns": "touchdown",
+    "unbalances": "unbalance",
+    "supports": "support",
+}
+"""Parts of a machine beside its rotor, and their tables."""
+PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
+"""Entries of the parts of a rigid rotor, and those that they stand for."""
 _QUOTIENT, _MATRICES = ("numerator", "denominator"), ("A", "B", "C", "D")
 _CONTROLLERS: tuple[tuple[Callable[..., Any], Iterable[str], tuple[str, ...]], ...] = (
     (PID, PID_FIELDS, ("proportional",)),

@@ -22,6 +22,7 @@ from carom.rotors.controllers import PID
 from carom.rotors.equations import Equations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.free_motions import slowest_of
+from carom.rotors.machine_writer import machine_toml
 from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:
@@ -72,6 +73,10 @@ class ReducedMachine(Result):
         its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is stated with the motion.
         """
         return self.machine.error_of(self.basis)
+
+    def to_toml(self) -> str:
+        """Return the tables of a machine file that are read as this machine; empty if its rotor has matrices that are in no file."""
+        return machine_toml(self.machine, self.modes)
 
     @property
     def vectors(self) -> int:

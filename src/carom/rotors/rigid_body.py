@@ -9,19 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown
-from carom.parameters import MACHINE_FIELDS, Field, Gravity, read_quantity
+from carom.parameters import MACHINE_FIELDS, Field, read_quantity
 from carom.parameters.fields import by_name, length_field
 from carom.parameters.tables import read_entries
-from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.discs import check_inertias
 from carom.rotors.entries import inertia_field
-from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_modes import FreeModes
 from carom.rotors.free_rotor import FreeRotor, RotorMatrices
-from carom.rotors.magnetic_bearing import MagneticBearing
-from carom.rotors.support import Support
 
 RIGID_FIELDS: Mapping[str, Field] = by_name(
     MACHINE_FIELDS["mass"],
@@ -94,6 +89,11 @@ class RigidRotor(FreeRotor):
 
     damping_rates = None
 
+    @property
+    def entries(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """Its numbers that are stated."""
+        return {name: getattr(self, name) for name in RIGID_FIELDS if getattr(self, name) is not None}
+
     @cached_property
     def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
         """Zeros: what damps it are its bearings."""
@@ -148,56 +148,3 @@ class RigidRotor(FreeRotor):
         """What it is, in a line."""
         held = "" if self.pivot is None else f", tilting about a point at {1e3 * self.pivot:.6g} mm"
         return f"rigid, {self.mass:.6g} kg, inertias {self.polar_inertia:.6g} kg m^2 (polar) and {self.diametral_inertia:.6g} kg m^2{held}"
-
-
-@checked
-def rigid_rotor(
-    *,
-    mass: Any,
-    polar_inertia: Any,
-    diametral_inertia: Any,
-    stations: Sequence[Any],
-    speed: Any,
-    clearance: Any,
-    touchdowns: Sequence[TouchdownPlane],
-    bearings: Sequence[MagneticBearing] = (),
-    supports: Sequence[Support] = (),
-    unbalances: Sequence[Unbalance] = (),
-    gravity: Gravity | None = None,
-    pivot: Any = None,
-) -> FlexibleMachine:
-    """Return the machine of a rigid rotor with two complex degrees of freedom, displacement and tilt.
-
-    Parameters
-    ----------
-    mass, polar_inertia, diametral_inertia, stations, pivot
-        See :class:`RigidRotor`.
-    speed, clearance, touchdowns, bearings, supports, unbalances, gravity
-        See :class:`FlexibleMachine`; the ``node`` of a part is the number of its station, from 0 on.
-
-    Raises
-    ------
-    InputError
-        A value is not allowed.
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> from carom.rotors import PID, MagneticBearing, TouchdownPlane
-    >>> ends = [MagneticBearing(node, "100 N/A", "-1e5 N/m", PID("6000 A/m", 0.0, "8 A s/m", "0.1 ms")) for node in (0, 1)]
-    >>> wall = cm.parameters.TouchdownBearing("hunt-crossley", stiffness="5e7 N/m", dissipation="1 s/m")
-    >>> machine = cm.rotors.rigid_rotor(
-    ...     mass="12 kg",
-    ...     polar_inertia="0.01 kg m^2",
-    ...     diametral_inertia="0.15 kg m^2",
-    ...     stations=["-0.12 m", "0.15 m"],
-    ...     speed="20000 rpm",
-    ...     clearance="0.25 mm",
-    ...     bearings=ends,
-    ...     touchdowns=[TouchdownPlane(node, wall, "20 mm", 0.15) for node in (0, 1)],
-    ... )
-    >>> [f"{whirl.frequency:.1f} Hz, {whirl.sense}" for whirl in cm.rotors.find_whirls(machine)[:2]]
-    ['42.1 Hz, backward', '44.6 Hz, forward']
-    """
-    rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
-    return FlexibleMachine(rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports)

@@ -67,11 +67,12 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
     given |= {"damping": matrix if damping is None else damping, "discs": discs}
     if "names" in arrays:
         given["names"] = arrays["names"]
+    is_complex = "coordinates" not in arrays and arrays["M"].shape == (2 * arrays["nodes"].size,) * 2
+    order = {} if is_complex else {"coordinates": arrays.get("coordinates")}
     try:
-        if "coordinates" in arrays:
-            return MatrixRotor.of_planes(**given, coordinates=arrays["coordinates"])
-        is_complex = arrays["M"].shape == (2 * arrays["nodes"].size,) * 2
-        return MatrixRotor(**given) if is_complex else MatrixRotor.of_planes(**given)
+        found = (MatrixRotor if is_complex else MatrixRotor.of_planes)(**given, **order)
+        object.__setattr__(found, "source", str(Path(name).absolute()))
+        return found
     except InputError as problem:
         raise InputError(f"{name}: {problem.field}", problem.value, problem.allowed) from None
 

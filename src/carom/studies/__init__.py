@@ -21,7 +21,6 @@ Read them in this order.
 ``full_size``            what must be survived at its full size all around, and what touchdown bearings bear in it
 ``levitation_facts``     how it levitates, in words
 ``touchdown_facts``      loads, drop and accuracy, in words
-``part_rows``            the parts of a flexible machine in the units of people
 ``endings``              where simulated disturbances ended
 ``facts``                :class:`Fact`: what headline, page, report and JSON show
 ``advice_facts``         the recommendation, as facts

@@ -127,12 +127,12 @@ class BearingDemand:
 
 def slew_limit_of(case: Case) -> SlewLimit | None:
     """Largest rate of the current of one magnetic bearing of a machine; ``None`` if it is not stated, or under weight."""
-    machine, scales = case.machine, case.parameters.scales
-    if machine is None or scales is None or machine.slew_rate_limit is None or rotor_of(case).system.forced is not None:
+    machine, scales, limit = case.machine, case.parameters.scales, case.si.get("slew_rate_limit")
+    if machine is None or scales is None or limit is None or rotor_of(case).system.forced is not None:
         return None
     gains = machine.controller_gains
     return SlewLimit(
-        machine.slew_rate_limit,
+        limit,
         gains["proportional_gain"] * scales.velocity,
         gains["derivative_gain"] * scales.velocity * scales.speed,
     )

@@ -209,7 +209,7 @@ def _end_document(say: Wording, name: str, edge: Edge) -> dict[str, Any]:
 def with_setting(case: Case, terms: InTerms) -> Case:
     """The case with this value set, as by ``--set``."""
     text = terms.setting.partition("=")[2]
-    return case.replace(**{terms.entry: terms.value if case.machine is None else text})
+    return case.replace(**{terms.entry: text})
 
 
 def _nearest(recovery: Recovery) -> Margin | None:

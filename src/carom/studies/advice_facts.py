@@ -38,16 +38,9 @@ _fact = partial(Fact, "Recommendation")
 
 def advice_facts(study: StudyData) -> Iterator[Fact]:
     """The machine, what it does now, the changes that help, and how sure all this is."""
-    say, machine, recommended, shown = (
-        study.wording,
-        study.case.machine,
-        study.recommendation,
-        [present_values(study.case)],
-    )
-    if machine is not None:
-        shown += [
-            f"{name} {format_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
-        ]
+    say, si, recommended = study.wording, study.case.si, study.recommendation
+    shown = [present_values(study.case)]
+    shown += [f"{name} {format_entry(name, si[name])}" for name in ("mass", "clearance", "eccentricity") if name in si]
     yield _fact(", ".join(shown), "Machine")
     kind = recommended.kind
     if kind in _NO_CHANGE:

@@ -24,7 +24,7 @@ from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import MACHINE_FIELDS, Machine, Parameters
+from carom.parameters import MACHINE_FIELDS, Case, Parameters
 from carom.parameters.columns import Column, keys_of
 from carom.parameters.formats import complex_words, format_quantity
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
@@ -86,14 +86,14 @@ SHARE = "tried=total came_back=count"
 
 @checked
 def orbits_document(
-    numbers: Parameters | Rotor, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
+    numbers: Parameters | Rotor, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, case: Case | None = None
 ) -> dict[str, Any]:
-    """Return the document of equilibria and periodic orbits of a rotor, with the machine that states it."""
+    """Return the document of equilibria and periodic orbits of a rotor, with the numbers of the machine that its case states."""
     rotor = rotor_of(numbers)
     return {
         **rotor.document(),
-        "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
-        "machine_given": machine.given_texts if machine is not None else None,
+        "machine_si": {name: case.si[name] for name in MACHINE_FIELDS} if case and case.si else None,
+        "machine_given": case.given_texts if case and case.si else None,
         "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
         "orbits": [_orbit(entry) for entry in orbits],
         **record(orbits, "complete longest_period argument"),
@@ -219,7 +219,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
     return {
         "name": case.name,
         "carom": version("carom"),
-        **orbits_document(rotor, study.equilibria, study.orbits, case.machine),
+        **orbits_document(rotor, study.equilibria, study.orbits, case),
         "scales_si": record(scales, SCALES) if scales else None,
         "levitating": study.levitating.document(),
         "reduction": record(study.reduced, "vectors modes error") | {"error_is": "an estimate, no bound"}

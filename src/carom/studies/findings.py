@@ -58,7 +58,7 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
 
 
 def _levitation(study: StudyData) -> str:
-    say, levitation, machine = study.wording, study.equilibria[0], study.case.machine
+    say, levitation, si = study.wording, study.equilibria[0], study.case.si
     if levitation.status == "virtual":
         whirl = "Sag and whirl" if study.under_gravity else "Its whirl from unbalance"
         return f"The rotor cannot run without contact. {whirl} would need a radius of {say.radius(levitation.radius)}, more than the clearance."
@@ -75,8 +75,8 @@ def _levitation(study: StudyData) -> str:
         return f"{text} But it has no damping: vibrations do not decay."
     decay = -float(levitation.eigenvalues.real.max())
     text += f" Small vibrations decay, with a time constant of {say.time(1.0 / decay)}."
-    if machine is not None and machine.air_gap is not None:
-        share = machine.clearance / machine.air_gap
+    if "air_gap" in si:
+        share = si["clearance"] / si["air_gap"]
         text += (
             f" Where it touches it is {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
         )

@@ -9,6 +9,7 @@ the square ``y`` of the frequency.  Its derivative vanishes at one ``y`` alone.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,7 +17,7 @@ import numpy as np
 
 from carom.base.results import Result, record
 from carom.models import Rotor
-from carom.parameters import Case, Machine
+from carom.parameters import Case
 from carom.parameters.fields import RPM
 from carom.rotors import (
     Campbell,
@@ -141,7 +142,7 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
         response, criticals = response_curve(case, whirls, usual_range(whirls, run), run)
         found = replace(found, response=response, at_speed=synchronous_response(case, [speed]), criticals=criticals)
     if machine is None:
-        loop = None if case.machine is None else _loop_of_mass(case.machine)
+        loop = _loop_of_mass(case.si)
         return replace(found, loops=(loop,) if loop else ())
     seen, speeds = sensitivity(machine) if machine.bearings else None, np.linspace(SLOWEST, FASTEST, FOLLOWED) * speed
     return replace(
@@ -165,12 +166,12 @@ def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[Whirl, ...]:
     return tuple([Whirl(complex(each), still, 0.0 * still) for each in slowest if turns(each)][:count])
 
 
-def _loop_of_mass(machine: Machine) -> LoopPeak | None:
+def _loop_of_mass(si: Mapping[str, float]) -> LoopPeak | None:
     """Largest sensitivity of equal magnetic bearings that hold one mass; ``None`` where their negative stiffness is not stated."""
-    if machine.negative_stiffness is None:
+    if "negative_stiffness" not in si:
         return None
-    mass, damping, stiffness = machine.mass, machine.damping, machine.stiffness
-    pull = (machine.magnetic_bearings or 1) * machine.negative_stiffness
+    mass, damping, stiffness = si["mass"], si["damping"], si["stiffness"]
+    pull = si["magnetic_bearings"] * si["negative_stiffness"]
 
     def size(square: float) -> float:
         return (mass * square + pull) / math.hypot(stiffness - mass * square, damping * math.sqrt(square))

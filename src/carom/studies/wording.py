@@ -216,17 +216,15 @@ class Wording:
 
 def present_values(case: Case) -> str:
     """Return the present values of a machine in a line: ``damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm``."""
-    if case.machine is None and "speed" in case.parameters.varied:
+    if case.si:
+        return ", ".join(f"{name} {format_entry(name, case.si[name])}" for name in ("damping", "stiffness", "speed"))
+    if "speed" in case.parameters.varied:
         scales = case.parameters.scales
         speed = format_entry("speed", case.parameters.value("speed"))
         return f"mass {format_entry('mass', scales.mass)}, speed {speed}, clearance {format_entry('clearance', scales.clearance)}"
-    if case.machine is None:
-        own = own_numbers(case.parameters).items()
-        shown = [(case.parameters.varied[name].symbol, value) for name, value in own if not name.startswith(_UNTOLD)]
-        return ", ".join(f"{symbol} = {number(value)}" for symbol, value in shown)
-    return ", ".join(
-        f"{name} {format_entry(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
-    )
+    own = own_numbers(case.parameters).items()
+    shown = [(case.parameters.varied[name].symbol, value) for name, value in own if not name.startswith(_UNTOLD)]
+    return ", ".join(f"{symbol} = {number(value)}" for symbol, value in shown)
 
 
 def machine_heading(case: Case) -> str:

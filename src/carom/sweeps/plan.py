@@ -171,9 +171,9 @@ class SweepPlan:
     def _terms(self, case: Case) -> dict[str, Any]:
         """Return how the machine was given, if axes or settings are in terms whose effect depends on that."""
         names = {*self.fixed, *(axis.name for axis in self.axes)}
-        if case.machine is None or names.isdisjoint(TERM_FIELDS.keys() | HELPER_FIELDS.keys()):
+        if not case.given or names.isdisjoint(TERM_FIELDS.keys() | HELPER_FIELDS.keys()):
             return {}
-        return {"given": case.machine.given_texts}
+        return {"given": case.given_texts}
 
     @property
     def digest(self) -> str:
@@ -225,7 +225,7 @@ def check_varied(case: Case | Rotor, name: str) -> None:
             axis(case, name)
         except InputError as problem:
             raise InputError(f"axes.{name}", shown(name), problem.allowed) from None
-    elif name not in DIMENSIONLESS_FIELDS and case.machine is None:
+    elif name not in DIMENSIONLESS_FIELDS and not case.si:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
         raise InputError(f"axes.{name}", shown(name), allowed)
     elif name in OF_TABLES and name != GRAVITY_NAME and case.touchdown is None:

@@ -129,7 +129,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     fixed: dict[str, float | str] = {
         name: getattr(case.parameters, name) for name in names if name in DIMENSIONLESS_FIELDS
     }
-    if case.machine is not None:
+    if case.si:
         texts = {name: setting.partition("=")[2].strip() for name, setting in zip(names, listed, strict=True)}
         fixed |= {name: texts[name] for name in names if name in TERMS}
     sources = {

@@ -252,7 +252,7 @@ def _entry(case: Case, name: str, unit: str, text: str) -> tuple[str, str | floa
 
 def term_of(case: Case, name: str, text: str) -> str:
     """The entry of a machine file in which a text for a control is stated; the control itself if no term has such a unit."""
-    if case.machine is None or name not in SETTINGS or _reads(SETTINGS[name], with_unit(_KINDS[name].unit, text)):
+    if name not in case.si or name not in SETTINGS or _reads(SETTINGS[name], with_unit(_KINDS[name].unit, text)):
         return name
     return next((term for term in TERM_FIELDS if set_by(term) == name and _reads(TERM_FIELDS[term], text)), name)
 

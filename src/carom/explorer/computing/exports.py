@@ -83,11 +83,10 @@ class Origin:
 
         Only such settings mean the same whatever else is set.
         """
-        name, machine = _name(setting), self.case.machine
-        if machine is None or name == set_by(name):
+        name, entry = _name(setting), set_by(_name(setting))
+        if name == entry or entry not in self.case.si:
             return setting
-        field = MACHINE_FIELDS[set_by(name)]
-        return f"{field.name}={getattr(machine, field.name)!r} {field.unit}".strip()
+        return f"{entry}={self.case.si[entry]!r} {MACHINE_FIELDS[entry].unit}".strip()
 
 
 def mark_of(case: Case) -> str:

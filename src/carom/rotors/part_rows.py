@@ -3,30 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
-from carom.parameters import Case, Field
+from carom.parameters import Field
 from carom.parameters.fields import RPM
 from carom.parameters.formats import format_angle, format_entry, number
-from carom.rotors import PID, FlexibleMachine
 from carom.rotors.attachments import PLANE_FIELDS
-from carom.rotors.controllers import PID_FIELDS
+from carom.rotors.controllers import PID, PID_FIELDS
 from carom.rotors.magnetic_bearing import BEARING_FIELDS
 from carom.rotors.support import SUPPORT_FIELDS
-from carom.studies.wording import listed
+
+if TYPE_CHECKING:
+    from carom.rotors.flexible_machine import FlexibleMachine
 
 _MILLIMETRES = 1e3
 
 
-def part_rows(case: Case, machine: FlexibleMachine) -> list[tuple[str, str]]:
-    """The rotor and what stands around it, part by part, and what is stated beside it; places along the shaft are from its beginning."""
-    return [*_parts(machine), *case.beside_rows()]
-
-
-def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
+def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
+    """The rotor and what stands around it, part by part; places along the shaft are from its beginning."""
     places = _MILLIMETRES * machine.rotor.node_places
 
     def at(*nodes: int) -> str:
-        return f"{listed([number(float(places[node])) for node in nodes])} mm"
+        return f"{' and '.join(number(float(places[node])) for node in nodes)} mm"
 
     yield "rotor", machine.rotor.words
     yield "speed", f"{number(machine.speed / RPM)} rpm"

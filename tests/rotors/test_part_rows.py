@@ -5,14 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import carom as cm
-from carom.rotors import load_machine
-from carom.studies.part_rows import part_rows
 
 FILE = "examples/tum-flexible-rotor.toml"
 
 
 def test_parts_are_told_as_the_file_has_them():
-    rows = dict(part_rows(cm.load(FILE), load_machine(FILE)))
+    rows = dict(cm.load(FILE).rows())
     assert rows["rotor"] == "3.273 kg, 702 mm long"
     assert rows["speed"] == "3,000 rpm"
     assert rows["magnetic bearing 2"].startswith("at 623 mm, sensors at 581 and 665 mm: ki 50 N/A, ks -100,000 N/m; ")
@@ -31,5 +29,5 @@ def test_a_support_is_told_with_what_it_has(tmp_path):
     path.write_text(
         text + '\n[[support]]\nnode = 7\nkxx = "2e4 N/m"\nkyy = "1e4 N/m"\ncxx = "5 N s/m"\n', encoding="utf-8"
     )
-    rows = dict(part_rows(cm.load(path), load_machine(path)))
+    rows = dict(cm.load(path).rows())
     assert rows["support 1"] == "at 363 mm: kxx 20,000 N/m, kyy 10,000 N/m, cxx 5 N s/m"
