@@ -54,8 +54,6 @@ class AttractorSet(Members[Attractor]):
         Number of disturbances that were to be followed; those that the budget of a study did not suffice for are left out.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
-
     figure: ClassVar[str] = "attractors"
     called: ClassVar[str] = "attractor"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -54,8 +54,6 @@ class Survival:
     interval : tuple of float
         Interval of the half-life with a confidence of 95 %; if none died, its lower limit and infinity.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("clopper1934",)
 
     motions: int
     impacts: int

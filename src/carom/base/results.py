@@ -13,10 +13,8 @@ from typing import Any, ClassVar, TypeVar, overload
 
 import numpy as np
 
-from carom.base.arguments import checked
 from carom.base.boxes import box
 from carom.base.outcome import InputError
-from carom.base.references import REFERENCES, Citations, carom_itself
 from carom.base.tabular import Tabular
 
 Member = TypeVar("Member")
@@ -46,13 +44,11 @@ class Result(Tabular):
     """Result of a function: a frozen dataclass that is shown by its attributes, large ones by their size only.
 
     ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.  ``figure``
-    names the function of :mod:`carom.plots` that draws such a result; it is empty if there is none.  ``rests_on`` names the
-    publications of :mod:`carom.base.references` behind the methods that make such a result.
+    names the function of :mod:`carom.plots` that draws such a result; it is empty if there is none.
     """
 
     shown: ClassVar[tuple[str, ...]] = ()
     figure: ClassVar[str] = ""
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014",)
 
     def plot(self, *args: Any, **options: Any) -> Any:
         """Draw this result: ``result.plot(...)`` is ``carom.plots.<figure>(result, ...)``.
@@ -136,54 +132,6 @@ def format_value(kind: str, value: object, scales: Any) -> str:
     # The layers forbid imports from above.
     beside = import_module("carom.parameters.formats").format_beside(value, kind, scales) if kind and scales else ""
     return f"{in_a_line(value, scales)}{beside}"
-
-
-@checked
-def citations(result: object) -> Citations:
-    """What to cite for a result: carom, and the literature on which the methods behind it rest.
-
-    Parameters
-    ----------
-    result : motion, orbits, basin, diagram, study, proof or another result of carom
-        The results that it holds count too.
-
-    Returns
-    -------
-    Citations
-        :attr:`~carom.base.references.Citations.text` for people, :attr:`~carom.base.references.Citations.bibtex` for a file.
-
-    Raises
-    ------
-    InputError
-        It is no result of carom.
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> found = cm.results.citations(cm.find_orbits(machine))
-    >>> [reference.key for reference in found.references]
-    ['carom', 'mora2014']
-    """
-    if not hasattr(result, "rests_on"):
-        raise InputError("result", type(result).__name__, "a result of carom: a motion, orbits, a basin, a study, …")
-    keys: dict[str, None] = {}
-    _collect(result, keys, set())
-    return Citations((carom_itself(), *(REFERENCES[key] for key in keys)))
-
-
-def _collect(value: object, keys: dict[str, None], seen: set[int]) -> None:
-    """Add the publications behind a result, and behind those that it holds."""
-    if id(value) in seen:
-        return
-    seen.add(id(value))
-    if isinstance(value, tuple | list):
-        for entry in value:
-            _collect(entry, keys, seen)
-    elif dataclasses.is_dataclass(value):
-        keys.update(dict.fromkeys(getattr(value, "rests_on", ())))
-        for field in dataclasses.fields(value):
-            _collect(getattr(value, field.name), keys, seen)
 
 
 def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, Any]:

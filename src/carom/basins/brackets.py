@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 from carom.base.outcome import Outcome
 from carom.base.results import Result
@@ -64,8 +63,6 @@ class SmallestUnrecovered(Result):
     scales : Scales or None
         Those of the machine.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
 
     kind: str
     size: float | None

@@ -89,8 +89,6 @@ class Stored(Result):
 class Mapped(Stored):
     """Base of basins and gain maps."""
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "clopper1934")
-
     @cached_property
     def plan(self) -> Plan:
         """Disturbances that were tried, in units of this machine; with known scales they keep their size in SI units for others."""

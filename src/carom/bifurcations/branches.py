@@ -52,8 +52,6 @@ class OrbitBranch(Result):
         :class:`~carom.continuation.Branch`.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
-
     shown: ClassVar[tuple[str, ...]] = (
         "parameter",
         "name",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
@@ -82,8 +81,6 @@ class Curve(Result):
         reaches an end of the period), ``"period vanishes"``, ``"radial speed without bound"``, or why the continuation gave
         up (:class:`~carom.continuation.Branch`).
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
 
     kind: str
     plane: Plane

@@ -63,8 +63,6 @@ class Diagram(Result):
         In ascending order of the parameter.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
-
     figure: ClassVar[str] = "bifurcation_diagram"
 
     model: Rotor

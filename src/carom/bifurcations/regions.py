@@ -57,8 +57,6 @@ class RegionMap(Result):
         Curves that could not be followed, each with the reason.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
-
     figure: ClassVar[str] = "region_map"
     shown: ClassVar[tuple[str, ...]] = ("plane", "curves", "regions", "present_motions", "unexplained", "lost")
 

@@ -64,7 +64,6 @@ class SimulatedBranch(Result):
         See :class:`~carom.continuation.Branch`.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("keller1977",)
     shown: ClassVar[tuple[str, ...]] = ("axis", "name", "word", "values", "period", "special", "stops")
 
     axis: Axis

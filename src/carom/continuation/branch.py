@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -96,8 +96,6 @@ class Branch(Result):
         the watch that ended it, ``"end of domain"`` (the equations are not defined beyond), ``"closed loop"`` (the last
         point is the first), ``"step too small"`` or ``"most points"``.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("keller1977",)
 
     unknowns: np.ndarray
     parameters: np.ndarray

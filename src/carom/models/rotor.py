@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -69,8 +69,6 @@ class Rotor(Result):
     forces: tuple[Force, ...] = ()
     limits: ControlLimit | tuple[Limit, ...] = ()
     stages: tuple[Stage, ...] = ()
-
-    rests_on: ClassVar[tuple[str, ...]] = ()
 
     def __post_init__(self) -> None:
         if self.forces != ():

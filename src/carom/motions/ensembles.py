@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -51,8 +50,6 @@ class Endings(Result):
     begins : ndarray
         Times at which the starts were taken, from which ``times`` count.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
 
     outcomes: np.ndarray
     times: np.ndarray

@@ -75,8 +75,6 @@ class Trajectory(Result):
         The stages before, if it is the last one of several (:func:`carom.models.in_stages`).
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
-
     figure: ClassVar[str] = "motion"
     shown: ClassVar[tuple[str, ...]] = (
         "rotor",

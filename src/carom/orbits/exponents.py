@@ -62,8 +62,6 @@ class LyapunovExponents(Result):
         Time measured, in ``1/Ω``: from an impact to an impact.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "benettin1980", "mueller1995")
-
     shown: ClassVar[tuple[str, ...]] = ("values", "errors", "lost", "impacts", "landings", "time")
 
     values: np.ndarray

@@ -112,7 +112,6 @@ class Proof(Members[Claim]):
         Plain data from which :func:`~carom.proofs.check` decides the claims again without any search.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "johansson2017", "krawczyk1969")
     called: ClassVar[str] = "claim"
 
     theorem: str

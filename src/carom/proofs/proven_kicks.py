@@ -100,7 +100,6 @@ class ProvenKicks(Result):
         "refuted_share",
         "open_share",
     )
-    rests_on: ClassVar[tuple[str, ...]] = Proof.rests_on
 
     rotor: Rotor
     largest: float

@@ -53,7 +53,6 @@ class Sensitivity(Result):
 
     figure: ClassVar[str] = "sensitivity"
     shown: ClassVar = ("peaks", "peak_frequencies", "zones")
-    rests_on: ClassVar = ()
 
     @property
     def zones(self) -> tuple[str, ...] | None:

@@ -58,7 +58,6 @@ class ReducedMachine(Result):
 
     stored: ClassVar = ("machine", "modes")
     shown: ClassVar = ("vectors", "modes", "error", "states")
-    rests_on: ClassVar = ()
 
     @staticmethod
     def from_stored(machine: FlexibleMachine, modes: int) -> ReducedMachine:

@@ -83,7 +83,6 @@ class SynchronousResponse(Result):
     unbalance_angle: float
 
     shown: ClassVar = ("speeds", "reach", "zones")
-    rests_on: ClassVar = ()
 
     @property
     def reach(self) -> np.ndarray:

@@ -42,7 +42,6 @@ class Whirl(Result):
     opposite: np.ndarray
 
     shown: ClassVar = ("frequency", "sense", "damping_ratio")
-    rests_on: ClassVar = ()
 
     @property
     def frequency(self) -> float:
@@ -144,7 +143,6 @@ class Campbell(Result):
 
     figure: ClassVar[str] = "campbell"
     shown: ClassVar = ("speeds", "frequencies", "damping_ratios", "levitates")
-    rests_on: ClassVar = ()
 
     @property
     def frequencies(self) -> np.ndarray:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
@@ -97,8 +97,6 @@ class ResponseData(Result):
         Whether all steady motions in contact have closed forms, so that the ends of the stretches are exact; otherwise rubs were looked for at the speeds
         of their curve, and rolling was not.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("api617", "iso14839")
 
     case: Case
     whirl: SynchronousResponse

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 from carom.attractors import AttractorSet
 from carom.base.results import Result, record
@@ -64,8 +64,6 @@ class StudyData(Result):
         What is proven of the kicks that must be survived, or of faster ones where these never touch, if it was asked for and there is stable
         levitation.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839", "api617")
 
     case: Case
     rotor: Rotor
