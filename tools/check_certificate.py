@@ -1305,7 +1305,7 @@ def orbit_invariants(m: Machine, period, speed) -> tuple:
     a12, a22 = m.levers(period)
     far, state = course(m, period, speed)
     _, own, end = segment(m, far, state, state)
-    push = a22 * Z(m.a.re * 2, arb(2)) + m.b * a12  # the acceleration on arrival; the velocity is -a22
+    push = a22 * Z(m.a.re * 2, arb(2)) + m.b * a12  # the acceleration on impact; the velocity is -a22
     late = (-a22.re, -a22.im, push.re, push.im)
     found = solve([[*row, t] for row, t in zip(end, late, strict=True)], [[-v for v in row[:3]] for row in own])
     return invariants(found[:3])
@@ -2897,7 +2897,7 @@ _ALONG = (
 )
 _KICKS = "(recover|all recover|do not recover)"
 _NO_BASINS = (
-    "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed"
+    "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the contact-free speed"
 )
 _DISC_LEAVES_OUT = (
     "that what is open does not return, or that it does; why it is open is stated by the search",

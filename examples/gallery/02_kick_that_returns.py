@@ -2,7 +2,7 @@
 2. A kick that comes back
 =========================
 
-A blow changes the velocity of the levitating rotor at once.  :func:`carom.simulate` follows it exactly; with ``settle=True`` until it is
+A kick changes the velocity of the levitating rotor at once.  :func:`carom.simulate` follows it exactly; with ``settle=True`` until it is
 known where the motion ends.
 """
 

@@ -12,7 +12,7 @@ machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
 kicks = cm.disturbances.VelocityKick.of(machine, "250 mm/s")
 smallest = cm.basins.smallest_unrecovered(machine, kicks)
 unit = 1e3 * machine.parameters.scales.velocity
-print(f"no contact up to {smallest.harmless * unit:.3g} mm/s; lost from {smallest.size * unit:.4g} mm/s on")
+print(f"no contact up to {smallest.contact_free * unit:.3g} mm/s; lost from {smallest.size * unit:.4g} mm/s on")
 
 # %%
 # What to see: the small circle at the edge of the green core is the smallest lost kick.  Inside the dashed ring no kick reaches the wall.

@@ -1,4 +1,4 @@
-"""Rotors that strike the wall of their clearance, and whether they come back.
+"""Rotors that touch the wall of their clearance, and whether they come back.
 
 >>> import carom as cm
 >>> machine = cm.load("examples/keogh-cole.toml")

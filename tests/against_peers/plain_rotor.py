@@ -52,7 +52,7 @@ class Machine:
             even, odd = ((up + down) / 2).real, ((up - down) / (2 * root)).real
         return even + self.gamma / 2 * odd, odd, -(self.omega**2) * odd, even - self.gamma / 2 * odd
 
-    def harmless(self):
+    def contact_free(self):
         """Kick out of levitation below which nothing is touched, sampled."""
         times = np.linspace(0, 40 / self.omega, 200_001)
         return (1 - self.levitation) / np.max(np.abs(self.responses(times)[1]))

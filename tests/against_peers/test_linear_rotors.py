@@ -58,7 +58,8 @@ def test_bounces_are_those_of_a_general_integrator(rotor):
         found = rotor.bounces(*start, 30.0, min(12, flights))
         times = motion.segment_starts[1:][hits]
         states = (
-            np.reshape(part, (len(hits), len(rotor.mass))) for part in motion.rotor.system.state(motion.arrivals[hits])
+            np.reshape(part, (len(hits), len(rotor.mass)))
+            for part in motion.rotor.system.state(motion.event_amplitudes[hits])
         )
         own = to_fixed(times, *states)
         for k, (time, plane, position, velocity) in enumerate(found):
@@ -86,7 +87,7 @@ def test_lasting_contact_is_that_of_a_general_integrator(rotor):
             slips = {plane: SIGNS[Phase(phase)] for plane, phase in enumerate(phases) if phase != Phase.FLIGHT}
             begin, end = ends[place], ends[place + 1]
             first = to_fixed(begin, *(np.atleast_1d(part) for part in system.state(motion.segment_amplitudes[place])))
-            last = to_fixed(end, *(np.atleast_1d(part) for part in system.state(motion.arrivals[place])))
+            last = to_fixed(end, *(np.atleast_1d(part) for part in system.state(motion.event_amplitudes[place])))
             found = rotor.follow(begin, end, *first, slips)
             assert sum(np.abs(one - other).max() for one, other in zip(found, last, strict=True)) < CLOSE
             middle = 0.5 * (begin + end)
@@ -122,7 +123,7 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
     for motion in motions(rotor, 20.0, 2):
         system, ends = motion.rotor.system, np.append(motion.segment_starts, motion.time)
         flying = np.flatnonzero((motion.segment_phases == Phase.FLIGHT).all(axis=1))[:40]
-        for place in flying[flying < len(motion.arrivals)]:
+        for place in flying[flying < len(motion.event_amplitudes)]:
             half = 0.5 * (ends[place + 1] - ends[place])
             if not half or half > 2.0:
                 continue
@@ -131,7 +132,7 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
             _, speed = to_fixed(times, position, velocity)
             force = np.exp(1j * times)[:, None] * rotor.forcing - speed @ rotor.damping.T
             gained = half * weights @ (speed.conj() * force).real.sum(axis=1)
-            around = [motion.segment_amplitudes[place], motion.arrivals[place]]
+            around = [motion.segment_amplitudes[place], motion.event_amplitudes[place]]
             states = [
                 to_fixed(t, *(np.atleast_1d(p) for p in system.state(c)))
                 for t, c in zip(ends[place:], around, strict=False)
@@ -145,7 +146,7 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
             rotor.energy(
                 *to_fixed(times, *(np.reshape(p, (len(times), len(rotor.mass))) for p in system.state(states[chosen])))
             )
-            for states in (motion.arrivals, motion.segment_amplitudes[1:])
+            for states in (motion.event_amplitudes, motion.segment_amplitudes[1:])
         ]
         # Both energies are rounded, and some motions are fast.
         assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-12 * (1.0 + energies[0].max()))

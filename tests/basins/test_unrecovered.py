@@ -23,14 +23,14 @@ MACHINE = PAPER.replace(gamma=0.15, rho=0.3)
 def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
     rotor = carom.models.jeffcott(MACHINE)
     found = smallest_unrecovered(rotor, VelocityKick(1.0))
-    assert found.harmless < found.recovered < found.size
+    assert found.contact_free < found.recovered < found.size
     assert found.size - found.recovered <= 1.001e-3 * found.size
     lost = carom.simulate(rotor, carom.kick(found.size, found.angle), 2e5, settle=True)
     back = carom.simulate(rotor, carom.kick(found.recovered, found.angle), 2e5, settle=True)
     assert lost.outcome is found.outcome
     assert lost.outcome is not Outcome.LEVITATED
     assert back.outcome is Outcome.LEVITATED
-    assert len(back.contacts) == 0 or found.recovered > found.harmless
+    assert len(back.contacts) == 0 or found.recovered > found.contact_free
 
 
 def test_no_kick_of_an_independent_sample_below_it_is_lost():
@@ -74,7 +74,7 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     scan = 24 if kind == "shock" else 48
     found = smallest_unrecovered(rotor, models(machine)[kind], directions=scan, sizes=scan)
     assert found.kind == kind
-    assert found.harmless < found.all_back < found.size < found.largest
+    assert found.contact_free < found.all_back < found.size < found.largest
     assert found.size - found.all_back <= 1.001e-3 * found.size
     random = np.random.default_rng(77)
     count = 500 if kind == "shock" else 2000
@@ -83,7 +83,7 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     outcomes = carom.settle(rotor, positions[possible], velocities[possible]).outcomes
     gone = (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
     # None is lost below what is proven harmless, and no more than the stated share above it.
-    assert not gone[sizes[possible] <= found.harmless].any()
+    assert not gone[sizes[possible] <= found.contact_free].any()
     assert gone.mean() <= found.share_below
     position, velocity, _ = starts_of(kind, rotor, np.array([found.size]), np.array([found.angle]))
     assert carom.settle(rotor, position, velocity).outcomes[0] == found.outcome
@@ -127,7 +127,7 @@ def test_a_rotor_of_matrices_loses_what_the_same_planar_rotor_loses(kind):
     own, found = (
         smallest_unrecovered(rotor, model, directions=24, sizes=24) for rotor in (planar, as_matrices(planar))
     )
-    assert found.harmless <= own.harmless * (1.0 + 1e-12)
+    assert found.contact_free <= own.contact_free * (1.0 + 1e-12)
     assert found.size == pytest.approx(own.size, rel=3e-3)
     assert found.outcome == own.outcome
 
@@ -136,7 +136,7 @@ def test_losses_of_a_rotor_with_two_planes():
     """With what is proven by energy alone."""
     rotor = tilting().model
     found = smallest_unrecovered(rotor, VelocityKick(1.0), directions=12, sizes=12)
-    assert 0.0 < found.harmless < found.all_back < found.size
+    assert 0.0 < found.contact_free < found.all_back < found.size
     size, back = (
         carom.simulate(rotor, carom.kick(each, found.angle), settle=True) for each in (found.size, found.recovered)
     )

@@ -35,13 +35,13 @@ def reference(values: list[arb]) -> list[arb]:
     force = -matrix[1, 0] * lever + matrix[1, 1] * approach
     leaving = speed * (approach - q)
     # The change of the next section with each coordinate of this one, at the time of the next impact.
-    arrivals = flight * acb_mat(2, 3, [i, 0, 0, i * leaving, 1 - q, i])
+    event_amplitudes = flight * acb_mat(2, 3, [i, 0, 0, i * leaving, 1 - q, i])
     rows = [[], [], []]
     for k in range(3):
-        late = -arrivals[0, k].real
-        turned = (arrivals[0, k] + approach * late).imag
+        late = -event_amplitudes[0, k].real
+        turned = (event_amplitudes[0, k] + approach * late).imag
         # In the frame that turned with the impact.
-        change = arrivals[1, k] + force * late - i * turned * speed * approach
+        change = event_amplitudes[1, k] + force * late - i * turned * speed * approach
         for row, entry in zip(rows, (turned, change.real, change.imag), strict=True):
             row.append(entry)
     section = arb_mat(rows)

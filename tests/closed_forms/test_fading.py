@@ -45,11 +45,11 @@ def test_bounces_up_to_the_fading_speed_stop_their_slip_and_fade(seed):
             start = State(wall, complex(-speed, -1.0 - parameters.radius_ratio) * wall)
             motion = simulate(jeffcott(parameters), start, 1e4, max_events=sized(300, 50))
             log = motion.log_of(motion.is_impact)
-            arrivals = log.radial_speed[log.radial_speed > 1e-6]  # far above rounding
-            slip = log.angular_speed[: len(arrivals)] + 1.0 + parameters.radius_ratio
-            assert (np.abs(slip) <= parameters.mu * (1.0 + parameters.d) * arrivals).all()
+            event_amplitudes = log.radial_speed[log.radial_speed > 1e-6]  # far above rounding
+            slip = log.angular_speed[: len(event_amplitudes)] + 1.0 + parameters.radius_ratio
+            assert (np.abs(slip) <= parameters.mu * (1.0 + parameters.d) * event_amplitudes).all()
             # The bounds are strict; 1e-10 is a rounding error of speeds of 1 + θ̇ of some hundreds.
-            assert (np.diff(parameters.d * arrivals, prepend=speed) < 1e-10 * speed).all()
+            assert (np.diff(parameters.d * event_amplitudes, prepend=speed) < 1e-10 * speed).all()
 
 
 def test_where_nothing_is_proven():

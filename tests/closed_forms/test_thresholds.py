@@ -13,8 +13,8 @@ from machines import PAPER, path, rest_position
 from scipy.integrate import solve_ivp
 
 from carom.base.outcome import InputError
+from carom.closed_forms.contact_free import contact_free_kick, contact_free_shock
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.harmless import harmless_kick, harmless_shock
 from carom.closed_forms.thresholds import (
     happens_to_rubs,
     has_stable_rub,
@@ -202,8 +202,8 @@ def test_harmless_kick_in_high_precision(omega, ratio):
             response = mpmath.exp(-1) / stiff
         speed = (1 - abs(mpmath.mpf(1e-6) / mpmath.mpc(stiff**2 - 1, gamma))) / abs(response)
     # The speed is lowered by 1e-9; next to critical damping the response is that of critical damping.
-    assert harmless_kick(machine) == pytest.approx(float(speed), rel=2e-9)
-    assert harmless_kick(machine) <= float(speed)
+    assert contact_free_kick(machine) == pytest.approx(float(speed), rel=2e-9)
+    assert contact_free_kick(machine) <= float(speed)
 
 
 @pytest.mark.parametrize("gamma", [0.0, 0.02, 0.15, 1.0, 1.6, 4.0])
@@ -211,7 +211,7 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
     """The largest deviation is that of the flight itself, whatever the direction; the bound is not wasteful."""
     machine = PAPER.replace(gamma=gamma, rho=0.2)
     rest = rest_position(machine)
-    speed = harmless_kick(jeffcott(machine))
+    speed = contact_free_kick(jeffcott(machine))
     times = np.linspace(0.0, 12.0, 4001)
     farthest = 0.0
     for angle in np.linspace(0.0, 2.0 * math.pi, 61):
@@ -224,7 +224,7 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
 @pytest.mark.parametrize("duration", [0.02, 0.7, 4.0])
 def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
     """Followed in the fixed frame by a general solver through the pulse and after it, in many directions."""
-    peak = harmless_shock(jeffcott(MACHINE), duration)
+    peak = contact_free_shock(jeffcott(MACHINE), duration)
     gamma, omega, rest = MACHINE.gamma, MACHINE.omega, abs(rest_position(MACHINE))
 
     def rate(time, state):

@@ -129,7 +129,7 @@ def test_what_is_said_to_be_survived_is():
     tried = 0
     for machine in (LIGHT, LIGHT.replace(damping=6000.0, friction=0.05, speed=1400.0))[: sized(1, 1, 2)]:
         found = smallest_unrecovered(machine, BladeLoss.of(machine, "0.15 mm"))
-        assert found.harmless < found.all_back < found.size
+        assert found.contact_free < found.all_back < found.size
         assert found.size - found.all_back < 2e-3 * found.size
         for _ in range(sized(2, 1, 60)):
             change = machine.clearance * random.uniform(0.85, 1.0) * found.all_back
@@ -152,7 +152,7 @@ def test_no_contact_below_the_harmless_change():
             damping=10 ** random.uniform(2, 5),
             speed=10 ** random.uniform(2, 3.5),
         )
-        bound = cm.closed_forms.harmless_blade_loss(machine)
+        bound = cm.closed_forms.contact_free_blade_loss(machine)
         if bound == 0.0:
             continue
         loss, phase = BladeLoss(bound * random.uniform(0.9, 1.0)), random.uniform(-math.pi, math.pi)

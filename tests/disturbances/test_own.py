@@ -108,15 +108,15 @@ def test_nothing_is_proven_of_a_kick_that_starts_elsewhere():
             starts = super().starts(rotor, *values)
             return Starts.of(np.full(starts.positions.shape, 0.999), starts.velocities, True)
 
-    assert smallest_unrecovered(MACHINE, VelocityKick(0.5), directions=8, sizes=8).harmless > 0.0
+    assert smallest_unrecovered(MACHINE, VelocityKick(0.5), directions=8, sizes=8).contact_free > 0.0
     found = smallest_unrecovered(MACHINE, Elsewhere(0.5), directions=8, sizes=8)
-    assert (found.kind, found.harmless) == ("elsewhere", 0.0)
+    assert (found.kind, found.contact_free) == ("elsewhere", 0.0)
 
 
 def test_a_kind_names_one_class():
     with pytest.raises(InputError, match="kind = kick: another name: VelocityKick"):
 
-        class Blow(VelocityKick):
+        class KickStart(VelocityKick):
             kind = "kick"
 
 

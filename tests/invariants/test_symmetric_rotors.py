@@ -47,7 +47,7 @@ def test_it_does_not_tilt(arm, inertia):
         kick = carom.kick(float(random.uniform(0.7, 3.0)), angle=float(random.uniform(-np.pi, np.pi)))
         symmetric = carom.simulate(on_two_bearings(machine, arm, inertia), kick, 60.0)
         planar = carom.simulate(jeffcott(machine), kick, 60.0)
-        tilts = np.abs(symmetric.rotor.system.state(symmetric.arrivals)[0][:, 1])
+        tilts = np.abs(symmetric.rotor.system.state(symmetric.event_amplitudes)[0][:, 1])
         upright = symmetric.segment_starts[1:][tilts > 1e-13].min(initial=60.0)
         log = planar.contacts
         count = int(np.searchsorted(log.time, 0.999 * upright))

@@ -28,7 +28,7 @@ def test_undamped_flight_keeps_the_jacobi_integral(mu):
     """Between impacts, whatever these do."""
     parameters = PAPER.replace(gamma=0.0, mu=mu)
     motion = simulate(jeffcott(parameters), START, 50.0)
-    leaving, arriving = segment_states(motion), motion.rotor.system.state(motion.arrivals)
+    leaving, arriving = segment_states(motion), motion.rotor.system.state(motion.event_amplitudes)
     flying = motion.segment_phases[:-1, 0] == Phase.FLIGHT
     assert flying.sum() > 5
     before = jacobi_integral(parameters, leaving[0][:-1], leaving[1][:-1])

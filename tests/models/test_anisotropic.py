@@ -42,7 +42,7 @@ def rotor_of(law=SOFT, friction=0.15, surface_speed=8.0, conjugate=ACROSS, **cha
     return from_matrices(**{**given, **changes}, touchdowns=planes, translation=[1.0, 0.0], conjugate=conjugate)
 
 
-def heavy(rotor):
+def has_mass(rotor):
     return rotor.under(Force(-1j, np.array([WEIGHT, 0.0])))
 
 
@@ -96,7 +96,7 @@ def test_flights_are_those_of_the_real_equations():
 
 
 def test_states_come_back_from_amplitudes_at_any_time():
-    system = heavy(rotor_of()).system
+    system = has_mass(rotor_of()).system
     for time in (0.0, 1.3, 8.1):
         amplitudes = system.amplitudes(START.position, START.velocity, time)
         position, velocity = system.state(amplitudes)
@@ -119,7 +119,7 @@ def test_unbalance_leads_round_an_ellipse():
 
 
 def test_weight_lets_it_sag_as_the_real_equations_say():
-    system = heavy(rotor_of()).system
+    system = has_mass(rotor_of()).system
     sag = system.shapes @ system.outer
     force = STIFFNESS @ sag + ACROSS[1] @ sag.conj()
     assert force == pytest.approx(MASS @ np.array([WEIGHT, 0.0]), abs=1e-14)
@@ -127,7 +127,7 @@ def test_weight_lets_it_sag_as_the_real_equations_say():
 
 @pytest.mark.parametrize("friction", [0.15, 0.0])
 def test_motions_in_a_wall_that_gives_way_are_those_of_a_general_integrator(friction):
-    motion = cm.simulate(heavy(rotor_of(friction=friction)), START, 12.0)
+    motion = cm.simulate(has_mass(rotor_of(friction=friction)), START, 12.0)
 
     def push(place, speed):
         normal = place / abs(place)
@@ -146,7 +146,7 @@ def test_motions_in_a_wall_that_gives_way_are_those_of_a_general_integrator(fric
 
 
 def test_rigid_impacts_are_those_of_a_general_integrator():
-    motion = cm.simulate(heavy(rotor_of(Rigid(0.8))), START, 9.0)
+    motion = cm.simulate(has_mass(rotor_of(Rigid(0.8))), START, 9.0)
 
     def after(_time, state):
         place, speed = ROW @ state[:2], ROW @ state[2:]
@@ -166,7 +166,7 @@ def test_rigid_impacts_are_those_of_a_general_integrator():
     assert energy_ledger(motion).imbalance < 1e-12
 
 
-@pytest.mark.parametrize("rotor", [rotor_of(), heavy(rotor_of())])
+@pytest.mark.parametrize("rotor", [rotor_of(), has_mass(rotor_of())])
 def test_what_needs_alike_bearings_is_refused(rotor):
     with pytest.raises(InputError, match="anisotropic bearings"):
         cm.find_equilibria(rotor)

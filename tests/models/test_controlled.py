@@ -57,17 +57,17 @@ def controlled(ki=SLOW, scales=SCALES, **others):
 
 def by_first_order(model, time, state, force):
     """State (coordinates, rates of those with mass) in the fixed frame, by the matrix exponential of first-order equations written anew."""
-    n, heavy = len(model.equations.mass), np.flatnonzero(model.equations.heavy)
+    n, has_mass = len(model.equations.mass), np.flatnonzero(model.equations.has_mass)
     mass, damping, gyroscopic, stiffness, forcing = model.matrices
-    size = n + len(heavy)
+    size = n + len(has_mass)
     matrix = np.zeros((size + 2, size + 2), complex)
-    matrix[heavy, n + np.arange(len(heavy))] = 1.0
-    matrix[len(heavy) : n, :n] = -stiffness[len(heavy) :]
-    inverse = np.linalg.inv(mass[: len(heavy), : len(heavy)])
-    matrix[n:size, :n] = -inverse @ stiffness[heavy]
-    matrix[n:size, n:size] = -inverse @ (damping - 1j * gyroscopic)[np.ix_(heavy, heavy)]
-    matrix[n:size, size] = inverse @ forcing[heavy]
-    matrix[n:size, size + 1] = force[heavy]
+    matrix[has_mass, n + np.arange(len(has_mass))] = 1.0
+    matrix[len(has_mass) : n, :n] = -stiffness[len(has_mass) :]
+    inverse = np.linalg.inv(mass[: len(has_mass), : len(has_mass)])
+    matrix[n:size, :n] = -inverse @ stiffness[has_mass]
+    matrix[n:size, n:size] = -inverse @ (damping - 1j * gyroscopic)[np.ix_(has_mass, has_mass)]
+    matrix[n:size, size] = inverse @ forcing[has_mass]
+    matrix[n:size, size + 1] = force[has_mass]
     matrix[size, size] = 1j
     return (expm(time * matrix) @ np.append(state, [1.0, 1.0]))[:size]
 
@@ -79,10 +79,10 @@ def by_size(exponents):
 
 @pytest.mark.parametrize("levitates", [True, False])
 @pytest.mark.parametrize("heavy", [True, False])
-def test_flights_are_those_of_first_order_equations(levitates, heavy):
+def test_flights_are_those_of_first_order_equations(levitates, has_mass):
     model = controlled() if levitates else controlled().without_levitation()
-    pull = Gravity().pull(SCALES) if heavy else 0.0
-    system = model.under_gravity(Gravity()).system if heavy else model.system
+    pull = Gravity().pull(SCALES) if has_mass else 0.0
+    system = model.under_gravity(Gravity()).system if has_mass else model.system
     random = np.random.default_rng(0)
     state = random.normal(size=8) + 1j * random.normal(size=8)
     # In the frame that turns: rates of coordinates without mass do not count.

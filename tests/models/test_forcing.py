@@ -183,13 +183,13 @@ NO_SPRINGS = {"damping": np.zeros((2, 2)), "stiffness": np.zeros((2, 2))}
     ids=["one coordinate", "tilting", "undamped", "falling"],
 )
 def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
-    heavy = Heavy(**vars(rotor))
+    has_mass = Heavy(**vars(rotor))
     model = rotor.model.under(Force(-1j, -0.06j * rotor.translation))
     random, impacts, n = np.random.default_rng(0), 0, len(rotor.mass)
     for _ in range(2):
         position, velocity = random.normal(size=(2, n)) + 1j * random.normal(size=(2, n))
         position *= 0.8 / np.abs(rotor.planes @ position).max()
-        met = heavy.bounces(position, velocity + 1j * position, 20.0, 6)
+        met = has_mass.bounces(position, velocity + 1j * position, 20.0, 6)
         start = (position, velocity) if n > 1 else (complex(position[0]), complex(velocity[0]))
         motion = cm.simulate(model, cm.State(*start), 20.0)
         struck = np.flatnonzero(motion.is_impact)
@@ -198,7 +198,7 @@ def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
             found = motion.segment_starts[1 + event]
             assert found == pytest.approx(time, abs=1e-9)
             assert motion.event_planes[event] == plane
-            state = to_fixed(found, *map(np.atleast_1d, model.system.state(motion.arrivals[event])))
+            state = to_fixed(found, *map(np.atleast_1d, model.system.state(motion.event_amplitudes[event])))
             assert np.allclose(state[0], place, rtol=0, atol=1e-9)
             assert np.allclose(state[1], speed, rtol=0, atol=1e-9)
             impacts += 1

@@ -236,7 +236,8 @@ def test_impulses_at_a_rigid_wall_are_those_that_brake_the_shaft(laws):
     assert len(contacts) >= 3
     radius = rotor.system.arrays.surface_speed[contacts.touchdown_bearing - 1] - 1.0
     ends = [
-        each[:, int(rotor.system.arrays.shaft[0]) + 1].real for each in (motion.arrivals, motion.segment_amplitudes[1:])
+        each[:, int(rotor.system.arrays.shaft[0]) + 1].real
+        for each in (motion.event_amplitudes, motion.segment_amplitudes[1:])
     ]
     jumps = (ends[1] - ends[0])[motion.is_impact]
     assert radius * contacts.friction_impulse / 2.0 == pytest.approx(jumps, rel=1e-12)

@@ -36,7 +36,7 @@ def test_a_case_keeps_the_machine_it_was_made_from():
 
 
 def test_any_rotor_has_a_case():
-    heavy = rotor_of(MACHINE).under_gravity(Gravity())
-    case = case_of(heavy)
+    has_mass = rotor_of(MACHINE).under_gravity(Gravity())
+    case = case_of(has_mass)
     assert case_of(case) is case
-    assert rotor_of(case) is heavy
+    assert rotor_of(case) is has_mass

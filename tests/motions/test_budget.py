@@ -68,5 +68,5 @@ def test_an_unfinished_search_claims_no_more_than_it_tried(rotor):
     assert "not finished" in found.words
     assert found.fresh == 0
     assert found.all_back is not None
-    assert found.harmless < found.all_back < found.largest
+    assert found.contact_free < found.all_back < found.largest
     assert found.size is None or found.all_back < found.size

@@ -49,7 +49,7 @@ def test_momentum_changes_by_the_logged_impulses():
         push = (-log.normal_impulse + 1j * log.friction_impulse) * np.exp(1j * log.angle)
         given = np.zeros((len(hits), len(rotor.equations.mass)), complex)
         np.add.at(given, events, push[:, None] * rotor.equations.planes.conj()[log.touchdown_bearing - 1])
-        _, before = coordinates(motion, motion.arrivals[hits])
+        _, before = coordinates(motion, motion.event_amplitudes[hits])
         _, after = coordinates(motion, motion.segment_amplitudes[1:][hits])
         changed = (after - before) @ rotor.equations.mass.T
         # Velocities are sums over modes.
@@ -63,7 +63,7 @@ def test_energy_changes_by_the_works_of_the_log():
         motion = at_random(random)
         mass, log, hits = motion.rotor.equations.mass, motion.log_of(motion.is_impact), np.flatnonzero(motion.is_impact)
         energies = []
-        for amplitudes in (motion.arrivals[hits], motion.segment_amplitudes[1:][hits]):
+        for amplitudes in (motion.event_amplitudes[hits], motion.segment_amplitudes[1:][hits]):
             _, speed = to_fixed(motion.segment_starts[1:][hits], *coordinates(motion, amplitudes))
             energies.append(0.5 * np.einsum("ki,ij,kj->k", speed.conj(), mass, speed).real)
         gained = energies[1] - energies[0]

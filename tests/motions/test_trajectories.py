@@ -118,7 +118,7 @@ class TestLongMotions:
         cut = simulate(rotor, START, 30.0)
         assert cut.outcome is motion.outcome
         assert np.array_equal(cut.segment_amplitudes, motion.segment_amplitudes)
-        assert np.array_equal(cut.arrivals, motion.arrivals)
+        assert np.array_equal(cut.event_amplitudes, motion.event_amplitudes)
         # The times are sums in another order.
         assert np.allclose(cut.segment_starts, motion.segment_starts, rtol=1e-14, atol=0)
         assert cut.final.position == pytest.approx(motion.final.position, abs=1e-12)

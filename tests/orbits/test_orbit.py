@@ -181,6 +181,6 @@ def test_without_friction_the_direction_of_the_slip_makes_no_other_word():
     assert slips[0] < 0.0
     word, start = impacts_between(motion, 0, 1)
     assert str(word) == "impact+"
-    at_wall = links_of(smooth, word, start).arrivals[0]
-    assert at_wall == pytest.approx(smooth.system.states_of(motion.arrivals[1:2])[0], abs=1e-9)
+    at_wall = links_of(smooth, word, start).ends[0]
+    assert at_wall == pytest.approx(smooth.system.states_of(motion.event_amplitudes[1:2])[0], abs=1e-9)
     assert margins_of(links_of(smooth, word, start), smooth, word).slip == np.inf

@@ -23,7 +23,7 @@ def test_impacts_without_rebound_that_do_not_stay():
     def struck(factor):
         start = State(orbit.departure.position, factor * orbit.departure.velocity)
         motion = simulate(machine, start, 5.0 * orbit.period)
-        return motion.rotor.system.states_of(motion.arrivals[motion.is_impact])
+        return motion.rotor.system.states_of(motion.event_amplitudes[motion.is_impact])
 
     # Of a disturbed motion, the states at the impacts, two a period, come closer by the multiplier in each period.
     apart = np.abs(struck(1.0 + 1e-7) - struck(1.0)).max(axis=1)

@@ -14,10 +14,10 @@ from single_flights import Single
 from carom.proofs.balls import at_precision
 from carom.proofs.bends import second_derivatives
 from carom.proofs.hypotheses import hypotheses_of
-from carom.proofs.passages import LeftOpenError, Strike, begin, bounce, next_event
+from carom.proofs.impacts import after_impact
+from carom.proofs.passages import Impact, LeftOpenError, begin, bounce, next_event
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.rotor import Rotor
-from carom.proofs.strikes import after_strike
 
 NAMES = ("gamma", "omega", "rho", "mu", "d", "radius_ratio")
 MACHINES = {
@@ -51,7 +51,7 @@ def struck(departure):
         event = bounce(departure) or next_event(departure, begin(departure))
     except LeftOpenError:
         return None
-    return event if isinstance(event, Strike) else None
+    return event if isinstance(event, Impact) else None
 
 
 def crossing(numbers, state, strike):
@@ -117,7 +117,7 @@ def test_flights_stay_in_the_forms_over_many_impacts(held):
             if strike is None:
                 break
             try:
-                exact = after_strike(departure, strike)
+                exact = after_impact(departure, strike)
             except LeftOpenError:
                 break
             impacts += 1

@@ -15,14 +15,14 @@ from single_flights import Single
 from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
 from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.impacts import after_brush, after_impact
 from carom.proofs.lines import Numbers
 from carom.proofs.moments import FORM
-from carom.proofs.passages import Brush, LeftOpenError, Return, Strike, begin, next_event
+from carom.proofs.passages import Brush, Impact, LeftOpenError, Return, begin, next_event
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rotor import Rotor
 from carom.proofs.sides import Side, responses_by
-from carom.proofs.strikes import after_brush, after_strike
 
 ROUNDING = 1e-9
 """Of states that single flights reach in double precision, next to grazes too."""
@@ -92,17 +92,17 @@ def test_events_happen_to_all_flights_and_none_before(held):
         seen.add(type(event))
         for state in states:
             _check(Single(numbers, state), event, after)
-    assert {Return, Strike} <= seen
+    assert {Return, Impact} <= seen
 
 
 def _after(departure, event):
-    if isinstance(event, Strike):
-        return after_strike(departure, event)
+    if isinstance(event, Impact):
+        return after_impact(departure, event)
     return after_brush(departure, event) if isinstance(event, Brush) and event.touches else None
 
 
 def _check(flight, event, after, shares=None):
-    end = {Return: 30.0, Strike: getattr(event, "end", 0), Brush: getattr(event, "end", 0)}[type(event)]
+    end = {Return: 30.0, Impact: getattr(event, "end", 0), Brush: getattr(event, "end", 0)}[type(event)]
     times = np.linspace(1e-3, end, 400)
     heights = flight.heights(times)
     above = np.flatnonzero(heights > 1)
@@ -115,7 +115,7 @@ def _check(flight, event, after, shares=None):
         return
     place = above[0]
     crossing = brentq(lambda t: flight.height(t) - 1, times[place - 1], times[place])
-    last = event.end if isinstance(event, Strike) else event.last
+    last = event.end if isinstance(event, Impact) else event.last
     assert event.begin - ROUNDING <= crossing <= last + ROUNDING
     found = flight.after(crossing)
     turned = float(after.centre[2])
@@ -172,7 +172,7 @@ def test_events_happen_to_all_flights_of_all_machines_of_a_box(held):
             rest = random.uniform(-1, 1, len(exact.rest)) * [float(x) for x in exact.rest]
             state = [float(x) for x in exact.centre] + shares @ spans + rest
             _check(Single(at(shares[FORM:]), state), event, after, shares)
-    assert {Return, Strike} <= seen
+    assert {Return, Impact} <= seen
 
 
 @pytest.mark.parametrize("split", [-0.02, -1e-4, 0.0, 3e-4, 0.5])

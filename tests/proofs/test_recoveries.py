@@ -9,7 +9,7 @@ import pytest
 from compilation import sized
 
 from carom.base.outcome import InputError, Outcome
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import contact_free_kick
 from carom.models import jeffcott
 from carom.motions import settle
 from carom.proofs import check, hypotheses_of
@@ -53,7 +53,7 @@ def machine():
 @pytest.fixture(scope="module")
 def largest(machine):
     """Twice the harmless kick, which has few digits so."""
-    return f"{2 * harmless_kick(jeffcott(doubles_of(machine))):.4f}"
+    return f"{2 * contact_free_kick(jeffcott(doubles_of(machine))):.4f}"
 
 
 @pytest.fixture(scope="module")

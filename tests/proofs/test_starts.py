@@ -14,7 +14,7 @@ from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.patches import Held
 from carom.proofs.rotor import Rotor
-from carom.proofs.starts import Blow, Pulse, Step
+from carom.proofs.starts import KickStart, Pulse, Step
 
 MACHINES = {"light damping": (0.05, 0.14), "paper": (0.3, 0.76), "overdamped": (1.2, 0.5)}
 INTEGRATED = 1e-8
@@ -77,7 +77,7 @@ def test_a_pulse_on_an_interval_of_times_holds_all_of_it():
 
 def test_a_short_pulse_is_a_blow():
     with at_precision(64):
-        short, blow = held_of("paper", Pulse(arb("1e-6"))), held_of("paper", Blow())
+        short, blow = held_of("paper", Pulse(arb("1e-6"))), held_of("paper", KickStart())
         for one, other in zip(*(held.start.response(held, arb(2)) for held in (short, blow)), strict=True):
             # The pulse acts half its duration later.
             assert abs(one - other) < 1e-6

@@ -7,7 +7,7 @@ import pytest
 from compilation import sized
 
 import carom
-from carom.closed_forms import find_equilibria, harmless_kick
+from carom.closed_forms import contact_free_kick, find_equilibria
 from carom.proofs import hypotheses_of
 from carom.proofs.balls import at_precision
 from carom.proofs.rotor import Rotor
@@ -73,7 +73,7 @@ def test_harmless_speed_is_the_least_one(case):
     for value, machine in machines:
         if parts(claims["kick harmless"], value):
             unit = machine.parameters.scales.velocity if name == "speed_si" else 1.0
-            speeds.append(harmless_kick(machine) * unit)
+            speeds.append(contact_free_kick(machine) * unit)
     # harmless_kick leaves 1e-9 for rounding.
     assert min(speeds) >= low * (1 - 2e-9)
     assert high <= min(speeds) * (1 + 2e-9)

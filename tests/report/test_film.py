@@ -51,7 +51,7 @@ def test_the_samples_are_those_of_the_motion(played):
 def test_impacts_on_a_rigid_wall_and_a_bearing_on_a_mount():
     rigid = cm.simulate(cm.load("examples/dropped-rotor.toml"), cm.drop(), "20 ms")
     film = film_of(rigid)
-    blows = np.array(json.loads(film.data)["blows"])
+    blows = np.array(json.loads(film.data)["impacts"])
     assert len(blows) == len(rigid.contacts)
     assert blows[:, 1] == pytest.approx(rigid.contacts.normal_impulse / rigid.contacts.normal_impulse.max(), abs=1e-5)
     assert film.legend[0][1].startswith("impulse of an impact, up to ")

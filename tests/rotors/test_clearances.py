@@ -105,20 +105,20 @@ class _Dropped:
 
     def __init__(self, machine):
         own, at = machine.equations, machine.machine
-        heavy = own.mass.any(axis=1)
-        self.kept = np.flatnonzero(heavy)
-        pick = np.ix_(heavy, heavy)
+        has_mass = own.mass.any(axis=1)
+        self.kept = np.flatnonzero(has_mass)
+        pick = np.ix_(has_mass, has_mass)
         self.speed, self.walls = (
             at.speed,
             [(each, room) for each, room in zip(at.touchdowns, at.clearances, strict=True)],
         )
         self.spin = own.unlevitated[0][pick] - 1j * self.speed * own.gyroscopic[pick]
-        self.stiffness, self.planes = own.unlevitated[1][pick], own.planes[:, heavy]
-        self.forcing = self.speed**2 * own.forcing[heavy]
+        self.stiffness, self.planes = own.unlevitated[1][pick], own.planes[:, has_mass]
+        self.forcing = self.speed**2 * own.forcing[has_mass]
         self.weight = np.zeros(len(self.kept), complex)
         self.weight[0] = -9.81j * np.sqrt(at.rotor.mass)
         self.unit = np.sqrt(at.rotor.mass)
-        self.count = len(heavy)
+        self.count = len(has_mass)
 
     def contact(self, plane, place, rate):
         """Normal force and the force on the rotor."""

@@ -96,7 +96,7 @@ def test_the_bound_of_harmless_shocks_counts_the_mount():
     ]
     machine = cm.load("examples/touchdown-balls.toml", settings)
     duration = 0.5
-    peak = cm.closed_forms.harmless_shock(machine, duration)
+    peak = cm.closed_forms.contact_free_shock(machine, duration)
     assert peak > 0.0
     for angle in (0.0, 1.5, 3.0, 4.5):
         motion = cm.simulate(*cm.BaseShock(0.999 * peak, duration).apply(machine, angle), 60.0)

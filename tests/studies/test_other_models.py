@@ -55,7 +55,7 @@ def test_the_same_rotor_has_the_same_verdict(planar, matrices):
 
 def test_sizes_that_are_survived_are_found_beyond_a_bound_by_energy(planar, matrices):
     own, found = planar.survives, matrices.survives
-    assert 0.0 < found.kick.harmless < own.kick.harmless
+    assert 0.0 < found.kick.contact_free < own.kick.contact_free
     assert found.kick.size == pytest.approx(own.kick.size, rel=3e-3)
     assert found.blade_loss.size == pytest.approx(own.blade_loss.size, rel=1e-12)
 
@@ -90,7 +90,7 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
     shown = " ".join(each.text for each in found.facts)
     assert "N s/m" not in shown
     assert "γ" in shown
-    assert all(math.isfinite(each.harmless) for _, each in found.survives.items())
+    assert all(math.isfinite(each.contact_free) for _, each in found.survives.items())
     json.loads(as_json(found.to_dict()))
 
 

@@ -11,7 +11,7 @@ from machines import PAPER
 from studies import study_once
 
 from carom.base.files import as_json
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import contact_free_kick
 from carom.loading import load
 from carom.orbits import find_orbits
 from carom.parameters import Case, Requirement, Shock, Zones
@@ -124,7 +124,7 @@ def test_facts_say_what_is_proven_and_what_is_open(half):
         0.25,
         0.75,
     )
-    assert values["sure_up_to"] == pytest.approx(harmless_kick(DAMPED))
+    assert values["sure_up_to"] == pytest.approx(contact_free_kick(DAMPED))
     assert [entry["share"] for entry in values["open"]] == [7 / 16, 5 / 16]
     # What never touches is stated as harmless.
     assert "every one comes back" not in facts["Kick"].text
@@ -155,7 +155,7 @@ def test_document_has_a_certificate_that_can_be_checked(half):
 def test_study_proves_the_kicks_that_must_be_survived():
     found = study(DAMPED, proofs=True, requirement=Requirement(kick=0.5), proof_time=0.5)
     # Those that must be survived never touch, so that faster ones are looked at.
-    assert found.kicks.largest == pytest.approx(2.0 * harmless_kick(DAMPED))
+    assert found.kicks.largest == pytest.approx(2.0 * contact_free_kick(DAMPED))
     assert found.verdict.outcome.startswith("Comes back from every kick that it must survive")
     assert found.proof is not None
     without = study(DAMPED.replace(rho=0.9), proofs=True, requirement=Requirement(kick=0.5), proof_time=20.0)

@@ -6,7 +6,7 @@ from linear_rotors import touchdowns
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import contact_free_kick
 from carom.disturbances import AnyState, Sample, VelocityKick
 from carom.models import from_matrices, jeffcott
 from carom.motions import settle
@@ -115,7 +115,7 @@ def test_without_a_range_it_is_looked_for_wherever_the_rotor_levitates():
 def test_what_is_required_decides_not_whether_a_rub_could_hold_the_rotor():
     """Nothing comes back from a rub, but small kicks never reach it."""
     rotor = jeffcott(SOURCE)
-    small = [Sample(VelocityKick(0.5 * harmless_kick(rotor)), 60)]
+    small = [Sample(VelocityKick(0.5 * contact_free_kick(rotor)), 60)]
     found = find_recovery(rotor, "gamma", small, factor=2.0)
     assert found.range_of("rub").exists_at(SOURCE.gamma)
     assert found.holds_present

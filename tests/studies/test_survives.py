@@ -26,7 +26,7 @@ def found():
 def test_shocks_are_of_the_duration_required(found):
     assert found.duration == 2.0
     assert found.shock.largest >= 4.0 * 2.0
-    assert 0.0 < found.shock.harmless < found.shock.all_back
+    assert 0.0 < found.shock.contact_free < found.shock.all_back
 
 
 def test_sizes_do_not_depend_on_what_is_required(found):
@@ -34,7 +34,7 @@ def test_sizes_do_not_depend_on_what_is_required(found):
     other = survives(
         jeffcott(SOURCE), Required(kick=0.8, shock=None, blade_loss=None), Budget(), Reporter.of(None, "test")
     )
-    assert other.kick.harmless == found.kick.harmless
+    assert other.kick.contact_free == found.kick.contact_free
     assert other.kick.size == pytest.approx(found.kick.size, rel=5e-3)
     assert other.shock is None
 

@@ -105,7 +105,7 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
     given_up = name.irregular or not name.outcome.settled
     settled = SettledMotion(motion, name.outcome) if given_up else settled_motion(motion)
     impulse, force = forces_on(settled)
-    hit = [ending.start for ending in here if ending.start.disturbance]
+    by_disturbance = [ending.start for ending in here if ending.start.disturbance]
     total = sum(ending.start.disturbance for ending in endings)
     survival = first.survival if name.irregular else None
     words = _words(settled, name)
@@ -114,10 +114,10 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
         words=f"{words} {_sentence(survival.words)}" if survival else words,
         period=settled.period,
         whirl=whirl_of(settled),
-        count=len(hit),
-        share_of_disturbances=len(hit) / total if total else 0.0,
-        known=len(here) - len(hit),
-        representative=min(hit, key=lambda start: (start.kind != "kick", start.speed), default=first.start),
+        count=len(by_disturbance),
+        share_of_disturbances=len(by_disturbance) / total if total else 0.0,
+        known=len(here) - len(by_disturbance),
+        representative=min(by_disturbance, key=lambda start: (start.kind != "kick", start.speed), default=first.start),
         state=settled.motion.final,
         largest_impulse=impulse,
         largest_force=force,

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
-from carom.attractors.settled import SAME, SettledMotion, known_orbit, same_motion, settled_motion
+from carom.attractors.settled import SETTLED_RTOL, SettledMotion, known_orbit, same_motion, settled_motion
 from carom.base.outcome import CaromError, Outcome
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance
@@ -93,7 +93,7 @@ def _apart(rotor: Rotor, endings: Endings, chosen: np.ndarray, name: MotionName)
         features = (np.abs(positions @ rotor.system.planes.T) >= 1.0 - ON_WALL).astype(float)
     left = np.flatnonzero(chosen)
     while len(left):
-        same = np.abs(features[left] - features[left[0]]).max(axis=1) < SAME
+        same = np.abs(features[left] - features[left[0]]).max(axis=1) < SETTLED_RTOL
         mask = np.zeros(chosen.size, bool)
         mask[left[same]] = True
         yield mask.reshape(chosen.shape)

@@ -23,7 +23,7 @@ from carom.orbits.simulated import SimulatedOrbit
 
 Whirl = Literal["forward", "backward", "none"]
 
-SAME = 1e-6
+SETTLED_RTOL = 1e-6
 """Distance, relative to one plus the size of the state, below which states are the same; speed below which a rotor is at rest."""
 SAMPLES = 1000
 LOOKED_AT = 4096
@@ -60,7 +60,7 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     if outcome is Outcome.LEVITATED:
         resting = system.forced is None
         return SettledMotion(motion, outcome, period=None if resting else 2.0 * math.pi, synchronous=resting)
-    if outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME:
+    if outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SETTLED_RTOL:
         return SettledMotion(motion, outcome, synchronous=True)
     if outcome is Outcome.ROLLING and motion.rotor.has_closed_forms:
         return SettledMotion(motion, outcome, period=2.0 * math.pi / float(system.arrays.surface_speed[motion.plane]))
@@ -83,10 +83,12 @@ def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> Settl
 
 
 def seen_in_contact(motion: Trajectory) -> Trajectory:
-    """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last arrival at a wall."""
+    """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last impact at a wall."""
     touching = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
-    struck = motion.event_planes[begins_contact(motion)]
-    return motion.seen_at(int(touching[0]) if len(touching) else int(struck[-1]) if len(struck) else 0)
+    stations_of_contacts = motion.event_planes[begins_contact(motion)]
+    return motion.seen_at(
+        int(touching[0]) if len(touching) else int(stations_of_contacts[-1]) if len(stations_of_contacts) else 0
+    )
 
 
 def _turn_time(motion: Trajectory) -> float | None:
@@ -99,7 +101,7 @@ def _turn_time(motion: Trajectory) -> float | None:
     span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
     times = np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
     angles = np.unwrap(np.angle(motion.at_plane(times)[0] / end))
-    turned = np.flatnonzero(np.abs(angles - angles[-1]) >= 2.0 * math.pi * (1.0 - SAME))
+    turned = np.flatnonzero(np.abs(angles - angles[-1]) >= 2.0 * math.pi * (1.0 - SETTLED_RTOL))
     if not len(turned):
         return None
 
@@ -128,14 +130,14 @@ def same_motion(first: SettledMotion, second: SettledMotion) -> bool:
         return False
     states, others = _last_states(first), _last_states(second)
     apart = [np.abs(np.roll(others, -places, axis=0) - states).max() for places in range(len(states))]
-    return bool(min(apart) < SAME * (1.0 + np.abs(states).max()))
+    return bool(min(apart) < SETTLED_RTOL * (1.0 + np.abs(states).max()))
 
 
 def _last_states(settled: SettledMotion) -> np.ndarray:
-    """Coordinates and rates just before the arrivals at walls of the last period, complex, shape (p, 2n)."""
+    """Coordinates and rates just before the impacts at walls of the last period, complex, shape (p, 2n)."""
     motion = settled.motion
     last = np.flatnonzero(begins_contact(motion))[first_of_period(motion, settled.multiplicity) :]
-    return motion.rotor.system.nodes.of(motion.arrivals[last[-settled.multiplicity :]])
+    return motion.rotor.system.nodes.of(motion.event_amplitudes[last[-settled.multiplicity :]])
 
 
 def known_orbit(orbit: Orbit | SimulatedOrbit | None, orbits: Sequence[Orbit]) -> Orbit | None:
@@ -164,10 +166,10 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
         return 0.0, 0.0
     if settled.outcome is Outcome.ROLLING and (force := exact_results(motion.rotor).rolling_force):
         return 0.0, force
-    hits = np.flatnonzero(begins_contact(motion))
+    contacts_begun = np.flatnonzero(begins_contact(motion))
     # Of irregular bouncing only the later half is used: the first half may be a transient.
-    first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(hits) // 2
-    late = np.isin(np.arange(len(motion.is_impact)), hits[first:])
+    first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(contacts_begun) // 2
+    late = np.isin(np.arange(len(motion.is_impact)), contacts_begun[first:])
     log, widths = motion.log_of(late & motion.is_impact), motion.rotor.system.widths
     last = log.normal_impulse / widths[log.touchdown_bearing - 1]
     touching = settled.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
@@ -177,9 +179,9 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
     times = _last_times(settled)
     planes = range(motion.segment_phases.shape[1])
     force = max(float(motion.seen_at(plane).forces(times)[0].max() / widths[plane]) for plane in planes)
-    if touching or not len(hits):
+    if touching or not len(contacts_begun):
         return impulse, force
-    since = int(hits[min(first, len(hits) - 1)]) + 1
+    since = int(contacts_begun[min(first, len(contacts_begun) - 1)]) + 1
     since = since if settled.multiplicity else max(since, len(motion.segment_starts) - LOOKED_AT)
     return _with_touches(motion.since(since), impulse, force)
 
@@ -200,6 +202,6 @@ def whirl_of(settled: SettledMotion) -> Whirl:
     """
     position, velocity = settled.motion.at_plane(_last_times(settled))
     swept = float((np.abs(position) ** 2 + (position.conj() * velocity).imag).mean())
-    if abs(swept) < SAME:
+    if abs(swept) < SETTLED_RTOL:
         return "none"
     return "forward" if swept > 0.0 else "backward"

@@ -115,7 +115,7 @@ _MEANINGS = {
     Outcome.CLEAR: "The flight stays inside the clearance until its horizon.",
     Outcome.CONTACT: "The flight reaches the wall with an outward radial velocity.",
     Outcome.GRAZING: (
-        "The path touches the wall so nearly tangentially that double precision cannot decide whether it hits; "
+        "The path touches the wall so nearly tangentially that double precision cannot decide whether there is an impact; "
         "move the start by more than 1e-12 to decide. Without damping a motion may go on grazing for ever; "
         "and planes that jam under strong friction may leave no forces that obey the laws."
     ),
@@ -128,7 +128,7 @@ _MEANINGS = {
     ),
     Outcome.TRIGGERED: "The trigger of its stage has ended the motion; it goes on in the next stage, if there is one.",
     Outcome.BEYOND_MODEL: (
-        "The rotor is more than one clearance deep in a touchdown bearing, or strikes a magnet, whose air gap usually is two clearances; "
+        "The rotor is more than one clearance deep in a touchdown bearing, or reaches a magnet, whose air gap usually is two clearances; "
         "the motion goes beyond the model there, and is not followed further."
     ),
     Outcome.STALLED: (

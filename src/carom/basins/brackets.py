@@ -43,11 +43,11 @@ class SmallestUnrecovered(Result):
         Number of starts up to ``all_back`` that are independent of the search: ``drawn`` ones, and directions over a full turn at
         that size; where the instant matters each at one of its own.
     drawn : int
-        How many of them were drawn uniformly over the area of the disc beyond the harmless size.
+        How many of them were drawn uniformly over the area of the disc beyond the contact-free size.
     neighbours_lost, neighbours : int
         Of so many disturbances beside the smallest unrecovered one, up to ``beside`` of its size away in any direction, how many do not come back either.
         Fewer than all: beside a basin boundary of fine structure, where rounding decides.
-    harmless : float
+    contact_free : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
         Largest size searched.
@@ -73,7 +73,7 @@ class SmallestUnrecovered(Result):
     all_back: float | None
     fresh: int
     drawn: int
-    harmless: float
+    contact_free: float
     largest: float
     tolerance: float
     tried: int
@@ -86,7 +86,9 @@ class SmallestUnrecovered(Result):
     @property
     def words(self) -> str:
         """The bracket in a line."""
-        shown = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
+        shown = {
+            name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "contact_free", "largest")
+        }
         up_to = f" up to {shown['largest']}" if self.complete else ""
         none = f"none{up_to} that does not come back"
         found = none if self.size is None else f"smallest that does not come back {shown['size']}"
@@ -94,12 +96,14 @@ class SmallestUnrecovered(Result):
         back = "" if self.all_back is None else f", all back up to {shown['all_back']}"
         found += f" ({self.sensitivity})" if self.sensitivity else ""
         ended = "" if self.complete else ", search not finished"
-        return f"{found}{back}, cannot touch up to {shown['harmless']}{ended}"
+        return f"{found}{back}, cannot touch up to {shown['contact_free']}{ended}"
 
     def kind_of(self, name: str) -> str:
         """Sizes are of one kind."""
         return (
-            self.quantity if name in ("size", "recovered", "all_back", "harmless", "largest") else super().kind_of(name)
+            self.quantity
+            if name in ("size", "recovered", "all_back", "contact_free", "largest")
+            else super().kind_of(name)
         )
 
     @property
@@ -110,7 +114,7 @@ class SmallestUnrecovered(Result):
 
     @property
     def share_below(self) -> float:
-        """Share of the disturbances beyond the harmless size and up to ``all_back``, by area, that may not come back: a bound at 95 %.
+        """Share of the disturbances beyond the contact-free size and up to ``all_back``, by area, that may not come back: a bound at 95 %.
 
         ``1 − 0.05^{1/n}`` for ``n`` starts all of which come back (Clopper and Pearson, one-sided).
         """

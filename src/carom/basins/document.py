@@ -19,7 +19,7 @@ from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
 from carom.basins.gains import WANTED, GainMap
 from carom.basins.shares import Share
-from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
+from carom.closed_forms.contact_free import contact_free_blade_loss, contact_free_shock
 from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
@@ -29,20 +29,20 @@ from carom.parameters.scaling import SCALING
 def basin_document(
     basin: Basin,
     smallest: SmallestUnrecovered | None,
-    harmless: float,
+    contact_free: float,
     gains: GainMap | None = None,
     in_terms_of: Case | None = None,
 ) -> dict[str, Any]:
     """Document of all results about a basin.
 
     The smallest unrecovered one is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
-    return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  With a machine ``in_terms_of``, the values of a gain map are there in the terms of its file too.
+    return to.  Kicks up to the speed ``contact_free`` provably never reach the wall.  With a machine ``in_terms_of``, the values of a gain map are there in the terms of its file too.
     """
     scales, attributes = basin.scales, basin.dataset.attrs
     document: dict[str, Any] = {
         **fields_of(basin, "starts", "fractions", "beyond_model", "unresolved", "irregular"),
         **_loss(smallest, basin, "kick"),
-        "harmless_kick": harmless,
+        "harmless_kick": contact_free,
         "recovered": _share(basin.share_recovered),
         "share": basin.share_recovered.document,
         "touching": int(basin.touched.sum()),
@@ -55,7 +55,7 @@ def basin_document(
         "criteria": attributes["criteria"],
         "source": attributes["source"],
     }
-    document |= in_si(document, scales, harmless_kick="velocity")
+    document |= in_si(document, scales, contact_free_kick="velocity")
     if scales is not None:
         document["scales_si"] = fields_of(scales, *SCALING)
     model = basin.plan.model
@@ -63,9 +63,9 @@ def basin_document(
         document |= _loss(smallest, basin, smallest.kind)
     proven: dict[str, float] = {}
     if isinstance(model, BladeLoss):
-        proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor, model.node)
+        proven["harmless_blade_loss"] = contact_free_blade_loss(basin.rotor, model.node)
     if isinstance(model, BaseShock):
-        proven["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
+        proven["harmless_shock"] = contact_free_shock(basin.rotor, model.duration)
     kind = "acceleration" if isinstance(model, BaseShock) else "unbalance"
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:

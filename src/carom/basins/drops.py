@@ -126,7 +126,7 @@ class DropMap(OverPlane):
     @property
     def hardest(self) -> str:
         """The load by which drops are compared: ``"force"``, or ``"impulse"`` on a rigid wall."""
-        return "force" if bool(self.dataset.attrs["gives_way"]) else "impulse"
+        return "force" if bool(self.dataset.attrs["is_compliant"]) else "impulse"
 
     @property
     def worst(self) -> str:
@@ -227,7 +227,7 @@ def map_drops(
         **about(rotor, "How drops of a rotor on its touchdown bearing end, against two numbers"),
         "released": repr(released),
         "load_limits": json.dumps(limits.given),
-        "gives_way": int(any(rotor.system.arrays.stiffness > 0.0)),
+        "is_compliant": int(any(rotor.system.arrays.stiffness > 0.0)),
     }
     return DropMap(dataset)
 
@@ -304,7 +304,7 @@ class Landing(Measure):
 def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     """Numbers of a drop by the names of :data:`MEASURES`, in SI units."""
     si = [plane.si() or {} for plane in found.planes]
-    soft = any(plane.gives_way for plane in found.planes)
+    soft = any(plane.is_compliant for plane in found.planes)
     pressures = [plane.pressure for plane in found.planes if plane.pressure is not None]
     whirls = [plane.whirl for plane in found.planes if plane.whirl is not None and plane.whirl.direction]
     turning = max((whirl.angular_speed for whirl in whirls), key=abs, default=math.nan)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.closed_forms.harmless import harmless_blade_loss, harmless_kick, harmless_shock
+from carom.closed_forms.contact_free import contact_free_blade_loss, contact_free_kick, contact_free_shock
 from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.blade_loss import starts_after
 from carom.models import Rotor
@@ -25,10 +25,10 @@ def starts_by_size(rotor: Rotor, model: Disturbance, sizes: np.ndarray, *at: np.
     return model.starts_on(rotor, sizes, *at)
 
 
-def harmless_size(rotor: Rotor, model: Disturbance) -> float:
+def contact_free_size(rotor: Rotor, model: Disturbance) -> float:
     """Size up to which contact is proven to be impossible; nothing is proven of a subclass, which may start anywhere."""
     if type(model) is VelocityKick:
-        return harmless_kick(rotor)
+        return contact_free_kick(rotor)
     if isinstance(model, BladeLoss):
-        return harmless_blade_loss(rotor, model.node)
-    return harmless_shock(rotor, model.duration) if type(model) is BaseShock else 0.0
+        return contact_free_blade_loss(rotor, model.node)
+    return contact_free_shock(rotor, model.duration) if type(model) is BaseShock else 0.0

@@ -15,7 +15,7 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.brackets import BESIDE_LOST, NEIGHBOURS, SmallestUnrecovered
-from carom.basins.families import harmless_size, size_coordinate, starts_by_size
+from carom.basins.families import contact_free_size, size_coordinate, starts_by_size
 from carom.disturbances import Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
@@ -79,8 +79,8 @@ def smallest_unrecovered(
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
     Where the end depends on the instant of the turn at which a disturbance comes (:attr:`carom.models.Rotor.depends_on_instant`), all that is
-    said here of directions holds of pairs of direction and instant.  All directions are scanned at increasing sizes between the proven harmless one (zero where nothing is proven, see
-    :func:`~carom.closed_forms.harmless_kick`) and the largest, up to the first at which some
+    said here of directions holds of pairs of direction and instant.  All directions are scanned at increasing sizes between the proven contact-free one (zero where nothing is proven, see
+    :func:`~carom.closed_forms.contact_free_kick`) and the largest, up to the first at which some
     do not come back.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
     bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
     the best size; if some do not come back, the search continues from the smallest of them.  Basins can be thinner than any
@@ -104,7 +104,7 @@ def smallest_unrecovered(
     See Also
     --------
     carom.map_basins : the end of every disturbance
-    carom.closed_forms.harmless_kick : the size up to which contact is impossible
+    carom.closed_forms.contact_free_kick : the size up to which contact is impossible
 
     Examples
     --------
@@ -139,23 +139,23 @@ def _effort(rotor: Rotor, model: Disturbance) -> Effort:
 
 def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> SmallestUnrecovered:
     """The search to its end."""
-    harmless, largest = search.harmless, search.largest
-    if harmless >= largest:
+    contact_free, largest = search.contact_free, search.largest
+    if contact_free >= largest:
         return search.result(largest)
     all_round = _all_round(directions, search.timed)
     if search.timed:
         sizes = max(1, sizes // COARSER)
-    if harmless == 0.0:
+    if contact_free == 0.0:
         search.scan(all_round, np.zeros(1))
         if search.best is not None:
             return search.result(None)
-    levels = harmless + (largest - harmless) * np.arange(sizes + 1) / sizes
+    levels = contact_free + (largest - contact_free) * np.arange(sizes + 1) / sizes
     search.scan(all_round, levels)
     search.refine(TURN / directions)
     for number in range(MOST_CHECKS):
         tell(0.5 + 0.5 * number / MOST_CHECKS)
         below = largest if search.best is None else search.share * search.best.recovered
-        if below <= harmless:
+        if below <= contact_free:
             break
         before = search.best
         fresh = search.draw(below, number)
@@ -163,7 +163,7 @@ def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> S
             tell(1.0)
             return search.result(below, *fresh)
         search.refine(TURN / directions)
-    return search.result(harmless or None)
+    return search.result(contact_free or None)
 
 
 def _all_round(directions: int, timed: bool) -> np.ndarray:
@@ -192,7 +192,11 @@ class _Search:
             raise InputError("disturbance", model.kind, "one with a size from 0 and a direction")
         self.rotor, self.model, self.size, self.effort = rotor, model, size, effort
         self.tolerance, self.threads = tolerance, threads
-        self.harmless, self.largest, self.timed = harmless_size(rotor, model), size.high, rotor.depends_on_instant
+        self.contact_free, self.largest, self.timed = (
+            contact_free_size(rotor, model),
+            size.high,
+            rotor.depends_on_instant,
+        )
         # Where trials are dear, no smaller ones are sought than by half the tolerance.
         self.share = 1.0 - 0.5 * tolerance if model.changes_machine else 1.0
         self.tried = 0
@@ -219,9 +223,9 @@ class _Search:
         else:
             return
         place = first - begin
-        hit = np.flatnonzero(gone[:, place])
-        ends, angles = outcomes[hit, place], angles[:, hit]
-        low, high = (np.full(len(hit), levels[each]) for each in (first, first + bisect))
+        failing = np.flatnonzero(gone[:, place])
+        ends, angles = outcomes[failing, place], angles[:, failing]
+        low, high = (np.full(len(failing), levels[each]) for each in (first, first + bisect))
         self._note(low, high, angles, ends)
         while ((high - low) > self.tolerance * high).any():
             middle = 0.5 * (low + high)
@@ -247,7 +251,7 @@ class _Search:
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
             angles = self.best.angle + apart * np.delete(np.arange(-beside, beside + 1), beside)
-            self.scan(angles[None], np.linspace(self.harmless, self.share * self.best.size, self.effort.below + 1))
+            self.scan(angles[None], np.linspace(self.contact_free, self.share * self.best.size, self.effort.below + 1))
 
     def _refine_pairs(self, apart: float) -> None:
         """Scan pairs spread over discs about the best one, from two distances between pairs of the first scan down to the tolerance."""
@@ -258,7 +262,8 @@ class _Search:
         while self.best is not None and reach > self.tolerance:
             at = np.array([[self.best.angle], [self.best.instant]])
             self.scan(
-                at + reach * spread, np.linspace(self.harmless, self.share * self.best.size, self.effort.below // 2 + 1)
+                at + reach * spread,
+                np.linspace(self.contact_free, self.share * self.best.size, self.effort.below // 2 + 1),
             )
             reach /= CLOSER
 
@@ -268,7 +273,7 @@ class _Search:
         Where the budget of a study does not suffice for all of them, those that were followed count.
         """
         random, drawn, around = np.random.default_rng(seed), self.effort.drawn, self.effort.around
-        low, shares = self.harmless, random.random(drawn)
+        low, shares = self.contact_free, random.random(drawn)
         area = np.sqrt(low**2 + (below**2 - low**2) * shares)
         sizes = np.append(area if self.size.over_disc else low + (below - low) * shares, np.full(around, below))
         angles = np.append(TURN * random.random(drawn), TURN * (np.arange(around) + random.random()) / around)[None]
@@ -281,12 +286,14 @@ class _Search:
         gone = unrecovered(np.where(followed, outcomes, Outcome.GRAZING))
         for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
             if self.best is None or sizes[place] < self.best.size:
-                self.scan(angles[:, place : place + 1], np.linspace(self.harmless, sizes[place], self.effort.below + 1))
+                self.scan(
+                    angles[:, place : place + 1], np.linspace(self.contact_free, sizes[place], self.effort.below + 1)
+                )
         return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:drawn]))
 
     def unfinished(self) -> SmallestUnrecovered:
         """Result of a search that was ended."""
-        below = self.back > self.harmless and (self.best is None or self.best.size > self.back)
+        below = self.back > self.contact_free and (self.best is None or self.best.size > self.back)
         return self.result(self.back if below else None, complete=False)
 
     def result(
@@ -300,7 +307,7 @@ class _Search:
         return SmallestUnrecovered(
             kind=self.model.kind,
             quantity=self.size.scale,
-            harmless=self.harmless,
+            contact_free=self.contact_free,
             largest=self.largest,
             tolerance=self.tolerance,
             scales=self.rotor.scales,

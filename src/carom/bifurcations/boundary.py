@@ -32,8 +32,8 @@ from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
 from carom.base.results import Result
 from carom.closed_forms.periods import PeriodCondition
+from carom.closed_forms.small_cycles_at_walls import small_cycles
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
-from carom.closed_forms.wall_meetings import small_cycles
 from carom.models import Subject, exact_rotor_of, jeffcott
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import longest_within_reach
@@ -188,11 +188,11 @@ def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:
         return (), False
     rotor, found = jeffcott(at), []
     longest = longest_within_reach(rotor)
-    meeting = small_cycles(rotor, longest=longest)
+    cycles_there = small_cycles(rotor, longest=longest)
     starts_below = PeriodCondition.planar(at).roots(longest).starts_below
-    for root, cycle in enumerate(meeting.cycles):
+    for root, cycle in enumerate(cycles_there.cycles):
         # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
         pair, longer = divmod(root + int(starts_below), 2)
         name = OrbitName(pair + 1, bool(longer), not cycle.levitating_side)
         found.append(SmallOrbit(name, *(getattr(cycle, each.name) for each in fields(SmallOrbit)[1:])))
-    return tuple(sorted(found, key=lambda orbit: orbit.name)), meeting.complete
+    return tuple(sorted(found, key=lambda orbit: orbit.name)), cycles_there.complete

@@ -24,7 +24,7 @@ from carom.parameters import Numbers, Scales
 from carom.parameters.formats import format_range
 from carom.parameters.scaling import SCALING
 
-SAME = 1e-6
+SAME_ORBIT_RTOL = 1e-6
 """Distance of the nodes, and of the durations, below which two orbits are the same."""
 
 
@@ -205,7 +205,7 @@ class OrbitBranch(Result):
         for start in self.starts_at(value, orbit.rotor) if turns else ():
             for turned in turns:
                 apart = np.abs(pack(turned) - pack(start)).max()
-                if apart < SAME * (1.0 + float(np.abs(turned.nodes).max())):
+                if apart < SAME_ORBIT_RTOL * (1.0 + float(np.abs(turned.nodes).max())):
                     return True
         return False
 

@@ -141,7 +141,7 @@ def name_of(numbers: Numbers, pair: int, period: float, speed: float) -> OrbitNa
     return OrbitName(pair, conditions.period_fold > 0.0, conditions.speed_fold > 0.0, -1 if numbers.mu < 0.0 else 1)
 
 
-def meeting_at(kind: str, name: OrbitName) -> tuple[OrbitName, ...]:
+def orbits_joined_at(kind: str, name: OrbitName) -> tuple[OrbitName, ...]:
     """Orbits that meet at a special point of an orbit: two at a fold, the longer or faster one last; else itself."""
     if kind == "fold":
         return replace(name, longer=False), replace(name, longer=True)
@@ -157,7 +157,7 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
     names: set[OrbitName] = set()
     for i, (numbers, period, speed) in enumerate(points):
         pair = pairs[round(i / last * (PLACES - 1))]
-        names.update(meeting_at(kind, name_of(numbers, pair, period, speed)))
+        names.update(orbits_joined_at(kind, name_of(numbers, pair, period, speed)))
     return in_order(names)
 
 

@@ -37,7 +37,7 @@ SHARE, FIRST_SHARE, EVENTS = 0.2, 0.05, 3e6
 FEW = replace(STEPS, largest=0.3, most_points=60)
 """Steps of simulated branches, of which there may be many."""
 ALONE = "not followed"
-SAME = 1e-6
+SAME_POINT_RTOL = 1e-6
 """Distance from a period doubling below which a branch is born in it."""
 
 
@@ -194,7 +194,7 @@ def _begins_at(branch: OrbitBranch, point: Bifurcation) -> bool:
     return any(
         end.kind == HALVING
         and branch.impacts == 2 * point.orbit.impacts
-        and abs(end.value - point.value) < SAME * (1.0 + abs(point.value))
+        and abs(end.value - point.value) < SAME_POINT_RTOL * (1.0 + abs(point.value))
         and abs(end.orbit.period - 2.0 * point.orbit.period) < 1e-2 * end.orbit.period
         for end in branch.special
     )

@@ -29,8 +29,8 @@ def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
     touching = system.fly(left[i], np.array(top))
     position, velocity = system.at_plane(touching, 0)
     slip = slip_of(complex(np.conj(position) * velocity), system.contacts[0].wall)
-    struck = Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
-    word = Word((*orbit.word[: i + 1], struck, *orbit.word[i + 1 :]))
+    added = Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
+    word = Word((*orbit.word[: i + 1], added, *orbit.word[i + 1 :]))
     states = np.insert(orbit.nodes, i + 1, system.nodes.of(touching[None])[0], axis=0)
     durations = np.insert(orbit.durations, i + 1, orbit.durations[i] - top)
     durations[i] = top

@@ -9,7 +9,7 @@ import numpy as np
 from carom.bifurcations.curve_results import Curve
 from carom.bifurcations.points import Bifurcation
 
-CLOSE = 5e-4
+CURVE_RADIUS = 5e-4
 """Distance from a curve, in widths of the plane, within which a point lies on it: ten times that from its chords."""
 SAME_PERIOD, SAME_SPEED = 0.02, 0.02
 """Relative difference of periods, and difference of radial speeds in ``c_r Ω``, of orbits that count as the same."""
@@ -28,7 +28,7 @@ def _lies_on(curve: Curve, place: Sequence[float], period: float, speed: float) 
     ahead = np.diff(points, axis=0)
     share = np.clip(((here - points[:-1]) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-300), 0.0, 1.0)
     distance = np.linalg.norm(points[:-1] + share[:, None] * ahead - here, axis=1)
-    for i in np.flatnonzero(distance <= CLOSE):
+    for i in np.flatnonzero(distance <= CURVE_RADIUS):
         weights = np.array([1.0 - share[i], share[i]])
         # Equilibria have neither period nor radial speed.
         other = abs(weights @ curve.periods[i : i + 2] - period) >= SAME_PERIOD * period

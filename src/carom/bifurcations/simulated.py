@@ -35,8 +35,8 @@ MOST_NUMBERS = 40
 SAMPLES, HALVINGS = 2000, 60
 BISECTIONS = 12
 JOINS, CHANGES = "grazing", "contact-change"
-"""Where an arrival at a wall joins or leaves the period, and where anything else that happens in it does."""
-BESIDE, ALONG = (2e-3, -2e-3, 1e-2, -1e-2), (0.02, 0.06, 0.15)
+"""Where an impact at a wall joins or leaves the period, and where anything else that happens in it does."""
+OFFSETS_TRIED, ALONG = (2e-3, -2e-3, 1e-2, -1e-2), (0.02, 0.06, 0.15)
 """Changes of the parameter, relative to it, and distances along the direction that alternates, at which a doubled period is sought."""
 NEUTRAL, CONTINUUM = 1e-6, "one of a continuum"
 """Singular value of all derivatives of the equations below which a motion is one of a continuum at one value of the parameter; it is no branch then.
@@ -104,12 +104,12 @@ class SimulatedBranch(Result):
 
     @property
     def radial_speed(self) -> np.ndarray:
-        """``ṙ`` of the fastest arrival in ``c_r Ω``, shape (m,)."""
+        """``ṙ`` of the fastest impact in ``c_r Ω``, shape (m,)."""
         return np.array([orbit.radial_speed for orbit in self.orbits])
 
     @property
     def radial_speeds(self) -> np.ndarray:
-        """The same, shape (m, 1): how many arrivals there are changes along the branch."""
+        """The same, shape (m, 1): how many impacts there are changes along the branch."""
         return self.radial_speed[:, None]
 
     @property
@@ -281,7 +281,7 @@ def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
 
 
 def _word_at(family: Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
-    """What happens in a period, from its first arrival on in the order of the alphabet, and the number of arrivals."""
+    """What happens in a period, from its first impact on in the order of the alphabet, and the number of impacts."""
     motion = family.motion(u, p)
     if motion is None:
         return None
@@ -320,7 +320,7 @@ def switch_simulated(point: Bifurcation, interval: Ends, budget: Budget | None =
     values, vectors = np.linalg.eig(slopes)
     direction = vectors[:, int(np.argmin(np.abs(values + 1.0)))].real
     direction = direction / np.abs(direction).max()
-    for share in BESIDE:
+    for share in OFFSETS_TRIED:
         flow = Flow(along.move(orbit.rotor, point.value * (1.0 + share)), orbit.start.time, orbit.rests, budget)
         for size in ALONG:
             found = newton(flow, vector + size * direction, 2.0 * orbit.period, free=free)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.bifurcations.conditions import conditions_at, margins_of, meeting_at, name_of, profile_at
+from carom.bifurcations.conditions import conditions_at, margins_of, name_of, orbits_joined_at, profile_at
 from carom.bifurcations.points import Bifurcation
 from carom.parameters import Numbers
 
@@ -26,7 +26,7 @@ def special_orbit(
     if kind == "fold":
         conditions = conditions_at(*at)
         kind = "speed-fold" if abs(conditions.speed_fold) < abs(conditions.period_fold) else kind
-    name = meeting_at(kind, name_of(numbers, pair, period, speed))[-1]
+    name = orbits_joined_at(kind, name_of(numbers, pair, period, speed))[-1]
     value, admissible = numbers.value(parameter), _bounds_admissible(kind, *at)
     return Bifurcation(kind, *at, name, parameter, value, admissible, place=place)
 

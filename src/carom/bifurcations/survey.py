@@ -23,7 +23,7 @@ from carom.parameters import Numbers, Parameters
 
 INSET = 1e-3
 """Distance of the outermost points from the edges, in widths of the plane."""
-BESIDE = 0.01
+BRACKET_MARGIN = 0.01
 """Distance from a curve at which motions on both sides are compared, as a fraction of the line that it crosses."""
 FROM_RESONANCE = 1e-5
 """Distance of the sum of two multipliers from ±2 where a curve that begins at a resonance is begun; on some curves it never exceeds 1e-4."""
@@ -130,8 +130,8 @@ class Survey:
         """
         line, here = last.place - first.place, first
         for start, end, kinds in self._crossed(first, last):
-            near = self.examine(first.place + max(start - BESIDE, 0.0) * line)
-            far = self.examine(first.place + min(end + BESIDE, 1.0) * line)
+            near = self.examine(first.place + max(start - BRACKET_MARGIN, 0.0) * line)
+            far = self.examine(first.place + min(end + BRACKET_MARGIN, 1.0) * line)
             self._explain_changes(here, near)
             if not accounts_for(kinds, near.motions, far.motions):
                 self._explain_changes(near, far)
@@ -145,7 +145,7 @@ class Survey:
         )
         groups: list[tuple[float, float, set[str]]] = []
         for share, kind in found:
-            if groups and share - groups[-1][1] < 2.0 * BESIDE:
+            if groups and share - groups[-1][1] < 2.0 * BRACKET_MARGIN:
                 groups[-1] = (groups[-1][0], share, groups[-1][2] | {kind})
             else:
                 groups.append((share, share, {kind}))

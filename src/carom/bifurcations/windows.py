@@ -20,8 +20,8 @@ from carom.bifurcations.conditions import (
     Solution,
     grazing_equations,
     is_admissible,
-    meeting_at,
     orbit_solutions,
+    orbits_joined_at,
     spectral_radii,
 )
 from carom.bifurcations.points import Bifurcation
@@ -152,5 +152,5 @@ def _end(low: _Place, high: _Place, level: Level, at: Callable[[float], _Place])
         return abs(orbit.period - cause.period) + abs(orbit.radial_speed - cause.radial_speed)
 
     cause, orbit = min(product(causes, inside), key=apart)
-    name = meeting_at(cause.kind, orbit.name)[-1]
+    name = orbits_joined_at(cause.kind, orbit.name)[-1]
     return Edge(value, cause.kind, cause.period, cause.radial_speed, name)

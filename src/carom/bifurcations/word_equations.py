@@ -226,7 +226,7 @@ class Family:
         rebounds = self.rotor.system.contacts[0].wall.restitution > 0.0
         tests = {kind: test for kind, test in TESTS.items() if kind != "fold" and not (kind == ONSET and rebounds)}
         if len(self.word) == 1:
-            # Without its only arrival the rotor never leaves levitation.
+            # Without its only impact the rotor never leaves levitation.
             tests[HOPF] = tests.pop("vanishing-impact")
             # Beyond that point the orbit meets the wall from outside, and its maxima lie outside from the first.
             tests["grazing"] = lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else 1.0

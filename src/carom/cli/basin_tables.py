@@ -17,7 +17,7 @@ from carom.parameters.formats import format_angle, format_quantity
 from carom.studies.wording import Wording
 
 
-def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | None, harmless: float) -> None:
+def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | None, contact_free: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that does not come back."""
     screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales, at=basin.instants)}.")
     drawn = basin.share_recovered.drawn
@@ -40,7 +40,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | N
         )
     if basin.unresolved:
         screen.print(f"Undecided at the limit of work: {basin.unresolved} starts, which count as not coming back.")
-    if survived := _losses(basin, smallest, harmless):
+    if survived := _losses(basin, smallest, contact_free):
         print_rows(screen, "What is survived", survived)
 
 
@@ -78,7 +78,7 @@ def _touching(basin: Basin) -> str:
     return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
 
 
-def _losses(basin: Basin, smallest: SmallestUnrecovered | None, harmless: float) -> list[tuple[str, str]]:
+def _losses(basin: Basin, smallest: SmallestUnrecovered | None, contact_free: float) -> list[tuple[str, str]]:
     """From which size on disturbances do not come back, if they have a size; else why nothing was searched."""
     from carom.studies.endings import ending_words  # only here: it takes long to load
     from carom.studies.verdict import SURVIVED, size_cells
@@ -86,7 +86,7 @@ def _losses(basin: Basin, smallest: SmallestUnrecovered | None, harmless: float)
     system = basin.rotor.system
     if size_coordinate(basin.plan.model) is None:
         return []
-    if smallest is None or harmless <= 0.0:
+    if smallest is None or contact_free <= 0.0:
         levitates = system.rest_radius < 1.0 and system.decay > 0.0
         why = "no size is known that cannot touch" if levitates else "no stable levitation inside the wall"
         return [(SURVIVED["lost"], f"not searched: {why}")]

@@ -72,7 +72,7 @@ def basins(
         from carom.basins.document import basin_document
         from carom.basins.families import size_coordinate
         from carom.basins.gains import usual_gains
-        from carom.closed_forms import harmless_kick
+        from carom.closed_forms import contact_free_kick
         from carom.models import rotor_of
 
         rotor, share = rotor_of(case), 0.45
@@ -83,15 +83,15 @@ def basins(
         source = _source(machine, settings)
         step = tell.part(0.0, share, f"following {plan.count} starts")
         basin = map_basins(rotor, plan, source=source, progress=step)
-        harmless, smallest = harmless_kick(rotor), None
-        if harmless > 0.0 and size_coordinate(plan.model) is not None:
+        contact_free, smallest = contact_free_kick(rotor), None
+        if contact_free > 0.0 and size_coordinate(plan.model) is not None:
             smallest = smallest_unrecovered(rotor, plan.model, progress=tell.part(share, 2.0 * share))
         over: tuple[Any, ...] = ()
         if gains is not None:
             ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.97)}
             found = map_gains(rotor, plan, asked.names, **ways_of)  # type: ignore[arg-type]
             over = (found, asked.in_terms_of)
-        document = basin_document(basin, smallest, harmless, *over)
+        document = basin_document(basin, smallest, contact_free, *over)
         figures: dict[str, Any] = {"basins": lambda: basin.plot(smallest)}
         files: dict[str, Any] = {"basins.nc": basin.save}
         if over:
@@ -102,7 +102,7 @@ def basins(
     def show() -> None:
         from carom.cli.basin_tables import print_basin, print_gains
 
-        print_basin(console(), basin, smallest, harmless)
+        print_basin(console(), basin, smallest, contact_free)
         if over:
             print_gains(console(), *over)
 

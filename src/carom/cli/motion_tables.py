@@ -19,7 +19,7 @@ from carom.cli.logs import contact_rows
 from carom.cli.tables import TEXT_WIDTH, print_rows
 from carom.motions import Trajectory, drop_loads
 from carom.parameters.formats import complex_words, format_angle, format_quantity, number, shown_from_si
-from carom.parameters.indentation import indentation_of_hit
+from carom.parameters.indentation import indentation_of_impact
 from carom.studies import LoadCheck, Wording
 from carom.studies.load_checks import checks_of_planes
 from carom.studies.load_tables import load_tables
@@ -77,7 +77,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         if seen.is_compliant or not len(seen.contacts):
             continue
         fastest = float(seen.contacts.radial_speed.max())
-        if soft := no_rigid_wall(indentation_of_hit(case.parameters, fastest)):
+        if soft := no_rigid_wall(indentation_of_impact(case.parameters, fastest)):
             console.print(f"Hardest impact{_where(seen)}: {soft}.")
     if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
         console.print()
@@ -101,13 +101,13 @@ def _where(seen: Trajectory) -> str:
 def _counts(motion: Trajectory) -> str:
     """Numbers of impacts and contacts, at all touchdown bearings together and at each of several."""
     each = [(len(seen.contacts), len(seen.lasting_contacts)) for seen in motion.at_each]
-    struck, lasting = (sum(numbers) for numbers in zip(*each, strict=True))
+    begun, lasting = (sum(numbers) for numbers in zip(*each, strict=True))
     text = (
-        counted(struck, "contact")
+        counted(begun, "contact")
         if motion.is_compliant
-        else f"{counted(struck, 'impact')}, {counted(lasting, 'lasting contact')}"
+        else f"{counted(begun, 'impact')}, {counted(lasting, 'lasting contact')}"
     )
-    if len(each) == 1 or not struck:
+    if len(each) == 1 or not begun:
         return text
     shares = [f"{number} at touchdown bearing {place}" for place, (number, _) in enumerate(each, start=1)]
     return f"{text} ({listed(shares)})"

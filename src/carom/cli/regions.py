@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from carom.bifurcations import RegionMap
 
 NODES = option("N", "Number of grid points per axis that determine the regions.", default=24, min=2, max=400)
-AROUND = (0.25, 2.5)
+USUAL_RANGE = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
 
 
@@ -50,7 +50,7 @@ def regions(
         usual = ",".join(usual_gains(model)) if model.scales else "gamma,omega"
         axes, given, _ = read_plane(case, "--plane", plane or usual, x, y)
         ranges = [
-            limits or usual_range(varied, subject.value(varied.name), name, AROUND)
+            limits or usual_range(varied, subject.value(varied.name), name, USUAL_RANGE)
             for varied, limits, name in zip(axes, given, ("--x", "--y"), strict=True)
         ]
         check_output(out)

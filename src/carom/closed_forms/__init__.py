@@ -1,4 +1,4 @@
-"""Exact results: equilibria and harmless disturbances of any linear rotor, impacts of a free mass, the rest of the planar rotor.
+"""Exact results: equilibria and disturbances without contact of any linear rotor, impacts of a free mass, the rest of the planar rotor.
 
 ====================  ===================================================
 ``equilibria``        contact-free and rubbing equilibria of any linear rotor
@@ -7,7 +7,7 @@
 ``power_sums``        all positive roots of a sum of powers
 ``rub_stability``     whether a rub at rest attracts sliding
 ``thresholds``        where motions begin and end
-``harmless``          disturbances of any linear rotor that never reach the wall
+``contact_free``          disturbances of any linear rotor that never reach the wall
 ``unbalance``         critical speed, width of the peak and rubs over the speed of the shaft, of a rotor with one mass
 ``whirl``             backward whirl: runaway and rolling
 ``fading``            rolling in bounces, and when they certainly fade
@@ -15,7 +15,7 @@
 ``periods``           periods of all orbits with one impact a period
 ``local``             cycles that shrink into a boundary equilibrium
 ``piecewise``         motion next to a point of a wall that levitation touches
-``wall_meetings``     what is born there, for any number of modes and both kinds of walls
+``small_cycles_at_walls``     what is born there, for any number of modes and both kinds of walls
 ``compliant_walls``   slipping whirl on compliant walls
 ``hertz``             pressure between the balls and the race of a touchdown bearing
 ``exact_results``     what general code may ask of any rotor
@@ -24,20 +24,20 @@
 
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.compliant_walls import SlippingWhirl, slipping_whirls
+from carom.closed_forms.contact_free import (
+    contact_free_blade_loss,
+    contact_free_kick,
+    contact_free_shock,
+)
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.fading import fading_speed
-from carom.closed_forms.harmless import (
-    harmless_blade_loss,
-    harmless_kick,
-    harmless_shock,
-)
 from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.sag import Levitation, levitation
+from carom.closed_forms.small_cycles_at_walls import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
-from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 
 __all__ = [
@@ -58,12 +58,12 @@ __all__ = [
     "SpeedResponse",
     "WallMeeting",
     "ball_pressure",
+    "contact_free_blade_loss",
+    "contact_free_kick",
+    "contact_free_shock",
     "cycle_determinant",
     "fading_speed",
     "find_equilibria",
-    "harmless_blade_loss",
-    "harmless_kick",
-    "harmless_shock",
     "levitation",
     "non_smooth_hopf",
     "point_contact",

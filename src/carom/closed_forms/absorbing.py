@@ -27,7 +27,7 @@ import numpy as np
 
 from carom.base.arguments import Reals, checked
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
-from carom.closed_forms.thresholds import largest_pull
+from carom.closed_forms.thresholds import largest_excitation
 from carom.core.planar_proofs import rub_potentials
 from carom.models import Rotor, Subject, exact_rotor_of
 
@@ -97,7 +97,7 @@ def neighbourhood_of(rotor: Rotor, rub: Equilibrium) -> RubNeighbourhood | None:
     gamma, mu = numbers.gamma, numbers.mu
     if gamma + 2.0 * mu <= 0.0:
         return None
-    strength = largest_pull(numbers)
+    strength = largest_excitation(numbers)
     phase = math.remainder(rub.angle - numbers.phi + math.atan(mu), 2.0 * math.pi)
     if math.cos(phase) <= 0.0:
         return None
@@ -109,9 +109,9 @@ def neighbourhood_of(rotor: Rotor, rub: Equilibrium) -> RubNeighbourhood | None:
     least[(edges[:-1] <= 0.0) & (edges[1:] >= 0.0)] = 0.0
     weight = np.exp(2.0 * mu * edges[:-1])
     middles, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * (high - low) / INTERVALS
-    pull = numbers.omega**2 - numbers.rho * np.cos(middles + phase - math.atan(mu)) + numbers.rho * half
-    lifting = np.minimum(0.0, np.sqrt(np.maximum(pull, 0.0)) - 1.0)
-    lifts = np.where(pull > 0.0, least + 0.5 * lifting**2 * weight, np.inf)
+    excitation = numbers.omega**2 - numbers.rho * np.cos(middles + phase - math.atan(mu)) + numbers.rho * half
+    lifting = np.minimum(0.0, np.sqrt(np.maximum(excitation, 0.0)) - 1.0)
+    lifts = np.where(excitation > 0.0, least + 0.5 * lifting**2 * weight, np.inf)
     stops = least + 0.5 * (1.0 + numbers.radius_ratio) ** 2 * weight
     levels = {
         "saddle": float(min(potential[0], potential[-1])),

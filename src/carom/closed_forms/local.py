@@ -196,11 +196,11 @@ def cycle_determinant(system: System, period: float, direction: complex = 1.0) -
     arrays = system.arrays
     free = np.eye(system.modes)[system.free]
     units = np.concatenate([free, 1j * free])
-    arrivals = fly_all(arrays, units, np.full(len(units), float(period)))
+    ends = fly_all(arrays, units, np.full(len(units), float(period)))
     factor = sliding_factor(float(arrays.friction[0]), float(arrays.restitution[0]))
     columns = []
-    for unit, arrival in zip(units, arrivals, strict=True):
-        speed = (np.conj(direction) * (arrays.rate_rows[0] @ arrival)).real
-        image = (arrival - arrays.columns[:, 0] * factor * direction * speed - unit)[system.free]
+    for unit, end in zip(units, ends, strict=True):
+        speed = (np.conj(direction) * (arrays.rate_rows[0] @ end)).real
+        image = (end - arrays.columns[:, 0] * factor * direction * speed - unit)[system.free]
         columns.append(np.concatenate([image.real, image.imag]))
     return float(np.linalg.det(np.array(columns).T))

@@ -4,7 +4,7 @@ Let ``y*`` be the place at rest of a plane, ``n = y*/|y*|`` and ``g = |y*| − 1
 amplitudes ``c`` of the free modes, ``ċ = Mc``, the row ``W`` of the plane and what an impulse there does, ``B``, a plane that is near
 ``y*`` is ``δ = g + Re(n̄Wc)`` deep in its wall, up to terms of second order, and slip is forward.
 
-*Rigid wall.*  An arrival at ``δ = 0`` with ``δ̇ > 0`` changes ``c`` by ``−Bqnδ̇`` with ``q = (1 + d)(1 + iμ)``.
+*Rigid wall.*  An impact at ``δ = 0`` with ``δ̇ > 0`` changes ``c`` by ``−Bqnδ̇`` with ``q = (1 + d)(1 + iμ)``.
 
 *Wall with a linear spring.*  While the force ``N = κδ + ηδ̇`` per effective mass pushes, ``ċ = Mc − (1 + iμ)Bn N``.  Where contact begins
 the rates jump by ``ηδ̇``; where it ends nothing does.
@@ -38,8 +38,8 @@ class Pieces:
         ``δ − g`` and ``δ̇`` per state.
     push : ndarray, shape (2N,)
         What changes the state with a normal force of one, per effective mass.
-    strike : ndarray, shape (2N,)
-        What changes it with an arrival of speed one at a rigid wall.
+    impact_column : ndarray, shape (2N,)
+        What changes it with an impact of speed one at a rigid wall.
     stiffness, loss : float
         ``κ`` and ``η``; zero for a rigid wall.
     """
@@ -48,7 +48,7 @@ class Pieces:
     depth: np.ndarray
     speed: np.ndarray
     push: np.ndarray
-    strike: np.ndarray
+    impact_column: np.ndarray
     stiffness: float
     loss: float
 
@@ -68,7 +68,7 @@ class Pieces:
             depth=_read(row),
             speed=_read(row @ generator),
             push=_written(-complex(1.0, friction) * column),
-            strike=_written(-sliding_factor(friction, restitution) * column),
+            impact_column=_written(-sliding_factor(friction, restitution) * column),
             stiffness=float(arrays.stiffness[plane]),
             # The dissipation of a Hunt–Crossley wall acts on what is small already.
             loss=0.0 if arrays.law_number[plane] else float(arrays.loss[plane]),
@@ -102,13 +102,13 @@ class Pieces:
         moved: np.ndarray = expm(self.flight * time)
         return moved
 
-    def arrival(self, state: np.ndarray) -> np.ndarray:
+    def before_impact(self, state: np.ndarray) -> np.ndarray:
         """Derivative of the state after an impact by that before it, as it happens earlier or later, shape (2N, 2N)."""
         unit, ahead = np.eye(len(state)), self.depth / (self.speed @ state)
         before = self.flight @ state
-        reset = unit + np.outer(self.strike, self.speed)
-        struck: np.ndarray = reset + np.outer(self.flight @ reset @ state - reset @ before, ahead)
-        return struck
+        reset = unit + np.outer(self.impact_column, self.speed)
+        after_impact: np.ndarray = reset + np.outer(self.flight @ reset @ state - reset @ before, ahead)
+        return after_impact
 
 
 def _read(row: np.ndarray) -> np.ndarray:

@@ -43,7 +43,7 @@ COUNTED = 2
 """Most planes in contact for which all rubs are found."""
 NEARLY_REAL = 0.1
 """Imaginary part, relative to the modulus, up to which a root starts Newton's method; coarse, as Newton's method decides."""
-STEPS, CONVERGED, SAME = 60, 1e-11, 1e-7
+STEPS, CONVERGED, SAME_ROOT_RTOL = 60, 1e-11, 1e-7
 FARTHEST = 1e6
 """Force, per stiffness of the plane, beyond which Newton's method has diverged."""
 SMALLEST = 1e-9
@@ -239,7 +239,7 @@ def _balanced(h: np.ndarray, rest: np.ndarray, starts: np.ndarray) -> list[tuple
             break
     found: list[tuple[np.ndarray, np.ndarray]] = []
     for force, place, miss in zip(forces, places, misses, strict=True):
-        alike = (np.abs(force - other).max() <= SAME * np.abs(force).max() for other, _ in found)
+        alike = (np.abs(force - other).max() <= SAME_ROOT_RTOL * np.abs(force).max() for other, _ in found)
         if np.abs(miss).max() < CONVERGED and not any(alike):
             found.append((force, place / np.abs(place)))
     return found

@@ -62,7 +62,7 @@ def _leg(hypotenuse: float, leg: float) -> float:
     return math.sqrt(max((hypotenuse - leg) * (hypotenuse + leg), 0.0))
 
 
-def largest_pull(at: Values) -> float:
+def largest_excitation(at: Values) -> float:
     """``p = ρ√(1 + μ²)``, the largest force along the wall by the unbalance and the friction due to it."""
     return at.rho * (1.0 + at.mu**2) ** 0.5
 
@@ -107,8 +107,8 @@ def _levitation_ranges(at: Values, gain: Gain) -> tuple[Span, ...]:
 
 def rub_fold_condition(at: Values) -> float:
     """``p² − (γ + μκ)²``: zero where the two synchronous rubs meet, negative where there are none."""
-    pull, need = largest_pull(at), at.gamma + at.mu * _kappa(at)
-    return (pull - need) * (pull + need)
+    excitation, need = largest_excitation(at), at.gamma + at.mu * _kappa(at)
+    return (excitation - need) * (excitation + need)
 
 
 def _rub_fold_force(at: Values, edge: float = 1.0) -> float:
@@ -152,7 +152,7 @@ def rub_limit(machine: Subject) -> float:
 
 def _rub_end(at: Values) -> Edge:
     if _rub_fold_force(at) >= 0.0:
-        return Edge(largest_pull(at) - at.mu * _kappa(at), FOLD)
+        return Edge(largest_excitation(at) - at.mu * _kappa(at), FOLD)
     return Edge(_leg(at.rho, _kappa(at)), WALL)
 
 
@@ -160,13 +160,13 @@ def _rub_ranges(at: Values, gain: Gain) -> tuple[Span, ...]:
     if gain == "gamma":
         end = _rub_end(at)
         return (Span(ZERO, end),) if end.value > 0.0 else ()
-    pull, touch, half = largest_pull(at), at.rho / math.hypot(1.0, at.mu), _leg(at.rho, at.gamma)
+    excitation, touch, half = largest_excitation(at), at.rho / math.hypot(1.0, at.mu), _leg(at.rho, at.gamma)
     # Ends of the range of κ; the soft one is the upper one.
     if at.mu == 0.0:
         soft, stiff = (math.inf if half > 0.0 else 0.0, FOLD), (-half, WALL)
     else:
-        soft = ((pull - at.gamma) / at.mu, FOLD) if at.gamma <= touch else (half, WALL)
-        stiff = (-half, WALL) if at.gamma >= -touch else (-(pull + at.gamma) / at.mu, FOLD)
+        soft = ((excitation - at.gamma) / at.mu, FOLD) if at.gamma <= touch else (half, WALL)
+        stiff = (-half, WALL) if at.gamma >= -touch else (-(excitation + at.gamma) / at.mu, FOLD)
     if not stiff[0] < min(soft[0], 1.0):
         return ()
     low = Edge(math.sqrt(1.0 - soft[0]), soft[1]) if soft[0] < 1.0 else ZERO
@@ -176,15 +176,15 @@ def _rub_ranges(at: Values, gain: Gain) -> tuple[Span, ...]:
 # ------------------------------------------------------------------------------------------------ backward whirl
 
 
-def sustaining_speed(at: Values, pull: float = 0.0) -> float:
-    """Larger root ``w`` of ``μ(w² − ω²) − γw = pull``, above which sliding feeds backward whirl; infinite without friction.
+def sustaining_speed(at: Values, excitation: float = 0.0) -> float:
+    """Larger root ``w`` of ``μ(w² − ω²) − γw = excitation``, above which sliding feeds backward whirl; infinite without friction.
 
-    With :func:`largest_pull` it suffices at every angle; with zero on average over a turn.
+    With :func:`largest_excitation` it suffices at every angle; with zero on average over a turn.
     """
     gamma, mu = at.gamma, at.mu
     if mu == 0.0:
         return math.inf
-    gain = 2.0 * mu * at.omega * at.omega + 2.0 * pull
+    gain = 2.0 * mu * at.omega * at.omega + 2.0 * excitation
     root = math.sqrt(gamma * gamma + 2.0 * mu * gain)
     # The form without cancellation for either sign of the damping.
     return (gamma + root) / (2.0 * mu) if gamma >= 0.0 else gain / (root - gamma)
@@ -197,12 +197,12 @@ def mean_rolling_force(at: Values) -> float:
 
 def rolling_condition(at: Values) -> float:
     """``μ(s² − ω²) − |γ|s − p``: not negative where friction can hold rolling at every angle."""
-    return at.mu * mean_rolling_force(at) - abs(at.gamma) * at.radius_ratio - largest_pull(at)
+    return at.mu * mean_rolling_force(at) - abs(at.gamma) * at.radius_ratio - largest_excitation(at)
 
 
 def rolling_damping(at: Values) -> float:
     """Largest ``γ = (μ(s² − ω²) − p)/s`` with which rolling holds; not positive if friction is too weak for any."""
-    return (at.mu * mean_rolling_force(at) - largest_pull(at)) / at.radius_ratio
+    return (at.mu * mean_rolling_force(at) - largest_excitation(at)) / at.radius_ratio
 
 
 def whirl_damping(at: Values) -> float:
@@ -213,7 +213,7 @@ def whirl_damping(at: Values) -> float:
 def rolling_stiffness(at: Values) -> float:
     """Largest ``ω = √(s² − (|γ|s + p)/μ)`` with which rolling holds; 0 if it holds for none."""
     speed = at.radius_ratio
-    need = abs(at.gamma) * speed + largest_pull(at)
+    need = abs(at.gamma) * speed + largest_excitation(at)
     return math.sqrt(max(speed * speed - need / at.mu, 0.0)) if at.mu > 0.0 else 0.0
 
 

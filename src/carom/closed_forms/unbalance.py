@@ -24,7 +24,7 @@ import numpy as np
 from carom.base.arguments import Positive, Reals, checked
 from carom.base.outcome import InputError, shown
 from carom.base.results import Result
-from carom.closed_forms.thresholds import largest_pull
+from carom.closed_forms.thresholds import largest_excitation
 from carom.models import Rotor, Subject, jeffcott, rotor_of
 
 
@@ -76,11 +76,11 @@ class SpeedResponse(Result):
         """
         at = self.rotor.parameters
         ratio = self.natural_frequency / np.asarray(speeds, float)
-        room, lean, pull = 1.0 - ratio * ratio, math.atan(at.mu), largest_pull(at)
+        gap, friction_angle, excitation = 1.0 - ratio * ratio, math.atan(at.mu), largest_excitation(at)
         with np.errstate(divide="ignore", invalid="ignore"):
-            turned = -np.arcsin((2.0 * self.damping_ratio * ratio + at.mu * room) / pull)
-        angles = np.array([turned - lean, math.pi - turned - lean])
-        return np.where(at.rho * np.cos(angles) + room > 0.0, angles, np.nan)
+            turned = -np.arcsin((2.0 * self.damping_ratio * ratio + at.mu * gap) / excitation)
+        angles = np.array([turned - friction_angle, math.pi - turned - friction_angle])
+        return np.where(at.rho * np.cos(angles) + gap > 0.0, angles, np.nan)
 
     def contact_changes(self) -> tuple[float, ...]:
         """Speeds at which steady motions in contact can begin or end, in ascending order.
@@ -89,12 +89,12 @@ class SpeedResponse(Result):
         two neighbours the steady motions are the same; not every one of these speeds changes them.
         """
         at, rigidity = self.rotor.parameters, self.natural_frequency**2
-        rate, pull = 2.0 * self.damping_ratio * self.natural_frequency, largest_pull(at)
+        rate, excitation = 2.0 * self.damping_ratio * self.natural_frequency, largest_excitation(at)
         found = list(self.beyond(1.0) or ())
-        for edge in (pull, -pull):
+        for edge in (excitation, -excitation):
             found += _inverses(-at.mu * rigidity, rate, at.mu - edge)
         slip = at.radius_ratio
-        found += _inverses(-at.mu * rigidity, -abs(rate) * slip, at.mu * slip * slip - pull)
+        found += _inverses(-at.mu * rigidity, -abs(rate) * slip, at.mu * slip * slip - excitation)
         return tuple(sorted({speed for speed in found if 0.0 < speed < math.inf}))
 
 

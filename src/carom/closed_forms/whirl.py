@@ -50,7 +50,7 @@ from dataclasses import dataclass
 
 from carom.base.arguments import checked
 from carom.closed_forms.thresholds import (
-    largest_pull,
+    largest_excitation,
     mean_rolling_force,
     rolling_condition,
     rolling_damping,
@@ -149,7 +149,7 @@ def runaway_speed(machine: Subject) -> Runaway:
     1.163219537
     """
     at = exact_rotor_of(machine).parameters
-    certain = max(sustaining_speed(at, largest_pull(at)), math.hypot(at.omega, math.sqrt(at.rho)))
+    certain = max(sustaining_speed(at, largest_excitation(at)), math.hypot(at.omega, math.sqrt(at.rho)))
     return Runaway(certain, sustaining_speed(at), at.radius_ratio)
 
 

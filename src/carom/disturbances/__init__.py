@@ -6,7 +6,7 @@ seeded :class:`Sample` with every coordinate uniformly distributed.  Both give :
 co-rotating frame, from which the motion is free.
 
 =======================  =====================================================================================
-:class:`VelocityKick`    a blow: the velocity changes at once, given by size and direction
+:class:`VelocityKick`    a kick: the velocity changes at once, given by size and direction
 :class:`KickPlane`       the same, given by radial and tangential parts, seen from the bearing centre
 :class:`BaseShock`       the housing is accelerated by a half-sine pulse (peak, duration, direction)
 :class:`BladeLoss`       the unbalance of the machine changes by a vector of a size, at any phase

@@ -36,7 +36,7 @@ class BladeLoss(Disturbance):
 
     See Also
     --------
-    carom.closed_forms.harmless_blade_loss : change up to which contact is impossible
+    carom.closed_forms.contact_free_blade_loss : change up to which contact is impossible
 
     Examples
     --------

@@ -28,7 +28,7 @@ LONGEST_SHOCK = 1e4
 
 @dataclass(frozen=True)
 class VelocityKick(Disturbance):
-    """A blow to the levitating rotor that changes its velocity at once.
+    """A kick to the levitating rotor that changes its velocity at once.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class VelocityKick(Disturbance):
     --------
     carom.disturbances.KickPlane : by components
     carom.kick : a single one
-    carom.closed_forms.harmless_kick : size up to which contact is impossible
+    carom.closed_forms.contact_free_kick : size up to which contact is impossible
 
     Examples
     --------
@@ -121,7 +121,7 @@ def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.
 
 @dataclass(frozen=True)
 class KickPlane(Disturbance):
-    """The same blow, given by its outward and tangential parts as seen from the centre of the bearing.
+    """The same kick, given by its outward and tangential parts as seen from the centre of the bearing.
 
     Attributes
     ----------
@@ -185,7 +185,7 @@ class BaseShock(Disturbance):
 
     See Also
     --------
-    carom.closed_forms.harmless_shock : peak up to which contact is impossible
+    carom.closed_forms.contact_free_shock : peak up to which contact is impossible
     carom.disturbances.VelocityKick, carom.disturbances.BladeLoss : other disturbances
 
     Examples

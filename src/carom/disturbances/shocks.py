@@ -52,7 +52,7 @@ def shaken(rotor: Rotor, duration: float, size: complex, begins: float = 0.0) ->
 def states_after_shocks(
     rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """State at the end of half-sine pulses that hit a rotor that levitates inside the wall.
+    """State at the end of half-sine pulses on a rotor that levitates inside the wall.
 
     Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, durations and times at which the pulses begin in ``1/Ω``.  Return positions
     (on the wall where the rotor is in contact then) and velocities in the co-rotating frame, for ``n > 1`` coordinates

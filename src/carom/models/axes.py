@@ -13,7 +13,7 @@ from carom.parameters.terms import no_such_parameter
 
 Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
-AROUND = (0.5, 2.0)
+USUAL_RANGE = (0.5, 2.0)
 """Usual range of a parameter, in multiples of its present value."""
 
 
@@ -92,7 +92,7 @@ def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
 
 
 def usual_range(
-    along: Axis, present: float, option: str, multiples: tuple[float, float] = AROUND
+    along: Axis, present: float, option: str, multiples: tuple[float, float] = USUAL_RANGE
 ) -> tuple[float, float]:
     """A range around the present value of a parameter, in multiples of it; ``option`` is what must be given where it is not above 0."""
     if not present > 0.0:

@@ -106,7 +106,7 @@ class LinearEquations(Definition, Result):
                 object.__setattr__(self, name, values)
         if self.conjugate is not None and not self.conjugate.any():
             object.__setattr__(self, "conjugate", None)
-        if self.heavy.any() and self.forcing[~self.heavy].any():
+        if self.has_mass.any() and self.forcing[~self.has_mass].any():
             raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
@@ -123,14 +123,14 @@ class LinearEquations(Definition, Result):
         return self
 
     @cached_property
-    def heavy(self) -> np.ndarray:
+    def has_mass(self) -> np.ndarray:
         """Which coordinates have mass, shape (n,)."""
         return np.asarray(self.mass.any(axis=1) | self.mass.any(axis=0))
 
     def accelerations(self, forces: np.ndarray) -> np.ndarray:
         """Accelerations (n, …) of the coordinates by forces (n, …) on them; zero for those without mass."""
         found = np.zeros(forces.shape, complex)
-        found[self.heavy] = np.linalg.solve(self.mass[np.ix_(self.heavy, self.heavy)], forces[self.heavy])
+        found[self.has_mass] = np.linalg.solve(self.mass[np.ix_(self.has_mass, self.has_mass)], forces[self.has_mass])
         return found
 
     def _check_shaft(self) -> None:

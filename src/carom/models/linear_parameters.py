@@ -27,7 +27,7 @@ from carom.parameters.terms import no_such_parameter
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
 
-SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
+PLANAR_NAMES = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Entries of a machine file that are dimensionless, and the parameter that each is."""
 ROUNDING = 1e-12
 """Part of an unbalance across another one, relative to it, that is rounding."""
@@ -37,12 +37,12 @@ def fields(rotor: LinearEquations) -> dict[str, Field]:
     """Fields of all parameters by name."""
     own = {**DIMENSIONLESS_FIELDS, **WALL_FIELDS}
     absent = own.keys() & {"mu", "d", "radius_ratio", *WALL_FIELDS} - set(_at_planes(rotor))
-    if not rotor.heavy.all():
+    if not rotor.has_mass.all():
         absent |= {"gamma", "omega"}  # matrices that hold a controller are no multiple of a damping or a stiffness
     if rotor.conjugate is not None:
         absent |= {"gamma", "omega"}  # there is none that is alike in both directions
     found = {name: field for name, field in own.items() if name not in absent}
-    found |= {name: MACHINE_FIELDS[name] for name, same in SAME.items() if same not in absent}
+    found |= {name: MACHINE_FIELDS[name] for name, same in PLANAR_NAMES.items() if same not in absent}
     if rotor.scales is not None:
         found["speed"] = MACHINE_FIELDS["speed"]
     for name, (parameter, plane) in _planes(rotor).items():
@@ -73,7 +73,7 @@ def value_of(rotor: LinearEquations, name: str) -> float:
         raise no_such_parameter(name, "wanted", fields(rotor), rotor.scales is not None)
     if name == "speed" and rotor.scales is not None:
         return rotor.scales.speed
-    own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
+    own, plane = _planes(rotor).get(name, (PLANAR_NAMES.get(name, name), None))
     if plane is not None or own in _at_planes(rotor):
         values = [each.value(own) for number, each in enumerate(rotor.touchdowns) if plane in (None, number)]
         if len(set(values)) > 1:
@@ -106,7 +106,7 @@ def moved(rotor: LinearEquations, name: str, given: float | str) -> dict[str, An
     if name not in known:
         raise no_such_parameter(name, given, known, rotor.scales is not None)
     value = read_quantity(known[name], given)
-    own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
+    own, plane = _planes(rotor).get(name, (PLANAR_NAMES.get(name, name), None))
     if plane is not None or own in _at_planes(rotor):
         changed = (each.replace(own, value) if plane in (None, k) else each for k, each in enumerate(rotor.touchdowns))
         return {"touchdowns": tuple(changed)}

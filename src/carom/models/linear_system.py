@@ -34,7 +34,7 @@ def system_of(given: LinearEquations) -> System:
     rests = turning is None and given.forcing.any()
     rest = np.linalg.solve(given.stiffness, given.forcing) if rests else np.zeros(n, complex)
     moved = given.accelerations(given.planes.conj().T)
-    found = modes_of(_generator(given), given.mass if given.heavy.all() else None)
+    found = modes_of(_generator(given), given.mass if given.has_mass.all() else None)
     mobilities = np.einsum("pn,np->p", given.planes, moved)
     if not (mobilities.real > 0.0).all() or (np.abs(mobilities.imag) > 1e-9 * np.abs(mobilities)).any():
         raise InputError(
@@ -44,7 +44,7 @@ def system_of(given: LinearEquations) -> System:
     if n == 1 and given.planes.tolist() == [[1.0]] and races == [None] and turning is None and given.magnets is None:
         return _one_coordinate(given, found.exponents, complex(rest[0]))
     inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
-    inverse[:, np.append(np.ones(n, bool), given.heavy)] = np.linalg.inv(found.basis)
+    inverse[:, np.append(np.ones(n, bool), given.has_mass)] = np.linalg.inv(found.basis)
     return modal_system(
         exponents=found.exponents,
         driven=found.driven,
@@ -66,23 +66,23 @@ def system_of(given: LinearEquations) -> System:
 
 def _check_inverses(given: LinearEquations) -> None:
     """Refuse masses that are singular, and coordinates without mass whose rates do not follow from the state."""
-    heavy, light = (np.ix_(those, those) for those in (given.heavy, ~given.heavy))
-    if not given.heavy.any() or is_singular(given.mass[heavy], given.mass):
+    has_mass, massless = (np.ix_(those, those) for those in (given.has_mass, ~given.has_mass))
+    if not given.has_mass.any() or is_singular(given.mass[has_mass], given.mass):
         raise InputError("mass", "singular", "a matrix that can be inverted, but for rows and columns that are zero")
-    if not given.heavy.all() and is_singular(given.damping[light], given.damping[light]):
+    if not given.has_mass.all() and is_singular(given.damping[massless], given.damping[massless]):
         raise InputError("damping", "singular", "a matrix that gives the rates of all coordinates without mass")
 
 
 def _generator(given: LinearEquations) -> np.ndarray:
     """Rates of the coordinates, then accelerations of those with mass, per coordinate, then per rate of those with mass."""
-    n, heavy = len(given.mass), given.heavy
-    rates = np.zeros((n, n + heavy.sum()), complex)
-    rates[heavy] = np.eye(heavy.sum(), n + heavy.sum(), n)
-    if not heavy.all():
-        held = np.concatenate([given.stiffness[~heavy], given.damping[np.ix_(~heavy, heavy)]], axis=1)
-        rates[~heavy] = -np.linalg.solve(given.damping[np.ix_(~heavy, ~heavy)], held)
-    forces = np.concatenate([given.stiffness, np.zeros((n, heavy.sum()))], axis=1) + given.damping @ rates
-    return np.concatenate([rates, -given.accelerations(forces)[heavy]])
+    n, has_mass = len(given.mass), given.has_mass
+    rates = np.zeros((n, n + has_mass.sum()), complex)
+    rates[has_mass] = np.eye(has_mass.sum(), n + has_mass.sum(), n)
+    if not has_mass.all():
+        held = np.concatenate([given.stiffness[~has_mass], given.damping[np.ix_(~has_mass, has_mass)]], axis=1)
+        rates[~has_mass] = -np.linalg.solve(given.damping[np.ix_(~has_mass, ~has_mass)], held)
+    forces = np.concatenate([given.stiffness, np.zeros((n, has_mass.sum()))], axis=1) + given.damping @ rates
+    return np.concatenate([rates, -given.accelerations(forces)[has_mass]])
 
 
 def _one_coordinate(given: LinearEquations, exponents: np.ndarray, equilibrium: complex) -> System:

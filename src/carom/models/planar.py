@@ -56,7 +56,7 @@ class Planar(Definition):
     drive : Drive, optional
         In SI units; without one the speed of the shaft never changes.
     air_gap : float, optional
-        Of the magnets, m: where the rotor strikes them a motion ends.
+        Of the magnets, m: where the rotor reaches them a motion ends.
 
     Raises
     ------

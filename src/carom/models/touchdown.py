@@ -19,7 +19,7 @@ FARTHEST = 2.0
 """Distance from the centre, in clearances, up to which a rotor is followed in a compliant wall.
 
 The wall is a spring however deep the rotor is in it, and a magnet is linear however near the rotor comes; neither holds far beyond the
-clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out strikes the magnet.
+clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out reaches the magnet.
 """
 _Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 

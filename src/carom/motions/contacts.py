@@ -33,9 +33,9 @@ below that are too small to tell."""
 class ContactLog(Table):
     """Contacts of a motion in chronological order, one entry each; all arrays have shape (n,).
 
-    On a rigid touchdown bearing a contact is an impact: it has an impulse, and no force (``peak_force`` is not a number).  Struck alone, its normal
+    On a rigid touchdown bearing a contact is an impact: it has an impulse, and no force (``peak_force`` is not a number).  Alone, its normal
     impulse is ``m_p (1 + d) ṙ`` with the effective mass ``m_p = 1/(W M⁻¹ Wᴴ)``, which is the whole mass for the planar rotor.  Of bearings
-    struck in one instant it is that of the joint solution (:mod:`carom.core.joint`), and each bearing has an entry.  Heat and normal loss
+    with impacts in one instant it is that of the joint solution (:mod:`carom.core.joint`), and each bearing has an entry.  Heat and normal loss
     follow from the means of the velocities before and after; the work of the drive is the kinetic energy gained without it, which a shaft whose
     speed changes gives from its own.
 
@@ -98,7 +98,7 @@ class ContactLog(Table):
 
     @property
     def contact_work(self) -> np.ndarray:
-        """Work on the contact point, never positive in the sum over bearings struck in one instant."""
+        """Work on the contact point, never positive in the sum over bearings with impacts in one instant."""
         return -self.normal_loss - self.heat
 
     @property
@@ -150,7 +150,7 @@ def impacts_of(motion: Trajectory, impulses: Impulses) -> ContactLog:
     """Log of impulses at rigid touchdown bearings."""
     system, events, planes = motion.rotor.system, impulses.events, impulses.planes
     arrays, times = system.arrays, motion.segment_starts[1:][events]
-    before, after = motion.arrivals[events], motion.segment_amplitudes[1:][events]
+    before, after = motion.event_amplitudes[events], motion.segment_amplitudes[1:][events]
     mass, none = arrays.masses[planes], np.zeros(len(planes))
     normal, friction = -mass * impulses.sizes.real, mass * impulses.sizes.imag
     seen = _states(motion, planes, before, after)

@@ -23,7 +23,7 @@ LATER = 1.15
 """Time up to which a drop is shown, over that since which the rotor rests or whirls."""
 
 
-class Blows(NamedTuple):
+class ImpactLog(NamedTuple):
     """Impacts on a rigid wall: times, normal impulses and those of friction along growing angle, sizes of the slip before them."""
 
     times: np.ndarray
@@ -44,7 +44,7 @@ class Course:
         In the fixed frame; on a mount relative to that.
     mount : ndarray of complex or None
         Place of the mount in the fixed frame; ``None`` if the bearing has none.
-    heavy : ndarray
+    unbalance_angles : ndarray
         Angle of the unbalance in the fixed frame, rad.
     force, friction, slip : ndarray
         Normal force, friction on the rotor along growing angle, and size of the slip of the contact.
@@ -52,7 +52,7 @@ class Course:
         Speed of the surface of the race; ``None`` if it does not turn.
     held : ndarray of bool
         Whether the wall presses.
-    blows : Blows or None
+    impact_log : Blows or None
         ``None`` if the wall is compliant.
     stages : tuple of float
         Times at which later stages begin.
@@ -64,13 +64,13 @@ class Course:
     times: np.ndarray
     place: np.ndarray
     mount: np.ndarray | None
-    heavy: np.ndarray
+    unbalance_angles: np.ndarray
     force: np.ndarray
     friction: np.ndarray
     slip: np.ndarray
     race: np.ndarray | None
     held: np.ndarray
-    blows: Blows | None
+    impact_log: ImpactLog | None
     stages: tuple[float, ...]
     down: float
     scales: Scales | None
@@ -89,7 +89,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
         course["race"] = None
     return Course(
         **course,
-        blows=None if is_compliant(rotor.system, plane) else _blows(parts, until),
+        impact_log=None if is_compliant(rotor.system, plane) else _impact_log(parts, until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
         down=rotor.direction_of_fall,
         scales=motion.scales,
@@ -109,7 +109,7 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
         "times": fixed,
         "place": (1.0 - history.gap) * np.exp(1j * (history.angle + fixed)),
         "mount": mount * np.exp(1j * fixed),
-        "heavy": part.rotor.unbalance_phase + fixed + shaft_lead(system, amplitudes),
+        "unbalance_angles": part.rotor.unbalance_phase + fixed + shaft_lead(system, amplitudes),
         "force": history.normal_force,
         "friction": history.friction_force,
         "slip": np.abs(history.slip),
@@ -118,11 +118,11 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
     }
 
 
-def _blows(parts: list[Trajectory], until: float) -> Blows:
+def _impact_log(parts: list[Trajectory], until: float) -> ImpactLog:
     log = ContactLog.joined([(part.begins, part.contacts) for part in parts])
     here = log.time <= until
     columns = log.time, log.normal_impulse, log.friction_impulse, np.abs(log.slip_before)
-    return Blows(*(each[here] for each in columns))
+    return ImpactLog(*(each[here] for each in columns))
 
 
 def shown_until(motion: Trajectory) -> float:

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
 
 AT_WALL = 1e-9
-"""Distance from its wall up to which a plane may have been struck together with another (:data:`carom.core.joint.ONE_INSTANT`), with
-a margin for the rounding of states: of a plane that was not struck the equations give none but a rounding error."""
+"""Distance from its wall up to which a plane may have had its impact together with another (:data:`carom.core.joint.ONE_INSTANT`), with
+a margin for the rounding of states: of a plane without impact the equations give none but a rounding error."""
 NONE, ROUNDING = 1e-12, 1e-14
-"""Impulse, relative to the largest in the event and to the terms of velocities, below which a plane at its wall was not struck."""
+"""Impulse, relative to the largest in the event and to the terms of velocities, below which a plane at its wall had no impact."""
 
 
 class Impulses(NamedTuple):
@@ -39,14 +39,14 @@ class Impulses(NamedTuple):
 def impulses_of(motion: Trajectory, events: np.ndarray) -> Impulses:
     """Impulses that have changed the amplitudes of a rotor in some events, by their numbers, shape (n,).
 
-    Of a plane struck alone the impulse is the change of its own velocity.  Where others are at their walls too, the impulses
+    Of a plane alone the impulse is the change of its own velocity.  Where others are at their walls too, the impulses
     follow from the changes of velocity at all of these: ``Δu_p = Σ_q A_pq π_q`` (:mod:`carom.core.joint`), less those by the unbalance of
     a shaft whose speed jumps.  Of planes that always
     move alike only the sum of their impulses counts, which is given to them in equal parts.
     """
     system, planes = motion.rotor.system, motion.event_planes[events]
     lasting = motion.segment_phases[events] != Phase.FLIGHT
-    before, after = motion.arrivals[events], motion.segment_amplitudes[events + 1]
+    before, after = motion.event_amplitudes[events], motion.segment_amplitudes[events + 1]
     arrays, places, count = system.arrays, np.arange(len(events)), lasting.shape[1]
     pushed = (before, _without_jolt(system, before, after))
     states = [[system.at_planes(each, np.full(len(events), p)) for p in range(count)] for each in pushed]
@@ -64,9 +64,9 @@ def impulses_of(motion: Trajectory, events: np.ndarray) -> Impulses:
         couplings = normal[event, here].conj()[:, None] * arrays.mobility[np.ix_(here, here)] * normal[event, here]
         impulses[event, here] = np.linalg.lstsq(couplings, changes[event, here])[0]
     sizes, terms = np.abs(impulses), np.abs(before) @ np.abs(arrays.rate_rows).T
-    struck = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True) + ROUNDING * terms
-    struck[places, planes] |= ~struck.any(axis=1)
-    rows, columns = np.nonzero(struck)
+    has_impact = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True) + ROUNDING * terms
+    has_impact[places, planes] |= ~has_impact.any(axis=1)
+    rows, columns = np.nonzero(has_impact)
     return Impulses(events[rows], columns, impulses[rows, columns])
 
 

@@ -178,7 +178,9 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 def _work_of_jolts(trajectory: Trajectory, jolts: np.ndarray) -> np.ndarray:
     """Work of the impulses that the unbalance of a shaft gives in events, (n,): with the mean of the velocities before and after."""
     matrices, coordinates = trajectory.rotor.matrices, len(trajectory.rotor.matrices.mass)
-    states = (trajectory.rotor.system.state(each) for each in (trajectory.arrivals, trajectory.segment_amplitudes[1:]))
+    states = (
+        trajectory.rotor.system.state(each) for each in (trajectory.event_amplitudes, trajectory.segment_amplitudes[1:])
+    )
     before, after = (_in_fixed_frame(*state, coordinates)[1] for state in states)
     done: np.ndarray = (0.5 * ((before + after).conj() @ matrices.forcing) * jolts).real
     return done
@@ -304,10 +306,10 @@ def _spin(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.nda
     held = presses(phases).any(axis=-1)
     torque = shaft.torque * speed
     turns = shaft_speed(system, np.concatenate([trajectory.segment_amplitudes, trajectory.last_amplitudes[None]]))
-    jumps = turns[1:-1] - shaft_speed(system, trajectory.arrivals)
+    jumps = turns[1:-1] - shaft_speed(system, trajectory.event_amplitudes)
     return (
         0.5 * shaft.inertia * turns**2,
         (speed**2 - 1j * braking) * direction,
         np.where(held, torque, 0.0),
-        -1j * jumps * trajectory.arrivals[:, place],
+        -1j * jumps * trajectory.event_amplitudes[:, place],
     )

@@ -200,7 +200,7 @@ class _AtPlane:
         at_end = race_speed(rotor.system, plane, last.last_amplitudes)
         return TouchdownLoads(
             plane=plane,
-            gives_way=soft,
+            is_compliant=soft,
             outcome=last.outcome,
             contacts=len(contacts),
             bounces=int(left.sum()),
@@ -261,8 +261,8 @@ def _last_whirl(last: Trajectory, turned_back: dict[int, float], held_since: flo
     begins = max(float(last.segment_starts[0]), last.time - LAST_TURNS * 2.0 * math.pi)
     touching = last.segment_phases[:, last.plane] != Phase.FLIGHT
     ends = np.append(last.segment_starts[1:], last.time)
-    struck = last.event_planes[last.is_impact] == last.plane
-    recent = last.segment_starts[1:][last.is_impact][struck] > begins
+    own_impacts = last.event_planes[last.is_impact] == last.plane
+    recent = last.segment_starts[1:][last.is_impact][own_impacts] > begins
     if last.time == 0.0 or not (recent.any() or (ends[touching] > begins).any()):
         return None
     # What fades without turning, such as the state of a filter, may be faster by far and moves nothing round.

@@ -76,7 +76,7 @@ class TouchdownLoads(Result):
     Attributes
     ----------
     plane : int
-    gives_way : bool
+    is_compliant : bool
         Whether its wall is compliant.
     outcome : Outcome
         Where the motion settled, or why it was stopped.
@@ -123,7 +123,7 @@ class TouchdownLoads(Result):
     """
 
     plane: int
-    gives_way: bool
+    is_compliant: bool
     outcome: Outcome
     contacts: int
     bounces: int

@@ -43,17 +43,17 @@ class MagnetReach(Result):
     ----------
     share : float
         Largest distance from the centre of a magnetic bearing over its air gap, while they act.
-    struck : bool
-        Whether it strikes one, whether they act or not.  A motion ends at the first event at which that is seen.
+    reached : bool
+        Whether it reaches one, whether they act or not.  A motion ends at the first event at which that is seen.
     """
 
     share: float
-    struck: bool
+    reached: bool
 
     @property
     def words(self) -> str:
         """The same in sentences."""
-        shown = "The rotor strikes a magnet: what follows is not the motion of the machine. " if self.struck else ""
+        shown = "The rotor reaches a magnet: what follows is not the motion of the machine. " if self.reached else ""
         if not 0.0 < self.share < 1.0:
             return shown.rstrip()
         return shown + (
@@ -63,7 +63,7 @@ class MagnetReach(Result):
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
         wrong = excess_pull(self.share) if self.share < 1.0 else None
-        return {"share_of_air_gap": self.share, "struck": self.struck, "excess_pull": wrong}
+        return {"share_of_air_gap": self.share, "reached": self.reached, "excess_pull": wrong}
 
 
 def reach_with(known: MagnetReach | None, part: Trajectory) -> MagnetReach | None:
@@ -72,7 +72,7 @@ def reach_with(known: MagnetReach | None, part: Trajectory) -> MagnetReach | Non
     if gaps is None:
         return known
     before, share = known or MagnetReach(0.0, False), _largest(part, gaps)
-    return MagnetReach(max(before.share, share if system.levitates else 0.0), before.struck or share > 1.0)
+    return MagnetReach(max(before.share, share if system.levitates else 0.0), before.reached or share > 1.0)
 
 
 def _largest(part: Trajectory, gaps: np.ndarray) -> float:

@@ -181,10 +181,10 @@ def low_interval(rotor: Rotor) -> float:
     return LOW / float(np.abs(rotor.system.arrays["exponents"]).max())
 
 
-def _fade(rotor: Rotor, arrival: np.ndarray) -> bool:
+def _fade(rotor: Rotor, before_impact: np.ndarray) -> bool:
     """Whether bounces from a state just before an impact are proven to fade to rolling."""
     proofs = planar_proofs(fading=exact_results(rotor).fading)
-    return bool(fades_to_rolling(proofs, rotor.system.arrays, arrival))
+    return bool(fades_to_rolling(proofs, rotor.system.arrays, before_impact))
 
 
 def _is_at_rest(rotor: Rotor, amplitudes: np.ndarray) -> bool:

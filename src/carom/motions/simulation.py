@@ -151,7 +151,7 @@ def _follow_stage(
     limited = begin_limits(rotor.system, amplitudes, begins, recollection)
     first = np.where(contact == AWAY, FLIGHT, contact), amplitudes.copy(), limited
     reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, Progress()
-    begun, struck, ended = 0.0, np.zeros(0), False
+    begun, impact_times, ended = 0.0, np.zeros(0), False
     room = EventLog.empty(min(CHUNK, max_events), len(amplitudes), len(contact), rotor.system.limits)
     while not ended:
         log = room.first(max_events - events)
@@ -159,13 +159,13 @@ def _follow_stage(
         log = log.first(count)
         log = log._replace(times=reached + log.times)
         reached, events = reached + time, events + count
-        struck = np.append(struck, log.times)[-LOW_FOR:]
+        impact_times = np.append(impact_times, log.times)[-LOW_FOR:]
         tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
         if outcome is Outcome.EVENT_LIMIT and progress.stalls(count, time):
             outcome = Outcome.STALLED
         low = outcome in REPEATING and not multiplicity and may_be_low(rotor, patience)
-        if low and np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):
+        if low and np.ptp(impact_times) < low_interval(rotor) * (len(impact_times) - 1):
             outcome = Outcome.LOW_BOUNCES
         if outcome is Outcome.TIME_REACHED:
             reached, outcome = until, Outcome.TRIGGERED if until == trigger.time else outcome
@@ -190,7 +190,7 @@ def _follow_stage(
             segment_phases=np.concatenate([first[0][None], log.phases]),
             event_planes=log.stations.copy(),
             segment_amplitudes=np.concatenate([first[1][None], log.after]),
-            arrivals=log.before.copy(),
+            event_amplitudes=log.before.copy(),
             segment_limits=np.concatenate([first[2][None], log.limited]),
             begins=begins,
         )

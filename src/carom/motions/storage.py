@@ -20,14 +20,14 @@ from carom.motions.trajectories import Trajectory
 if TYPE_CHECKING:
     import xarray
 
-COMPLEX = ("segment_amplitudes", "arrivals")
+COMPLEX = ("segment_amplitudes", "event_amplitudes")
 SEGMENTS = {
     "segment_starts": "segment",
     "segment_phases": "segment plane",
     "segment_limits": "segment axis",
     "event_planes": "event",
     "segment_amplitudes": "segment mode",
-    "arrivals": "event mode",
+    "event_amplitudes": "event mode",
 }
 """Arrays of a stage, with their dimensions."""
 ATTRIBUTES = {"segment_starts": {"units": "1/Omega"}, "segment_phases": phase_flags(Phase)}

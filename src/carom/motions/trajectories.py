@@ -36,7 +36,7 @@ ROUNDING = 1e-12
 
 
 PER_SEGMENT = ("segment_starts", "segment_phases", "segment_amplitudes", "segment_limits")
-PER_EVENT = ("event_planes", "arrivals")
+PER_EVENT = ("event_planes", "event_amplitudes")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,7 +63,7 @@ class Trajectory(Result):
         Contact plane of the event that ends each segment but the last; −1 for a step of flight that changes nothing.
     segment_amplitudes : ndarray of complex, shape (n + 1, N)
         Mode amplitudes at the start of each segment.
-    arrivals : ndarray of complex, shape (n, N)
+    impacts : ndarray of complex, shape (n, N)
         Mode amplitudes at the end of each segment except the last.
     segment_limits : ndarray of int, shape (n + 1, 2L)
         State of both axes of each limited quantity (:mod:`carom.core.limits`).
@@ -97,7 +97,7 @@ class Trajectory(Result):
     segment_phases: np.ndarray
     event_planes: np.ndarray
     segment_amplitudes: np.ndarray
-    arrivals: np.ndarray
+    event_amplitudes: np.ndarray
     segment_limits: np.ndarray
     plane: int = 0
     begins: float = 0.0
@@ -151,7 +151,7 @@ class Trajectory(Result):
     def is_impact(self) -> np.ndarray:
         """Which of the ``n`` events are impacts, bool, shape (n,)."""
         followed = self.segment_starts[1:], self.segment_phases[1:], self.event_planes
-        log = EventLog(*followed, self.arrivals, self.segment_amplitudes[1:], self.segment_limits[1:])
+        log = EventLog(*followed, self.event_amplitudes, self.segment_amplitudes[1:], self.segment_limits[1:])
         return log.impacts(self.segment_phases[0])
 
     @cached_property
@@ -265,9 +265,9 @@ class Trajectory(Result):
 
     def ends_of(self, segments: np.ndarray) -> np.ndarray:
         """Mode amplitudes at the end of chosen segments (k,), complex, shape (k, N)."""
-        last = segments == len(self.arrivals)
+        last = segments == len(self.event_amplitudes)
         ends = np.empty((len(segments), self.segment_amplitudes.shape[1]), complex)
-        ends[~last], ends[last] = self.arrivals[segments[~last]], self.last_amplitudes
+        ends[~last], ends[last] = self.event_amplitudes[segments[~last]], self.last_amplitudes
         return ends
 
     def workspace(self) -> np.record:

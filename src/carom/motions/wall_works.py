@@ -54,5 +54,7 @@ def lost_on_parting(motion: Trajectory) -> np.ndarray:
     """Energy of the wall's spring that is lost in each event, (n,): where plane and wall part, less what it holds where they meet again."""
     phases = motion.segment_phases[:, motion.plane]
     parted = phases == Phase.SEPARATED
-    lost = stored(motion, motion.arrivals, phases[:-1]) - stored(motion, motion.segment_amplitudes[1:], phases[1:])
+    lost = stored(motion, motion.event_amplitudes, phases[:-1]) - stored(
+        motion, motion.segment_amplitudes[1:], phases[1:]
+    )
     return np.where(parted[:-1] | parted[1:], lost, 0.0)

@@ -89,7 +89,7 @@ def _why_no_impact(rotor: Rotor, kind: Kind, node: np.ndarray, duration: float) 
 def _same_arrival(rotor: Rotor, after: np.ndarray, time: float, duration: float) -> bool:
     """Whether the next contact of a flight and its end are one event.
 
-    The nodes are on the wall as closely as Newton's method brings them, which shifts a slow arrival in time by far more.
+    The nodes are on the wall as closely as Newton's method brings them, which shifts a slow impact in time by far more.
     """
     apart = abs(time - duration)
     if apart <= ARRIVAL_TOLERANCE * duration or apart > SHIFT * duration:

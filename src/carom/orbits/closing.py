@@ -28,7 +28,7 @@ SHORTER, SHORTEST = 0.5, 1e-2
 """Least period that Newton's method may lead to, relative to that of the guess, and in ``1/Ω``: no time at all closes any path."""
 DENSE, DIRECTIONS = 40, 24
 """Numbers of a state up to which its whole derivative is computed; and the directions in which it is known beyond."""
-SAME = 1e-6
+CLOSURE_RTOL = 1e-6
 STILL = 1e-6
 """Rate of change of the state below which a rotor is at rest in its frame: a synchronous rub is no orbit."""
 MOST_PARTS = 64
@@ -166,24 +166,24 @@ def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None)
     if motion is None or not _touches(motion) or float(np.abs(flow.rate(vector, period)).max()) < STILL:
         return None
     found = happenings(motion)
-    arrivals = sum(each.begins_contact for each in found)
-    most = arrivals or MOST_PARTS
+    contacts_begun = sum(each.begins_contact for each in found)
+    most = contacts_begun or MOST_PARTS
     for parts in range(min(most, MOST_PARTS), 1, -1):
         part = period / parts
-        whole = repeats is None or abs(part / repeats - round(part / repeats)) < SAME
+        whole = repeats is None or abs(part / repeats - round(part / repeats)) < CLOSURE_RTOL
         if (
             part > SHORTEST
             and whole
             and len(found) % parts == 0
-            and _size(flow.end(vector, part) - vector, vector) < SAME
+            and _size(flow.end(vector, part) - vector, vector) < CLOSURE_RTOL
         ):
             closed = newton(flow, vector, part, free=repeats is None)
-            if closed is not None and abs(closed[1] - part) < SAME * part:
+            if closed is not None and abs(closed[1] - part) < CLOSURE_RTOL * part:
                 return _orbit(flow, *closed, repeats)
     values, complete = _multipliers(flow, vector, motion, free=repeats is None)
     if values is None:
         return None
-    name = CountedName(arrivals, 1) if arrivals else RubbingName(0, 1)
+    name = CountedName(contacts_begun, 1) if contacts_begun else RubbingName(0, 1)
     state = flow.state(vector)
     return SimulatedOrbit(flow.rotor, name, state, period, Multipliers(values), complete, repeats, flow.rests)
 

@@ -2,7 +2,7 @@
 
 A state is its coordinates and their rates, real parts before imaginary parts, and the speeds of races that turn.  Derivatives through flights and
 impacts on rigid walls are exact, by the saltation matrix of each impact.  All others (lasting contact, compliant bearings, several
-bearings struck in one instant, limits) are central differences of the certified flow, of which the motion between tells whether they are one.
+bearings with impacts in one instant, limits) are central differences of the certified flow, of which the motion between tells whether they are one.
 """
 
 from __future__ import annotations
@@ -158,7 +158,9 @@ class Flow:
         planes, after = np.where(motion.is_impact, motion.event_planes, -1), motion.segment_amplitudes[1:]
         start = self.amplitudes(vector)
         directions = np.array([self.amplitudes(vector + each) - start for each in np.eye(len(vector))])
-        apart = carry_through_impacts(system.arrays, planes, motion.arrivals, after, motion.durations, directions)
+        apart = carry_through_impacts(
+            system.arrays, planes, motion.event_amplitudes, after, motion.durations, directions
+        )
         if apart > ALONE * (1.0 + float(np.abs(after).max(initial=0.0))):
             return None
         rest = self.vector(State.of(*system.state(np.zeros(system.modes, complex))))

@@ -21,7 +21,7 @@ NOTHING = 1e-7
 EVENTS = 7e6
 """Events (:class:`~carom.orbits.flow.Budget`) after which no further stretch is measured."""
 MOST = 100_000
-BESIDE, CUTS = 1e-3, 41
+WALL_DISTANCE, CUTS = 1e-3, 41
 """Distance from a rigid wall, in clearances, that is next to it, and times tried at which a stretch may end."""
 
 
@@ -55,15 +55,15 @@ class Grown:
         """Follow the motion for a number of impacts and landings, or as long as there is time."""
         found: list[np.ndarray] = []
         durations: list[float] = []
-        struck = landed = 0
-        while struck + landed < impacts and len(found) < MOST and not self.budget.spent:
+        impacts_seen = landed = 0
+        while impacts_seen + landed < impacts and len(found) < MOST and not self.budget.spent:
             motion = self.flow.follow(self.vector, STRETCH)
             if motion is not None and (length := _cut(motion)) < STRETCH:
                 motion = self.flow.follow(self.vector, length)
             if motion is None:
                 raise CaromError("the motion goes beyond the model: it has no exponents")
             happened = happenings(motion)
-            if not happened and not struck + landed and len(found) > 50:
+            if not happened and not impacts_seen + landed and len(found) > 50:
                 raise CaromError("the motion stops hitting the wall: it has no exponents of impacts")
             slopes = self.flow.derivative(self.vector, motion)
             if not np.isfinite(slopes).all():
@@ -71,10 +71,10 @@ class Grown:
             self.directions, triangle = np.linalg.qr(slopes @ self.directions)
             found.append(np.log(np.maximum(np.abs(np.diag(triangle)), NOTHING)))
             durations.append(motion.time)
-            struck += sum(each.begins_contact for each in happened)
+            impacts_seen += sum(each.begins_contact for each in happened)
             landed += sum(each.label == "land" for each in happened)
             self.flow, self.vector = Flow.at(motion, motion.time, self.budget)
-        return np.array(durations), np.array(found).reshape(len(found), -1), (struck, landed)
+        return np.array(durations), np.array(found).reshape(len(found), -1), (impacts_seen, landed)
 
 
 def _cut(motion: Trajectory) -> float:
@@ -85,6 +85,6 @@ def _cut(motion: Trajectory) -> float:
     radii = np.array(
         [[abs(system.at_plane(each, plane)[0]) for plane in range(phases.shape[1])] for each in amplitudes]
     )
-    beside = (phases == Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0) & (radii > 1.0 - BESIDE)
+    beside = (phases == Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0) & (radii > 1.0 - WALL_DISTANCE)
     clear = np.flatnonzero(~beside.any(axis=1))
     return float(times[clear[0]]) if len(clear) else motion.time

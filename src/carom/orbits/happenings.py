@@ -104,7 +104,7 @@ def impact_kinds(motion: Trajectory) -> np.ndarray:
     arrays, planes = motion.rotor.system.arrays, motion.event_planes
     if not len(planes):
         return np.zeros(0, int)
-    _, slip, spare = local_motion(arrays, np.maximum(planes, 0), motion.arrivals).T
+    _, slip, spare = local_motion(arrays, np.maximum(planes, 0), motion.event_amplitudes).T
     sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
     kinds: np.ndarray = np.where(spare >= 0.0, Kind.IMPACT_STOPPED, sliding)
     # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.
@@ -112,7 +112,7 @@ def impact_kinds(motion: Trajectory) -> np.ndarray:
 
 
 def begins_contact(motion: Trajectory) -> np.ndarray:
-    """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with compliant walls; bool, shape (n,)."""
+    """Which events of a motion are impacts at a wall: impacts, and beginnings of contact with compliant walls; bool, shape (n,)."""
     before, after = flying(motion.segment_phases, motion.event_planes)
     compliant = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
     arrivals: np.ndarray = motion.is_impact | (before & ~after & compliant)

@@ -98,7 +98,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
     if len(rotor.system.rest) > 1:
         raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:
-        raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to strike the wall")
+        raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to reach the wall")
     if max(section.radial_speed, abs(section.angular_speed)) > LARGEST_SPEED:
         raise InputError("section", section, f"speeds up to {LARGEST_SPEED:g}")
     state = section.state

@@ -16,7 +16,7 @@ from carom.orbits.simulated_search import periodic_of
 from carom.orbits.word import Kind, Word
 
 PERIODIC = (Outcome.BOUNCING, Outcome.MIXED)
-AROUND = 1e-3
+RECOGNITION_RTOL = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
 
@@ -50,18 +50,18 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | SimulatedOrbit | None:
     """
     if not motion.rotor.has_closed_forms:
         return periodic_of(motion)
-    count, struck = motion.multiplicity, np.flatnonzero(begins_contact(motion))
-    if motion.outcome in PERIODIC and 0 < count <= len(struck):
-        first = int(struck[first_of_period(motion, count)])
+    count, begun_contacts = motion.multiplicity, np.flatnonzero(begins_contact(motion))
+    if motion.outcome in PERIODIC and 0 < count <= len(begun_contacts):
+        first = int(begun_contacts[first_of_period(motion, count)])
         if motion.is_impact[first:].all():
-            return _near(motion.rotor, *impacts_between(motion, first, len(motion.arrivals)))
+            return _near(motion.rotor, *impacts_between(motion, first, len(motion.event_amplitudes)))
     return periodic_of(motion)
 
 
 def _near(rotor: Rotor, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
-    if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
+    if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > RECOGNITION_RTOL * (1.0 + np.abs(begun).max()):
         return None
     return orbit
 
@@ -71,7 +71,7 @@ def impacts_between(motion: Trajectory, first: int, last: int) -> tuple[Word, St
     kinds = impact_kinds(motion)[first:last].tolist()
     times = np.append(motion.segment_starts[1:], motion.time)
     return Word(tuple(map(Kind, kinds))), Start(
-        motion.rotor.system.nodes.of(motion.arrivals[first:last]), np.diff(times[first : last + 1])
+        motion.rotor.system.nodes.of(motion.event_amplitudes[first:last]), np.diff(times[first : last + 1])
     )
 
 

@@ -48,7 +48,7 @@ GIVEN_UP = 1000
 """Impacts after which a motion that does not settle is given up."""
 ENDS = 200
 """Most ends of such motions, different ones, that are closed to orbits."""
-BESIDE = (1e-2, 0.5)
+DISTANCES_TRIED = (1e-2, 0.5)
 """Relative changes of the velocity, least and largest, of a start beside a known orbit."""
 KNOWN = 1e-4
 """Relative distance from a known solution below which a stretch is not tried."""
@@ -168,7 +168,9 @@ class Search:
             return State.of(positions[0], velocities[0])
         known = beside[int(random.integers(len(beside)))].departure
         velocity = np.array(known.velocity, complex)
-        change = np.exp(random.uniform(*np.log(BESIDE))) * (random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j])
+        change = np.exp(random.uniform(*np.log(DISTANCES_TRIED))) * (
+            random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j]
+        )
         return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
 
     def _stretches(self, start: State) -> Iterator[tuple[int, Word, Start]]:
@@ -177,7 +179,7 @@ class Search:
         marks = np.flatnonzero(motion.is_impact)
         if len(marks) < 2:
             return
-        states, times = self.rotor.system.nodes.of(motion.arrivals[marks]), motion.segment_starts[1:][marks]
+        states, times = self.rotor.system.nodes.of(motion.event_amplitudes[marks]), motion.segment_starts[1:][marks]
         for count in range(1, self.impacts + 1):
             # Low bounces change little because they are short.
             changes = np.abs(states[count:] - states[:-count]).max(axis=1)

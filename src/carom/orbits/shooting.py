@@ -52,23 +52,23 @@ class Links:
     Attributes
     ----------
     start : Start
-    arrivals : ndarray of complex, shape (m, N)
+    ends : ndarray of complex, shape (m, N)
         Coordinates and rates at the end of each segment.
     values : ndarray, shape (m,)
         The condition at its end; zero on an orbit.
     slopes : ndarray, shape (m, 2N + 1, 2N + 1)
-        Derivative of real and imaginary parts of the arrival, then of the condition, by those of the node, then by the
+        Derivative of real and imaginary parts of the end, then of the condition, by those of the node, then by the
         duration.
     """
 
     start: Start
-    arrivals: np.ndarray
+    ends: np.ndarray
     values: np.ndarray
     slopes: np.ndarray
 
     @cached_property
     def _equations(self) -> np.ndarray:
-        found: np.ndarray = shooting_equations(self.start.nodes, self.arrivals, self.values, self.slopes)
+        found: np.ndarray = shooting_equations(self.start.nodes, self.ends, self.values, self.slopes)
         return found
 
     @property

@@ -25,7 +25,7 @@ from carom.orbits.names import CountedName, RubbingName
 from carom.orbits.stability import Multipliers
 from carom.parameters import Scales
 
-CLOSE = 1e-5
+SAME_ORBIT_RTOL = 1e-5
 """Distance of two orbits, relative to one plus their size, below which they are the same."""
 
 
@@ -98,7 +98,7 @@ class SimulatedOrbit(Result):
 
     @cached_property
     def happenings(self) -> tuple[Happening, ...]:
-        """What happens in a period, from the fastest arrival at a wall on."""
+        """What happens in a period, from the fastest impact at a wall on."""
         found = happenings(self.motion)
         impacts = [place for place, each in enumerate(found) if each.begins_contact]
         if not impacts:
@@ -140,7 +140,7 @@ class SimulatedOrbit(Result):
     def section_of(self, happening: Happening) -> Section:
         """Place and speed of the plane of an event just before it."""
         plane = self.leading_plane if happening.limits else happening.place
-        position, velocity = self.rotor.system.at_plane(self.motion.arrivals[happening.event], plane)
+        position, velocity = self.rotor.system.at_plane(self.motion.event_amplitudes[happening.event], plane)
         return Section.from_state(complex(position), complex(velocity))
 
     @property
@@ -180,7 +180,7 @@ class SimulatedOrbit(Result):
 
     @property
     def impact_speeds(self) -> np.ndarray:
-        """``ṙ`` of the fastest arrival in ``c_r Ω``, shape (1,)."""
+        """``ṙ`` of the fastest impact in ``c_r Ω``, shape (1,)."""
         return np.array([self.radial_speed])
 
     def moved(
@@ -226,20 +226,22 @@ class SimulatedOrbit(Result):
 
     @cached_property
     def impact_states(self) -> np.ndarray:
-        """States just before the arrivals at walls, complex, shape (k, 2n)."""
+        """States just before the impacts at walls, complex, shape (k, 2n)."""
         events = [each.event for each in self.happenings if each.begins_contact]
-        return self.rotor.system.states_of(self.motion.arrivals[events])
+        return self.rotor.system.states_of(self.motion.event_amplitudes[events])
 
 
 def same_simulated(first: SimulatedOrbit, second: SimulatedOrbit) -> bool:
     """Whether two orbits are the same, wherever their periods begin."""
-    if abs(first.period - second.period) > CLOSE * first.period or first.impacts != second.impacts:
+    if abs(first.period - second.period) > SAME_ORBIT_RTOL * first.period or first.impacts != second.impacts:
         return False
     if first.impacts:
-        size = CLOSE * (1.0 + float(np.abs(first.impact_states).max()))
+        size = SAME_ORBIT_RTOL * (1.0 + float(np.abs(first.impact_states).max()))
         places = range(len(first.impact_states))
         return any(np.abs(np.roll(first.impact_states, -k, axis=0) - second.impact_states).max() < size for k in places)
-    return bool(np.abs(np.subtract(first.extremes, second.extremes)).max() < CLOSE * (1.0 + max(first.extremes)))
+    return bool(
+        np.abs(np.subtract(first.extremes, second.extremes)).max() < SAME_ORBIT_RTOL * (1.0 + max(first.extremes))
+    )
 
 
 def numbered(orbit: SimulatedOrbit, number: int) -> SimulatedOrbit:

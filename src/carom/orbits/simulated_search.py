@@ -33,7 +33,7 @@ FEW = 2
 """Coordinates up to which random places and velocities of all of them are starts too; those of many are kicked as a whole."""
 FOLLOWED, IN_WALL = 400.0, 40
 """Time in ``1/Ω`` for which a motion is followed for stretches, and events logged of one contact, about."""
-NEAR = 0.5
+CANDIDATE_RADIUS = 0.5
 """Distance of the ends of a stretch, relative to one plus the size of the state, up to which it is tried."""
 BARREN = 40
 """Stretches in a row that lead to nothing new, after which the search ends."""
@@ -143,7 +143,7 @@ class _Search:
         if len(events) < 2:
             return
         times = motion.segment_starts[1:][events]
-        states, unit = motion.rotor.system.states_of(motion.arrivals[events]), repeats_after(motion)
+        states, unit = motion.rotor.system.states_of(motion.event_amplitudes[events]), repeats_after(motion)
         for count in range(1, self.impacts + 1):
             spans = times[count:] - times[:-count]
             apart = np.abs(states[count:] - states[:-count]).max(axis=1, initial=0.0)
@@ -151,7 +151,7 @@ class _Search:
             if unit is not None:
                 whole = np.round(spans / unit)
                 apart = np.where((whole > 0) & (np.abs(spans - whole * unit) < OFF_PERIOD * unit), apart, np.inf)
-            if len(apart) and apart.min() < NEAR:
+            if len(apart) and apart.min() < CANDIDATE_RADIUS:
                 place = int(np.argmin(apart))
                 before = float(times[place - 1]) if place else 0.0
                 # A stretch begins in a flight: at an impact a state has two velocities.

@@ -33,7 +33,7 @@ def indentation_of_force(parameters: Parameters | None, force: float) -> float:
     return force * scales.force / (_stiffness(scales, parameters.radius_ratio) * scales.clearance)
 
 
-def indentation_of_hit(parameters: Parameters | None, radial_speed: float) -> float:
+def indentation_of_impact(parameters: Parameters | None, radial_speed: float) -> float:
     """Least indentation, in clearances, in an impact at a radial speed in ``c_r Ω``; ``nan`` without these too."""
     if not isinstance(parameters, Parameters) or parameters.scales is None:
         return math.nan
@@ -41,7 +41,7 @@ def indentation_of_hit(parameters: Parameters | None, radial_speed: float) -> fl
     return radial_speed * scales.speed * math.sqrt(scales.mass / _stiffness(scales, parameters.radius_ratio))
 
 
-def gives_way(indentation: float) -> bool:
+def is_compliant(indentation: float) -> bool:
     """Whether an indentation, in clearances, is too large for a rigid wall; false if it is unknown (``nan``)."""
     return indentation > LARGEST
 

@@ -89,7 +89,7 @@ class Machine(Tabular, pydantic.BaseModel):
     force_limit, current_limit, slew_rate_limit : float or str, optional
         Largest force (N), control current (A) and rate of this current (A/s) of one of them.
     air_gap : float or str, optional
-        Radial air gap s0 of their magnets (m), larger than the clearance: a rotor that is there strikes them.
+        Radial air gap s0 of their magnets (m), larger than the clearance: a rotor that is there reaches them.
 
     Raises
     ------
@@ -131,7 +131,7 @@ class Machine(Tabular, pydantic.BaseModel):
         super().__init__(**resolved.values)
         self._resolved = resolved
         if self.air_gap is not None and self.air_gap <= self.clearance:
-            allowed = f"larger than the clearance, {format_entry('clearance', self.clearance, 6)}: a rotor in contact would strike the magnets"
+            allowed = f"larger than the clearance, {format_entry('clearance', self.clearance, 6)}: a rotor in contact would reach the magnets"
             raise InputError("air_gap", shown(entries.get("air_gap", self.air_gap)), allowed)
         try:
             self.parameters  # noqa: B018

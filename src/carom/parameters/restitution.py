@@ -156,7 +156,7 @@ def restitution_of_dissipation(dissipation: NotNegative, speed: Positive) -> flo
     dissipation : float
         ``χ`` of the force ``kδⁿ(1 + χδ̇)``, in the unit of one over the speed.
     speed : float
-        Speed ``v`` of the arrival.
+        Speed ``v`` of the impact.
 
     Returns
     -------
@@ -193,7 +193,7 @@ def dissipation_of(restitution: Restitution, speed: Positive) -> float:
     restitution : float
         ``d``; zero would take infinite dissipation and is refused.
     speed : float
-        Speed ``v`` of the arrival at which the wall restitutes this share: slower arrivals give back more, faster ones less.
+        Speed ``v`` of the impact at which the wall restitutes this share: slower impacts give back more, faster ones less.
 
     Returns
     -------

@@ -211,7 +211,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
 def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> None:
     """Mark the smallest kick or shock found that does not come back and the circle of those that cannot reach the wall."""
     factor = basin.coordinates[0].shown_in(basin.scales)[0]
-    _circle(axes, factor * smallest.harmless, "below: proven never to touch")
+    _circle(axes, factor * smallest.contact_free, "below: proven never to touch")
     if smallest.size is None:
         return
     place = smallest.size * np.exp(1j * (smallest.angle or 0.0))

@@ -18,7 +18,7 @@ from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number, orbit_look, orbit_title
 
 if TYPE_CHECKING:
-    from carom.motions.courses import Blows, Course
+    from carom.motions.courses import Course, ImpactLog
     from carom.motions.ledger import EnergyLedger
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
@@ -82,14 +82,14 @@ def radius(
             point(drawn, complex(0.0, place[0]), "end", label=f"end: {motion.outcome.words}", clip=False)
     else:
         title = title or orbit_title(motion)
-        look, (times, position), (struck, speeds) = (
+        look, (times, position), (impact_times, speeds) = (
             LOOKS[orbit_look(motion)],
             orbit_path(motion, periods),
             orbit_impacts(motion, periods),
         )
         unit = display_unit("time", motion.scales)[0]
         _curve(drawn, unit * times, np.abs(position), motion.scales, replace(look, words=f"radius ({look.words})"))
-        _impacts(drawn, unit * struck, speeds > -1.0, clearance(motion.scales))
+        _impacts(drawn, unit * impact_times, speeds > -1.0, clearance(motion.scales))
     if zones is not None:
         drawn.set_ylim(bottom=0.0)
         _zones(drawn, zones, clearance(motion.scales))
@@ -124,8 +124,8 @@ def touchdown(
     first = first_contacts(motion, _FIRST)
     spans = [end] if first > _SHORT * end or narrow() else [first, end]
     courses = [sampled(motion, span) for span in spans]
-    blows, lasts = courses[-1].blows, bool(courses[-1].held.any())
-    several = lasts or (blows is not None and len(blows.times) >= _SEVERAL)
+    impact_log, lasts = courses[-1].impact_log, bool(courses[-1].held.any())
+    several = lasts or (impact_log is not None and len(impact_log.times) >= _SEVERAL)
     # An impact or two on a rigid wall would be dots in panels of their own: the legend says how hard they are.
     rows = 3 if several or courses[-1].race is not None else 1
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * max(2, rows + (ledger is not None)) * TWO_COLUMNS))
@@ -136,9 +136,9 @@ def touchdown(
         if rows > 1:
             _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
             _speeds(panels[2], course)
-        elif blows is not None and len(blows.times):
+        elif impact_log is not None and len(impact_log.times):
             unit = display_unit("impulse", course.scales)[1]
-            words = f"impulse at most {number(float(blows.impulses.max()), 3)} {unit}"
+            words = f"impulse at most {number(float(impact_log.impulses.max()), 3)} {unit}"
             panels[0].plot([], [], ls="none", label=words, gid="hardest")
         if ledger is not None:
             energies(ledger, axes=panels[-1])
@@ -187,15 +187,15 @@ def sampled(motion: Trajectory, until: float) -> Course:
     from carom.motions.courses import course_of
 
     course = course_of(motion, until)
-    scales, blows = course.scales, course.blows
+    scales, impact_log = course.scales, course.impact_log
     time, length, force, impulse = (display_unit(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
     speed = 1.0 if scales is None else scales.velocity
-    if blows is not None:
-        blows = blows._replace(
-            times=time * blows.times,
-            impulses=impulse * blows.impulses,
-            frictions=impulse * blows.frictions,
-            slips=speed * blows.slips,
+    if impact_log is not None:
+        impact_log = impact_log._replace(
+            times=time * impact_log.times,
+            impulses=impulse * impact_log.impulses,
+            frictions=impulse * impact_log.frictions,
+            slips=speed * impact_log.slips,
         )
     return replace(
         course,
@@ -206,7 +206,7 @@ def sampled(motion: Trajectory, until: float) -> Course:
         friction=force * course.friction,
         slip=speed * course.slip,
         race=None if course.race is None else speed * course.race,
-        blows=blows,
+        impact_log=impact_log,
         stages=tuple(time * each for each in course.stages),
     )
 
@@ -214,7 +214,7 @@ def sampled(motion: Trajectory, until: float) -> Course:
 def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
     """Draw the distance from the centre with the contacts, and why the motion ends."""
     scales, distance = course.scales, np.abs(course.place)
-    _curve(axes, course.times, distance, scales, replace(LOOKS["path"], words="radius"), soft=course.blows is None)
+    _curve(axes, course.times, distance, scales, replace(LOOKS["path"], words="radius"), soft=course.impact_log is None)
     rolls = course.slip <= _STICKS * (1.0 if scales is None else scales.velocity)
     for meaning, those in (("slide", course.held & ~rolls), ("roll", course.held & rolls)):
         if those.any():
@@ -296,31 +296,31 @@ def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
     """Draw the forces of contact in the unit that the whole motion needs, and impulses on an axis of their own if the wall is rigid."""
     large = bool(course.scales) and float(whole.force.max()) >= _LARGE
     factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{display_unit('force', course.scales)[1]}"
-    normal = factor * np.where(course.held, course.force, np.nan if course.blows is not None else 0.0)
+    normal = factor * np.where(course.held, course.force, np.nan if course.impact_log is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
     for values, look in ((normal, NORMAL), (friction, FRICTION)):
         if course.held.any():
             axes.plot(course.times, values, **look.stroke, label=look.words, gid=look.words.split(",")[0])
     held = normal[course.held & (course.force > 0.0)]
-    if course.blows is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
+    if course.impact_log is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
         axes.set_yscale("log")
     else:
         axes.set_ylim(0.0, 1.08 * float(np.max(held, initial=0.0)) or 1.0)
     axes.set_ylabel(f"contact force ({unit})")
     if not (whole.held & (whole.force > 0.0)).any():
         axes.set_yticks([])
-        axes.set_ylabel("no lasting contact" if course.blows is not None else "no contact")
-    if course.blows is not None and len(course.blows.times):
-        _impulses(axes, course.blows, axis_label("impulse", "impulse", course.scales) if last else "")
+        axes.set_ylabel("no lasting contact" if course.impact_log is not None else "no contact")
+    if course.impact_log is not None and len(course.impact_log.times):
+        _impulses(axes, course.impact_log, axis_label("impulse", "impulse", course.scales) if last else "")
 
 
-def _impulses(axes: Axes, blows: Blows, label: str) -> None:
+def _impulses(axes: Axes, impact_log: ImpactLog, label: str) -> None:
     """Draw impulses as stems, on a separate axis at the right."""
     beside = axes.twinx()
     dots: dict[str, Any] = {"ls": "none", "marker": "o", "ms": 2.2, "color": LOOKS["path"].colour}
-    beside.vlines(blows.times, 0.0, blows.impulses, color=LOOKS["path"].colour, lw=0.6)
-    beside.plot(blows.times, blows.impulses, **dots)
-    beside.set(ylim=(0.0, 1.15 * float(blows.impulses.max())), ylabel=label)
+    beside.vlines(impact_log.times, 0.0, impact_log.impulses, color=LOOKS["path"].colour, lw=0.6)
+    beside.plot(impact_log.times, impact_log.impulses, **dots)
+    beside.set(ylim=(0.0, 1.15 * float(impact_log.impulses.max())), ylabel=label)
     axes.plot([], [], **dots, label="impulse of an impact (right axis)")
 
 
@@ -330,8 +330,8 @@ def _speeds(axes: Axes, course: Course) -> None:
     if course.held.any():
         axes.plot(course.times, slips, **SLIP.stroke, label=SLIP.words, gid="slip")
     tallest = max(float(np.nanmax(slips, initial=0.0)), float(race.max()))
-    if course.blows is not None:
-        times, slips = course.blows.times, course.blows.slips
+    if course.impact_log is not None:
+        times, slips = course.impact_log.times, course.impact_log.slips
         axes.plot(times, slips, "o", ms=2.2, color=SLIP.colour, label="slip before an impact")
         tallest = max(tallest, float(slips.max(initial=0.0)))
     if course.race is not None:

@@ -1,4 +1,4 @@
-"""Basins of drops: how each ends, and how hard it strikes, over two numbers of the release or of the machine."""
+"""Basins of drops: how each ends, and loads of the touchdown bearing, over two numbers of the release or of the machine."""
 
 from __future__ import annotations
 
@@ -72,8 +72,8 @@ def drop_map(found: DropMap, measure: str | None = None, title: str | None = Non
     words = str(found.dataset[name].attrs["long_name"])
     grounded = {"no-levitation": ~found.exists}
     draw_map(right, edges, values, f"{words} ({unit})" if unit else words, grounded)
-    struck = name in ("force", "impulse", "depth", "pressure")
-    right.set_title("(b) how hard it strikes" if struck else "(b)", loc="left", y=1.0)
+    by_load = name in ("force", "impulse", "depth", "pressure")
+    right.set_title("(b) loads of the touchdown bearing" if by_load else "(b)", loc="left", y=1.0)
     limit = found.limits.get(name)
     if limit is not None:
         beyond = Look("none", f"above the limit {plain(factor * limit)} {unit}", hatch="////")

@@ -104,8 +104,8 @@ def _frame(axes: Axes, kicks: Any) -> None:
     axes.set_aspect("equal")
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel=f"kick outward ({unit})", ylabel=f"kick in the sense of rotation ({unit})")
-    marked = [(kicks.harmless, (4.0, 2.0), "none touches below")]
-    if not kicks.whole and kicks.all_up_to > kicks.harmless:  # else it says no more
+    marked = [(kicks.contact_free, (4.0, 2.0), "none touches below")]
+    if not kicks.whole and kicks.all_up_to > kicks.contact_free:  # else it says no more
         marked.append((kicks.all_up_to, (1.0, 1.5), "all proven to come back below"))
     for size, dashes, words in marked:
         if 0.0 < size <= kicks.largest:

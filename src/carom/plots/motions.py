@@ -102,9 +102,9 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     wall = clearance(orbit.scales)
     path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6, wall=wall)
     direction_arrow(axes, line[times <= orbit.period], look)
-    struck, speeds = orbit_impacts(orbit, periods)
-    turned = np.exp(1j * struck) if frame == "fixed" else np.ones_like(struck)
-    impacts(axes, wall * orbit.path(struck, orbit.leading_plane) * turned, speeds, size=4.5)
+    impact_times, speeds = orbit_impacts(orbit, periods)
+    turned = np.exp(1j * impact_times) if frame == "fixed" else np.ones_like(impact_times)
+    impacts(axes, wall * orbit.path(impact_times, orbit.leading_plane) * turned, speeds, size=4.5)
     point(axes, complex(line[0]), "start", size=4.0, label="start, just after an impact")
 
 

@@ -32,7 +32,7 @@
 ``patches``         patches of states, and the flights that leave them
 ``moments``         all flights of a patch at a time
 ``passages``        what happens next on all flights of a patch
-``strikes``         states after an impact
+``impacts``         states after an impact
 ``mean_values``     numbers with derivatives by a few unknowns, in balls
 ``bends``           second derivatives of where flights reach the wall
 ``rub_traps``       a region around a stable rub from which no bounce gets out

@@ -123,10 +123,10 @@ class _Bends:
         state = [Form(x, [*(column[m] for column in columns), arb(0)]) for m, x in enumerate(patch.centre)]
         velocity = Pair(state[0], state[1] if departure.from_wall else NOTHING)
         levitation, turn = _turning(state[-1]) * held.radius, _turning(time)
-        still, struck = _responses(departure, time, orders)
-        self.moved = [struck, [x.turned for x in struck]][: self.size - 1]
+        still, moving = _responses(departure, time, orders)
+        self.moved = [moving, [x.turned for x in moving]][: self.size - 1]
         self.p, self.q, self.k = [], [], []
-        for c, h in zip(still, struck, strict=True):
+        for c, h in zip(still, moving, strict=True):
             self.k.append(turn - c - h.turned if departure.from_wall else turn)
             self.p.append(velocity * h + c)
             self.q.append(levitation * self.k[-1])

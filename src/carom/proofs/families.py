@@ -19,7 +19,7 @@ from carom.parameters.exact import ExactNumber
 from carom.proofs.balls import ball_of
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Numbers
-from carom.proofs.patches import BLOW
+from carom.proofs.patches import KICK_START
 from carom.proofs.sizes import read_size, unit_of
 from carom.proofs.starts import Pulse, Start, Step
 
@@ -83,7 +83,7 @@ _PRODUCT = Field("unbalance_up_to", "Δ", "change of the unbalance", "an unbalan
 
 def _kicks(text: str, hypotheses: Hypotheses) -> Scale:
     largest = read_size(_SPEED, text, hypotheses)
-    return Scale(largest, lambda: 1 / unit_of(hypotheses, "clearance", "speed"), lambda _: arb(1), lambda: BLOW)
+    return Scale(largest, lambda: 1 / unit_of(hypotheses, "clearance", "speed"), lambda _: arb(1), lambda: KICK_START)
 
 
 def _shocks(text: str, hypotheses: Hypotheses) -> Scale:

@@ -76,7 +76,7 @@ def prove_kicks(
     See Also
     --------
     carom.proofs.prove_shocks, carom.proofs.prove_unbalance_steps : the same of other disturbances
-    carom.closed_forms.harmless_kick : kicks that never reach the wall
+    carom.closed_forms.contact_free_kick : kicks that never reach the wall
     carom.map_basins : the same disc, sampled
 
     Examples

@@ -166,30 +166,30 @@ def _linear(stated: StatedEquations) -> _Linear:
         forces = [np.append(each, none) for each in forces]
         still = np.append(still, still.conj())
         planes = np.append(planes, np.zeros_like(planes), axis=1)
-    heavy = np.asarray(mass.any(axis=1))
+    has_mass = np.asarray(mass.any(axis=1))
     whole = balls(stiffness) - balls(mass) + balls(damping) * acb(0, 1)
     answers = [whole.solve(balls(each)) for each in forces]
     sag = balls(stiffness).solve(balls(still))
-    forward, steps = (_parts(each, heavy, n, double) for each in answers)
-    kick = np.append(np.zeros(len(mass)), given["translation"][heavy[:n]])
+    forward, steps = (_parts(each, has_mass, n, double) for each in answers)
+    kick = np.append(np.zeros(len(mass)), given["translation"][has_mass[:n]])
     kicks: tuple[np.ndarray, ...] = (kick,)
     if double:
-        moved = given["translation"][heavy[:n]]
+        moved = given["translation"][has_mass[:n]]
         kicks = (np.append(kick, 0.0 * moved), np.concatenate([0.0 * kick, moved.conj()]))
-    rows = [balls(np.append(row, np.zeros(heavy.sum()))[None]) for row in planes]
+    rows = [balls(np.append(row, np.zeros(has_mass.sum()))[None]) for row in planes]
     bounds = [arb(1)] * len(rows)
     for limit in given["limits"]:
         by_place, by_rate = np.split(limit[:-1], 2)
-        if by_rate[~heavy[:n]].any():
+        if by_rate[~has_mass[:n]].any():
             raise NotShownError("a limit asks by the rate of a coordinate without mass")
         if double:
             by_place, by_rate = np.append(by_place, none), np.append(by_rate, none)
-        rows.append(balls(np.append(by_place, by_rate[heavy])[None]))
+        rows.append(balls(np.append(by_place, by_rate[has_mass])[None]))
         bounds.append(arb(limit[-1].real))
-    resting = _state(sag, np.zeros(heavy.sum()))
+    resting = _state(sag, np.zeros(has_mass.sum()))
     steady = [sum((_size(row * part) for part in (resting, *forward)), arb(0)) for row in rows]
     return _Linear(
-        _generator(mass, damping, stiffness, heavy),
+        _generator(mass, damping, stiffness, has_mass),
         tuple(balls(each) for each in kicks),
         steps if given["push"].any() else (),
         rows,
@@ -203,12 +203,12 @@ def _state(coordinates: Any, rates: np.ndarray) -> Any:
     return acb_mat([[entry] for entry in coordinates.entries()] + [[entry] for entry in rates.tolist()])
 
 
-def _parts(answer: Any, heavy: np.ndarray, n: int, double: bool) -> tuple[Any, ...]:
+def _parts(answer: Any, has_mass: np.ndarray, n: int, double: bool) -> tuple[Any, ...]:
     """States of a whirl at time zero: what turns with ``e^{it}``, and with ``e^{−it}`` where ``(z, z̄)`` are the coordinates."""
     entries, unit = answer.entries(), acb(0, 1)
 
     def with_rates(values: list[Any], turn: Any) -> Any:
-        return acb_mat([[each] for each in values] + [[turn * values[place]] for place in np.flatnonzero(heavy)])
+        return acb_mat([[each] for each in values] + [[turn * values[place]] for place in np.flatnonzero(has_mass)])
 
     ahead = with_rates(entries, unit)
     if not double:
@@ -225,21 +225,21 @@ def _size(matrix: Any) -> Any:
     return total.sqrt()
 
 
-def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, heavy: np.ndarray) -> Any:
+def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, has_mass: np.ndarray) -> Any:
     """Rates of the states per state."""
-    n, count = len(mass), int(heavy.sum())
-    own, others = np.ix_(heavy, heavy), np.ix_(~heavy, ~heavy)
+    n, count = len(mass), int(has_mass.sum())
+    own, others = np.ix_(has_mass, has_mass), np.ix_(~has_mass, ~has_mass)
     rates = [[0] * (n + count) for _ in range(n)]
-    for place, row in enumerate(np.flatnonzero(heavy).tolist()):
+    for place, row in enumerate(np.flatnonzero(has_mass).tolist()):
         rates[row][n + place] = 1
-    if not heavy.all():
-        held = np.concatenate([stiffness[~heavy], damping[np.ix_(~heavy, heavy)]], axis=1)
+    if not has_mass.all():
+        held = np.concatenate([stiffness[~has_mass], damping[np.ix_(~has_mass, has_mass)]], axis=1)
         solved = balls(damping[others]).solve(balls(held)).tolist()
-        for row, entries in zip(np.flatnonzero(~heavy).tolist(), solved, strict=True):
+        for row, entries in zip(np.flatnonzero(~has_mass).tolist(), solved, strict=True):
             rates[row] = [-entry for entry in entries]
-    forces = balls(np.append(stiffness[heavy], np.zeros((count, count)), axis=1)) + balls(damping[heavy]) * acb_mat(
-        rates
-    )
+    forces = balls(np.append(stiffness[has_mass], np.zeros((count, count)), axis=1)) + balls(
+        damping[has_mass]
+    ) * acb_mat(rates)
     pushed = balls(mass[own]).solve(forces)
     return acb_mat(rates + [[-entry for entry in row] for row in pushed.tolist()])
 

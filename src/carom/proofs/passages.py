@@ -1,9 +1,9 @@
-"""What happens next on all flights of a patch: they return, they strike the wall, or some of them may brush it.
+"""What happens next on all flights of a patch: they return, they reach the wall, or some of them may brush it.
 
 Let ``g = |z|²``.  Time is walked in steps on each of which ``g < 1`` is shown by Taylor's formula, or ``g' < 0``, which keeps it so.  At the
 start at the wall, where ``g' ≤ 0``, it is enough that ``g' < 0`` or ``g'' < 0``.  Where no step is possible:
 
-*Strike.*  ``g' > 0`` up to a time at which ``g > 1`` for all flights: each crosses exactly once, and none before.
+*Impact.*  ``g' > 0`` up to a time at which ``g > 1`` for all flights: each crosses exactly once, and none before.
 
 *Bounce.*  ``g'' > 0`` from the wall, where ``g = 1``, to a time at which ``g > 1``, with ``g < 1`` at one before it: as ``g`` is convex, each flight is inside
 until then and crosses exactly once after it.
@@ -75,7 +75,7 @@ class Return:
 
 
 @dataclass(frozen=True)
-class Strike:
+class Impact:
     """Every flight crosses between two times, and not before.
 
     Attributes
@@ -105,7 +105,7 @@ class Brush:
     misses: bool
 
 
-Event = Return | Strike | Brush
+Event = Return | Impact | Brush
 
 
 def begin(departure: Departure) -> float:
@@ -125,8 +125,8 @@ def begin(departure: Departure) -> float:
     raise LeftOpenError(SLOW, departure.weights(width))
 
 
-def bounce(departure: Departure) -> Strike | None:
-    """A strike before which the wall pushes all flights all the time; none if that is not shown, or they do not leave the wall."""
+def bounce(departure: Departure) -> Impact | None:
+    """An impact before which the wall pushes all flights all the time; none if that is not shown, or they do not leave the wall."""
     if not departure.from_wall:
         return None
     _, rise, curve = departure.plain(0.0)
@@ -142,7 +142,7 @@ def bounce(departure: Departure) -> Strike | None:
     for factor in (1.1, 1.5, 2.2):
         low, high = crossing - factor * half - _ROUNDING, crossing + factor * half + _ROUNDING
         if low > 0 and departure.at(arb(high)).height > 1 and departure.at(arb(low)).height < 1:
-            return Strike(low, high, low, high) if _holds(departure, 0.0, high, _bends, 4) else None
+            return Impact(low, high, low, high) if _holds(departure, 0.0, high, _bends, 4) else None
     return None
 
 
@@ -160,7 +160,7 @@ def next_event(departure: Departure, time: float) -> Event:
         elif width > shortest:
             width /= 2
         else:
-            return _meeting(departure, time)
+            return _joined(departure, time)
     return Return()
 
 
@@ -207,22 +207,22 @@ def _end(departure: Departure) -> float:
 # ------------------------------------------------------------------------------------------------ at the wall
 
 
-def _meeting(departure: Departure, time: float) -> Event:
-    """A strike or a brush after a time at which all flights are inside."""
+def _joined(departure: Departure, time: float) -> Event:
+    """An impact or a brush after a time at which all flights are inside."""
     crossing, peak = _centre_meets(departure, time)
     if crossing is not None:
-        strike = _strike(departure, time, crossing, peak)
-        if strike is not None:
-            return strike
+        impact = _impact(departure, time, crossing, peak)
+        if impact is not None:
+            return impact
     brush = _brush(departure, time, peak)
     if brush is None:
         raise LeftOpenError(GRAZE, departure.weights(peak))
     return brush
 
 
-def brush_of(departure: Departure, strike: Strike) -> Brush | None:
-    """A strike as a brush: next to a graze less is known of the impact by it, but that little may be known where the strike's is not."""
-    return _brush(departure, strike.inside, strike.peak)
+def brush_of(departure: Departure, impact: Impact) -> Brush | None:
+    """An impact as a brush: next to a graze less is known of the impact by it, but that little may be known where the impact's is not."""
+    return _brush(departure, impact.inside, impact.peak)
 
 
 def _centre_meets(departure: Departure, time: float) -> tuple[float | None, float]:
@@ -252,7 +252,7 @@ def _root(function: Any, low: float, high: float) -> float:
     return high
 
 
-def _strike(departure: Departure, time: float, crossing: float, peak: float) -> Strike | None:
+def _impact(departure: Departure, time: float, crossing: float, peak: float) -> Impact | None:
     rate = departure.plain(crossing)[1]
     half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate if rate > 0 else math.inf
     if not half < LONGEST:
@@ -260,7 +260,7 @@ def _strike(departure: Departure, time: float, crossing: float, peak: float) -> 
     for factor in (1.1, 1.5, 2.2):
         low, high = max(time, crossing - factor * half - _ROUNDING), crossing + factor * half + _ROUNDING
         if departure.at(arb(high)).height > 1 and (low == time or departure.at(arb(low)).height < 1):
-            return Strike(low, high, time, peak) if _holds(departure, time, high, _rises) else None
+            return Impact(low, high, time, peak) if _holds(departure, time, high, _rises) else None
     return None
 
 

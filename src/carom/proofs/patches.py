@@ -32,9 +32,9 @@ from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rubs import Rub
 from carom.proofs.series import I, hyperbolic
 from carom.proofs.sides import Side, responses_by
-from carom.proofs.starts import Blow, Plain, Response, Start
+from carom.proofs.starts import KickStart, Plain, Response, Start
 
-BLOW = Blow()
+KICK_START = KickStart()
 
 
 class Held:
@@ -45,7 +45,7 @@ class Held:
     numbers : Numbers
         Of all rotors.
     start : Start
-        The disturbance that takes the rotor out of levitation; of a box of rotors a blow.
+        The disturbance that takes the rotor out of levitation; of a box of rotors a kick.
     middle : Numbers, optional
         Of the rotor in the middle of the box.
     sides : sequence of Side
@@ -64,7 +64,7 @@ class Held:
     """
 
     def __init__(
-        self, numbers: Numbers, start: Start = BLOW, middle: Numbers | None = None, sides: Sequence[Side] = ()
+        self, numbers: Numbers, start: Start = KICK_START, middle: Numbers | None = None, sides: Sequence[Side] = ()
     ) -> None:
         self.numbers, self.start, self.sides = numbers, start, sides
         self.middle = self if middle is None else Held(middle)

@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import contact_free_kick
 from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
 from carom.parameters.formats import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
@@ -157,14 +157,14 @@ class ProvenKicks(Result):
         return max((part.impacts for part in self.parts if part.impacts is not None), default=0)
 
     @cached_property
-    def harmless(self) -> float:
-        """Speed below which no kick touches (:func:`~carom.closed_forms.harmless_kick`)."""
-        return harmless_kick(self.rotor)
+    def contact_free(self) -> float:
+        """Speed below which no kick touches (:func:`~carom.closed_forms.contact_free_kick`)."""
+        return contact_free_kick(self.rotor)
 
     @property
     def sure_up_to(self) -> float:
         """Speed up to which every kick is proven to return, by its cells or because it never touches."""
-        return max(self.all_up_to, self.harmless)
+        return max(self.all_up_to, self.contact_free)
 
     @property
     def shown_up_to(self) -> str:

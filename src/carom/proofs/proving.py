@@ -52,7 +52,7 @@ def prove(
     With ``impacts`` above 1 the claims are also about orbits with at most so many impacts a period that a search finds.
     With ``along`` they are instead about bifurcation points along a parameter, and about all orbits with one impact a
     period for all its values in an interval: whether they are motions of the machine and whether they are stable; and about
-    levitation, rubs, the harmless kick and whirl.
+    levitation, rubs, the contact-free kick and whirl.
     An undecided claim says why.  Of a machine that is no planar rotor in a rigid wall, or that has weight or limits, it is proven that it levitates, and which kicks and
     steps of the unbalance never touch (:func:`~carom.proofs.prove_levitation`).
 

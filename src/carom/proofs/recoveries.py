@@ -8,6 +8,7 @@ from typing import Any
 
 from flint import arb
 
+from carom.proofs.impacts import after_brush, after_impact, patch_of
 from carom.proofs.moments import FORM
 from carom.proofs.passages import (
     EARLY,
@@ -15,9 +16,9 @@ from carom.proofs.passages import (
     RETURNS,
     SLOW,
     Brush,
+    Impact,
     LeftOpenError,
     Return,
-    Strike,
     begin,
     bounce,
     brush_of,
@@ -26,7 +27,6 @@ from carom.proofs.passages import (
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.rub_traps import ends_in_rub
 from carom.proofs.series import hull
-from carom.proofs.strikes import after_brush, after_strike, patch_of
 
 MOST_BRANCHES = 200
 """Patches followed for one cell."""
@@ -88,7 +88,7 @@ def _followed(held: Held, patch: Patch, most: int, is_end: Callable[[Patch | Non
     while ahead:
         start, before, touched = ahead.pop()
         try:
-            for after, weights in _struck(held, start):
+            for after, weights in _after_impacts(held, start):
                 branches += 1
                 if is_end(after):
                     found = max(found, before + (after is not None))
@@ -106,15 +106,15 @@ def _followed(held: Held, patch: Patch, most: int, is_end: Callable[[Patch | Non
     return found
 
 
-def _struck(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tuple[float, ...] | None]]:
+def _after_impacts(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tuple[float, ...] | None]]:
     """Patches after the next impact of all flights of a patch, and ``None`` for those that return without one.
 
     After a brush with how much each span had to do with it.
     """
     departure = Departure(held, patch)
-    strike = bounce(departure)
-    if strike is not None:
-        yield after_strike(departure, strike), None
+    impact = bounce(departure)
+    if impact is not None:
+        yield after_impact(departure, impact), None
         return
     time = begin(departure)
     while True:
@@ -123,7 +123,7 @@ def _struck(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tuple[floa
             yield None, None
             return
         _check_free(departure, event)
-        brush = event if isinstance(event, Brush) else _struck_or_brushed(departure, event)
+        brush = event if isinstance(event, Brush) else _impact_or_brush(departure, event)
         if isinstance(brush, Patch):
             yield brush, None
             return
@@ -134,19 +134,19 @@ def _struck(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tuple[floa
         time = brush.end
 
 
-def _struck_or_brushed(departure: Departure, strike: Strike) -> Patch | Brush:
-    """The patch after a strike; where that is not known the strike as a brush."""
+def _impact_or_brush(departure: Departure, impact: Impact) -> Patch | Brush:
+    """The patch after an impact; where that is not known the impact as a brush."""
     try:
-        return after_strike(departure, strike)
+        return after_impact(departure, impact)
     except LeftOpenError:
-        brush = brush_of(departure, strike)
+        brush = brush_of(departure, impact)
         if brush is None:
             raise
         _check_free(departure, brush)
         return brush
 
 
-def _check_free(departure: Departure, event: Strike | Brush) -> None:
+def _check_free(departure: Departure, event: Impact | Brush) -> None:
     """Refuse an impact before motion is free."""
     if not departure.busy <= event.begin:
         raise LeftOpenError(EARLY, departure.weights(event.begin))

@@ -49,7 +49,7 @@ def prove_shocks(
     See Also
     --------
     carom.BaseShock : the same shocks, simulated
-    carom.closed_forms.harmless_shock : shocks that never bring the rotor to the wall
+    carom.closed_forms.contact_free_shock : shocks that never bring the rotor to the wall
 
     Examples
     --------

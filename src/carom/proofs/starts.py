@@ -6,7 +6,7 @@ Let the real axis lie along the disturbance, of size ``v > 0``.  In the fixed fr
 
 and with the responses ``h₀`` to a displacement and ``h₁`` to an impulse:
 
-*Blow.*  ``H = h₁``, ``v`` the change of velocity.
+*Kick.*  ``H = h₁``, ``v`` the change of velocity.
 
 *Pulse.*  A half-sine pulse of duration ``T`` with the change of velocity ``v``: ``Ḧ + γḢ + ω²H = (ν/2) sin νt`` until ``T``, ``ν = π/T``.  So
 
@@ -56,8 +56,8 @@ class Start:
         raise NotImplementedError
 
 
-class Blow(Start):
-    """A blow, which changes the velocity at once."""
+class KickStart(Start):
+    """A kick, which changes the velocity at once."""
 
     def response(self, held: Held, time: Any) -> Response:
         """``h₁``."""
@@ -135,8 +135,8 @@ class Pulse(Start):
         place, rate = (gain * (turn - c - 1j * nu * h)).imag, (gain * (1j * nu * (turn - dh) - dc)).imag
         if time <= duration:
             return place, rate, nu / 2 * turn.imag - gamma * rate - stiff * place
-        displaced, struck = held.plain_responses(time - duration)
-        after = [place * one + rate * other for one, other in zip(displaced, struck, strict=True)]
+        displaced, moved = held.plain_responses(time - duration)
+        after = [place * one + rate * other for one, other in zip(displaced, moved, strict=True)]
         return after[0], after[1], after[2]
 
 

@@ -141,13 +141,13 @@ def _kick_claim(rotor: Rotor) -> Claim:
         return claim(-1, "it does not levitate inside the wall, or any kick grows")
     if not (room > 0 and damping.low >= 0):
         return claim(0, "it may not levitate inside the wall, or a kick may grow")
-    speed = harmless_speed(rotor.numbers)
+    speed = contact_free_speed(rotor.numbers)
     if speed is None:
         return claim(0, "the largest response to a kick could not be enclosed")
     return claim(1, speed=speed)
 
 
-def harmless_speed(n: Numbers) -> Any | None:
+def contact_free_speed(n: Numbers) -> Any | None:
     """Speed below which kicks are harmless; ``None`` where none is shown."""
     room = 1 - n.levitation
     if not (room > 0 and n.gamma >= 0):

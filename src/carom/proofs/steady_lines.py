@@ -19,7 +19,7 @@ from carom.proofs.lines import Line, Numbers, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.runs import claim_of_runs, in_brackets, runs_along, written
 from carom.proofs.series import hull
-from carom.proofs.steady import harmless_speed, rub_discriminant, rub_force, wall_condition
+from carom.proofs.steady import contact_free_speed, rub_discriminant, rub_force, wall_condition
 from carom.proofs.whirl import BACKWARD, drag_sign, rolling_sign
 
 _HALVED = 200
@@ -89,7 +89,7 @@ _KINDS: tuple[tuple[str, str, str, Callable[[Numbers], bool | None]], ...] = (
 
 def _kick_claims(line: Line) -> list[Claim]:
     """Claims about harmless kicks: on all of the interval, or on the parts on which a speed is shown."""
-    runs = runs_along(line, lambda n: True if harmless_speed(n) is not None else None)
+    runs = runs_along(line, lambda n: True if contact_free_speed(n) is not None else None)
     words = "the rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall"
     shown = partial(claim_of, "kick", sign=1, limited=False)
     if not runs[None]:
@@ -144,7 +144,7 @@ class _Part(NamedTuple):
     def of(cls, line: Line, low: Fraction, high: Fraction, scaled: bool) -> _Part:
         """The bounds between two values."""
         value = interval(low, high)
-        speed = harmless_speed(line.at(value))
+        speed = contact_free_speed(line.at(value))
         if speed is None:
             return cls(-math.inf, low, high, math.inf)
         table = line.table(value) if scaled else {}

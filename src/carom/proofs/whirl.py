@@ -66,7 +66,7 @@ def rolling_force(n: Numbers) -> Any:
     return n.radius_ratio * n.radius_ratio - n.omega_squared
 
 
-def pull_of(n: Numbers) -> Any:
+def excitation_of(n: Numbers) -> Any:
     """``p = ρ√(1 + μ²)`` as a ball."""
     return n.rho * (1 + n.mu * n.mu).sqrt()
 
@@ -75,7 +75,7 @@ def _against_pull(value: Any, n: Numbers) -> int | None:
     """Sign of a value less ``p``, exactly for fractions."""
     if isinstance(value, Fraction):
         return -1 if value < 0 else sign_of(value * value - n.rho * n.rho * (1 + n.mu * n.mu))
-    return sign_of(value - pull_of(n))
+    return sign_of(value - excitation_of(n))
 
 
 def rolling_signs(n: Numbers) -> tuple[int | None, int | None]:
@@ -122,7 +122,7 @@ def _rolling_claim(rotor: Rotor, exact: Numbers) -> Claim:
         reason if sign == -1 else "",
         speed=n.radius_ratio,
         least_normal_force=force - n.rho,
-        spare_friction=n.mu * force - abs(n.gamma) * n.radius_ratio - pull_of(n),
+        spare_friction=n.mu * force - abs(n.gamma) * n.radius_ratio - excitation_of(n),
     )
 
 
@@ -144,14 +144,14 @@ def _attraction_claim(rotor: Rotor, exact: Numbers) -> Claim:
 
 def attracting_speed(n: Numbers) -> Any:
     """Speed of backward whirl from which on slides gain speed and contact is kept, as a ball."""
-    speed = sustaining_speed(n, pull_of(n))
+    speed = sustaining_speed(n, excitation_of(n))
     # With damping that is not negative contact asks for no more.
     return speed if n.gamma >= 0 else speed.max((n.omega_squared + n.rho).sqrt())
 
 
-def sustaining_speed(n: Numbers, pull: Any) -> Any:
-    """Larger root ``w`` of ``μ(w² − ω²) − γw = pull``, as a ball."""
-    return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + pull)).sqrt()) / (2 * n.mu)
+def sustaining_speed(n: Numbers, excitation: Any) -> Any:
+    """Larger root ``w`` of ``μ(w² − ω²) − γw = excitation``, as a ball."""
+    return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + excitation)).sqrt()) / (2 * n.mu)
 
 
 def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool) -> Claim:

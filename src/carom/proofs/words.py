@@ -98,7 +98,7 @@ class ShootingOrbit:
         return product
 
     def _step(self, here: Sequence[Any], there: Sequence[Any]) -> Any:
-        """Derivative of the impact map, with the change of the time of arrival."""
+        """Derivative of the impact map, with the change of the time of impact."""
         n, place, target = self.numbers, (here[0] * I).exp(), (there[0] * I).exp()
         local = there[1] + there[2] * I
         velocity = local * target

@@ -58,7 +58,7 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
         films.append((f"film{plane.plane}-", film_of(seen)))
         loads = partial(plots.touchdown, seen, until=shown_until(seen))
         wanted.append(Picture(f"drop-orbit{mark}", "drop", _ORBIT + which, partial(plots.drop_orbit, seen)))
-        wanted.append(Picture(f"drop-loads{mark}", "drop", (_SOFT if plane.gives_way else _RIGID) + which, loads))
+        wanted.append(Picture(f"drop-loads{mark}", "drop", (_SOFT if plane.is_compliant else _RIGID) + which, loads))
     with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
         inline, names = draw_figures(wanted, place, Reporter.of(progress, "drawing"))
         write_json(place / DROP_NUMBERS, {**found.document(), "figures": names})
@@ -70,7 +70,7 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
             films=films,
             script=film_script(),
             figures=inline,
-            wall=_WALLS[planes[0].gives_way],
+            wall=_WALLS[planes[0].is_compliant],
             versions=versions(),
         )
         (place / DROP_PAGE).write_text(page, encoding="utf-8")

@@ -27,7 +27,7 @@ const playFilm = (figure) => {
   const line = (x, y, along, up) => (Math.hypot(along, up) > 1 ? `M${x} ${-y}L${x + along} ${-y - up}` : "");
 
   // Impacts on a rigid wall stay for a moment.
-  const struck = () => film.blows && film.blows.findLast(([time]) => time <= now + 1e-4 && now < time + flash);
+  const current = () => film.impacts && film.impacts.findLast(([time]) => time <= now + 1e-4 && now < time + flash);
 
   const trail = (to) => {
     let [from] = sample(Math.max(0, now - film.turn)), path = "M";
@@ -43,7 +43,7 @@ const playFilm = (figure) => {
     const here = sample(now), [mx, my] = [clearance * at("mx", here), clearance * at("my", here)];
     const [x, y] = [at("x", here), at("y", here)], radius = Math.hypot(x, y) || 1, [ex, ey] = [x / radius, y / radius];
     const [cx, cy] = [mx + clearance * x, my + clearance * y], [tx, ty] = [cx + rotor * ex, cy + rotor * ey];
-    const blow = struck(), [, n, f] = blow || [now, at("n", here), at("f", here)];
+    const impact = current(), [, n, f] = impact || [now, at("n", here), at("f", here)];
     for (const part of parts.ring) part.setAttribute("transform", `translate(${mx} ${-my})`);
     parts.shaft.setAttribute("transform", `translate(${cx} ${-cy})`);
     parts.turning.setAttribute("transform", `rotate(${degrees(at("a", here))})`);
@@ -60,20 +60,20 @@ const playFilm = (figure) => {
     one(".trail").setAttribute("d", `${trail(here[0])}${cx} ${-cy}`);
     one(".arrow.normal").setAttribute("d", line(tx, ty, -arrow * n * ex, -arrow * n * ey));
     one(".arrow.friction").setAttribute("d", line(tx, ty, -arrow * f * ey, arrow * f * ex));
-    tell(here, radius, blow);
+    tell(here, radius, impact);
   };
 
-  const tell = (here, radius, blow) => {
+  const tell = (here, radius, impact) => {
     const held = film.held[here[0]] && film.held[here[0] + 1], gap = film.finer * (1 - radius), none = "\u2013";
-    const [normal, friction, slip] = blow
-      ? [film.hardest[0] * blow[1], film.hardest[1] * Math.abs(blow[2]), blow[3]]
+    const [normal, friction, slip] = impact
+      ? [film.hardest[0] * impact[1], film.hardest[1] * Math.abs(impact[2]), impact[3]]
       : [film.largest[0] * at("n", here), film.largest[1] * Math.abs(at("f", here)), at("v", here)];
     readings.time.textContent = `${format(now, 4)} ${ofTime}`;
-    one('[data-name="gap"]').textContent = gap < 0 && !film.blows ? "depth" : "gap";
-    readings.gap.textContent = `${format(film.blows ? Math.max(0, gap) : Math.abs(gap))} ${ofLength}`;
-    readings.normal.textContent = held || blow ? `${format(normal)} ${blow ? ofImpulse : ofForce}` : none;
-    readings.friction.textContent = held || blow ? `${format(friction)} ${blow ? ofImpulse : ofForce}` : none;
-    readings.slip.textContent = held || blow ? `${format(slip)} ${ofSpeed}` : none;
+    one('[data-name="gap"]').textContent = gap < 0 && !film.impacts ? "depth" : "gap";
+    readings.gap.textContent = `${format(film.impacts ? Math.max(0, gap) : Math.abs(gap))} ${ofLength}`;
+    readings.normal.textContent = held || impact ? `${format(normal)} ${impact ? ofImpulse : ofForce}` : none;
+    readings.friction.textContent = held || impact ? `${format(friction)} ${impact ? ofImpulse : ofForce}` : none;
+    readings.slip.textContent = held || impact ? `${format(slip)} ${ofSpeed}` : none;
     if (readings.race) readings.race.textContent = `${format(at("q", here))} ${ofSpeed}`;
     slider.value = Math.round((slider.max * now) / end);
     slider.setAttribute("aria-valuetext", readings.time.textContent);

@@ -56,7 +56,7 @@ class TouchdownPlane:
     ----------
     node : int
     bearing : carom.parameters.TouchdownBearing
-        It gives way, unless the rotor is rigid: on one that bends a rigid wall would have no answer that stays as modes are added.  A restitution
+        It is compliant, unless the rotor is rigid: on one that bends a rigid wall would have no answer that stays as modes are added.  A restitution
         in place of the damping of Kelvin–Voigt is that of the whole mass.
     rotor_radius : float or str
         Radius of the rotor there, m.

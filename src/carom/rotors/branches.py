@@ -9,7 +9,7 @@ from scipy.optimize import linear_sum_assignment  # type: ignore[import-untyped]
 
 from carom.rotors.equations import Equations
 
-ALIKE = 0.7
+LEAST_LIKENESS = 0.7
 """Least likeness of a motion at two speeds for it to count as the same; below, the speed between both is looked at too."""
 HALVINGS = 6
 """Times that a step of the speed is halved at most; then the most alike motions are taken for the same."""
@@ -55,8 +55,8 @@ def _with_sense(motions: Motions, coordinates: int) -> np.ndarray:
 
 def _at(equations: Equations, speed: float) -> Motions:
     exponents, coordinates = equations.exponents(speed)
-    heavy = equations.mass.any(axis=1)
-    states = np.concatenate([coordinates, exponents * coordinates[heavy]])
+    has_mass = equations.mass.any(axis=1)
+    states = np.concatenate([coordinates, exponents * coordinates[has_mass]])
     # Motions of a free rotor that stay where they are may be one and the same: no inverse.
     return Motions(exponents, states, np.linalg.pinv(states))
 
@@ -66,7 +66,7 @@ def _step(equations: Equations, here: Motions, before: float, after: float, halv
     there = _at(equations, after)
     alike = np.abs((here.duals @ there.states) * (there.duals @ here.states).T)
     _, order = linear_sum_assignment(-np.minimum(alike, 1.0))
-    if halvings and alike[np.arange(len(order)), order].min() < ALIKE:
+    if halvings and alike[np.arange(len(order)), order].min() < LEAST_LIKENESS:
         middle = 0.5 * (before + after)
         return _step(equations, _step(equations, here, before, middle, halvings - 1), middle, after, halvings - 1)
     return Motions(there.exponents[order], there.states[:, order], there.duals[order])

@@ -65,13 +65,13 @@ class Equations(NamedTuple):
 
     def generator(self, speed: float) -> np.ndarray:
         """Matrix (N, N) of the free motion at a speed, 1/s, of coordinates and of the velocities of those with mass, where nothing depends on the direction."""
-        heavy = np.asarray(self.mass.any(axis=1))
-        n, masses = len(heavy), self.mass[heavy, heavy][:, None]
-        spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(heavy, heavy)]
-        matrix = np.zeros((n + heavy.sum(), n + heavy.sum()), complex)
-        matrix[np.flatnonzero(heavy), n + np.arange(heavy.sum())] = 1.0
-        matrix[np.flatnonzero(~heavy), :n] = -self.stiffness[~heavy]
-        matrix[n:, :n], matrix[n:, n:] = -self.stiffness[heavy] / masses, -spin / masses
+        has_mass = np.asarray(self.mass.any(axis=1))
+        n, masses = len(has_mass), self.mass[has_mass, has_mass][:, None]
+        spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(has_mass, has_mass)]
+        matrix = np.zeros((n + has_mass.sum(), n + has_mass.sum()), complex)
+        matrix[np.flatnonzero(has_mass), n + np.arange(has_mass.sum())] = 1.0
+        matrix[np.flatnonzero(~has_mass), :n] = -self.stiffness[~has_mass]
+        matrix[n:, :n], matrix[n:, n:] = -self.stiffness[has_mass] / masses, -spin / masses
         return matrix
 
     def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:

@@ -34,8 +34,8 @@ def motions_at(equations: Equations, speed: float) -> Motions:
         return Motions(exponents, coordinates, np.zeros_like(coordinates))
     exponents, coordinates = equations.both.exponents(speed)
     ahead, behind = np.split(coordinates, 2)
-    heavy = equations.mass.any(axis=1)
-    prevails = np.linalg.norm(ahead[heavy], axis=0) - np.linalg.norm(behind[heavy], axis=0)
+    has_mass = equations.mass.any(axis=1)
+    prevails = np.linalg.norm(ahead[has_mass], axis=0) - np.linalg.norm(behind[has_mass], axis=0)
     # Of one to and fro along lines neither does.
     level = STRAIGHT * np.linalg.norm(coordinates, axis=0)
     chosen = (prevails > level) | ((np.abs(prevails) <= level) & (exponents.imag > 0.0)) | (exponents.imag == 0.0)

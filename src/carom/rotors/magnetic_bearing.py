@@ -66,7 +66,7 @@ class MagneticBearing:
         Largest force by the current, N, control current, A, and rate of the current, A/s; that of the rate needs an amplifier.  By default there
         are none.
     air_gap : float or str, optional
-        Radial air gap of its magnets, m: where the rotor strikes them a motion ends; by default it is not known.
+        Radial air gap of its magnets, m: where the rotor reaches them a motion ends; by default it is not known.
     axis_angle : float or str, optional
         Angle of one of its axes in the fixed frame, rad; 0 by default.
     at_regain : {"reset", "hold", "running"}

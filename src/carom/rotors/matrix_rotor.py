@@ -22,7 +22,7 @@ ORDERS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", "t
 """Order of real coordinates of a node by their number, unless another one is stated: that of ROSS."""
 SIGNS = {"x": 1.0, "beta": 1.0, "y": 1.0, "alpha": -1.0}
 """``x`` and ``β = dx/ds``, and ``y`` and ``−α = dy/ds``, are alike: ``α`` and ``β`` turn about the axes of ``x`` and ``y``."""
-ALIKE = 1e-6
+SYMMETRY_RTOL = 1e-6
 """Difference of both planes, relative to the largest number, up to which they are alike; files are rounded."""
 
 
@@ -198,11 +198,11 @@ def _of_both_planes(name: str, matrix: np.ndarray, order: tuple[str, ...], count
     if name == "G":
         same, other, across, back = across, -back, same, other
     size = np.abs(matrix).max() or 1.0
-    if max(np.abs(across).max(), np.abs(back).max()) > ALIKE * size:
+    if max(np.abs(across).max(), np.abs(back).max()) > SYMMETRY_RTOL * size:
         words = "G is skew, from one plane to the other" if name == "G" else "nothing but G couples both planes"
         raise InputError(
             name, "both planes of bending are coupled" if name != "G" else "couples a plane with itself", words
         )
-    if np.abs(same - other).max() > ALIKE * size:
+    if np.abs(same - other).max() > SYMMETRY_RTOL * size:
         raise InputError(name, "the planes of x and of y differ", "a round shaft, alike in both planes")
     return 0.5 * (same + other)

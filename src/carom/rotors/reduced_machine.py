@@ -44,7 +44,7 @@ ROUNDED = 1e-6
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReducedMachine(Result):
-    """A flexible machine by a few vectors: modes of the free rotor, and what all others give way where forces act (Rubin).
+    """A flexible machine by a few vectors: modes of the free rotor, and the compliance of all others where forces act (Rubin).
 
     Attributes
     ----------
@@ -258,10 +258,10 @@ class ReducedMachine(Result):
     def definition(self) -> FlexibleDefinition:
         """Its equations of motion in their units, and its parameters."""
         given, scales, at = self.equations, self.scales, self.machine
-        heavy = given.mass.any(axis=1)
+        has_mass = given.mass.any(axis=1)
         # Coordinates without mass have equations of first order, which have another unit.
-        once = np.where(heavy, 1.0 / scales.speed, 1.0)[:, None]
-        twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
+        once = np.where(has_mass, 1.0 / scales.speed, 1.0)[:, None]
+        twice = np.where(has_mass, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
         # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)

@@ -1,6 +1,6 @@
 """Few vectors in place of all coordinates of a rotor, after Rubin (AIAA Journal 13, 1975).
 
-Kept are the lowest modes of the free rotor; the vectors beside them hold what all other modes give way to a steady force where forces act and
+Kept are the lowest modes of the free rotor; the vectors beside them hold the compliance of all other modes to a steady force where forces act and
 displacements are measured.  So the motion far below the lowest mode left out is exact, however few are kept.
 """
 

@@ -19,7 +19,7 @@ from carom.base.boxes import box
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import in_a_line
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import contact_free_kick
 from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import Gain
@@ -63,7 +63,7 @@ GUESSES = 30
 """Stretches of motions from which orbits are searched where no closed form has them: a tenth of a second each."""
 TIME_LIMIT = Field("time_limit", "", "time to follow motions", "a time", "s", 1e-3, 1e9, '"2 min"')
 BEYOND = 2.0
-"""Largest kick of this proof relative to the harmless one, where those that must be survived never touch."""
+"""Largest kick of this proof relative to the contact-free one, where those that must be survived never touch."""
 OF_CONTROLLERS = ("derivative", "proportional")
 """Parameters along which recovery is searched where magnetic bearings have controllers."""
 SEED = 1
@@ -134,7 +134,7 @@ def study(
         default damping and stiffness of the levitation, or the gains of the magnetic bearings.
     proofs : bool
         Prove equilibria and orbits too, by :func:`carom.prove`, and which of the kicks that must be survived come back, by
-        :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch); needs the extra
+        :func:`carom.proofs.prove_kicks` (of kicks up to twice the contact-free one where these never touch); needs the extra
         ``carom[proof]``.
     proof_time : str or float
         Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
@@ -241,8 +241,8 @@ def _prove(asked: Asked, tell: Reporter) -> Any:
 
 def _prove_kicks(asked: Asked, tell: Reporter) -> Any:
     """Of the kicks that must be survived, or of larger ones where these never touch."""
-    harmless = harmless_kick(asked.rotor)
-    reach = asked.required.kick if asked.required.kick > harmless else BEYOND * harmless
+    contact_free = contact_free_kick(asked.rotor)
+    reach = asked.required.kick if asked.required.kick > contact_free else BEYOND * contact_free
     prover = box("proofs")
     proof = prover.prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell)
     return prover.ProvenKicks.of(proof, asked.rotor)

@@ -21,14 +21,14 @@ PLANAR = (
 LINEAR = "Changes of speed, coefficients of supports at other speeds, and limits of the magnetic bearings that the file does not state."
 SYMMETRY = (
     f"What rests on the symmetry of a turn: {STEADY_WORDS['rub']}s, orbits in closed form, and that a kick does the same whatever the angle of the "
-    "unbalance is as it strikes. Here that is the angle in the machine file; with others some kicks may end elsewhere."
+    "unbalance is as it acts. Here that is the angle in the machine file; with others some kicks may end elsewhere."
 )
 CLOSED_FORMS = (
     "What is known in closed form for the planar rotor alone: whether rolling lasts and from which speed whirl runs away to it, for which damping and "
     "stiffness each motion exists, and that no orbit is missing."
 )
 AT_LIMITS = (
-    "Other angles of the unbalance to the axes of the magnetic bearings, along which their limits act, as a disturbance strikes than that of the "
+    "Other angles of the unbalance to the axes of the magnetic bearings, along which their limits act, as a disturbance acts than that of the "
     "machine file. Saturation of the iron and limits of the voltage are not modelled."
 )
 NOT_COVERED = (SAMPLED.format(but=""), LONGER_MOTIONS, RIGID_WALL, PLANAR)

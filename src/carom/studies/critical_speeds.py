@@ -19,7 +19,7 @@ from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.standards import Side, required_margin
 
 HALF_POWER = math.sqrt(0.5)
-AROUND = (0.25, 1.5)
+SEARCHED_RANGE = (0.25, 1.5)
 """Default range of a response: these multiples of the smaller and of the larger one of critical and operating speed."""
 SPEEDS = 400
 """Number of speeds of a curve."""
@@ -100,7 +100,7 @@ def usual_range(whirls: Iterable[Whirl], run: tuple[float, float]) -> tuple[floa
     """Speeds of a response that are not stated, rad/s: around the operating ones and the slowest whirl that may resonate."""
     slow = [abs(each.exponent.imag) for each in whirls if each.sense != "backward" and each.damping_ratio < HALF_POWER]
     known = [*run, *([min(slow)] if slow else [])]
-    return AROUND[0] * min(known), AROUND[1] * max(known)
+    return SEARCHED_RANGE[0] * min(known), SEARCHED_RANGE[1] * max(known)
 
 
 def response_curve(

@@ -27,7 +27,7 @@ from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Case, Parameters
 from carom.parameters.columns import Column, keys_of
 from carom.parameters.formats import complex_words, format_quantity
-from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
+from carom.parameters.indentation import indentation_of_force, indentation_of_impact, is_compliant
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
 from carom.studies.motion_documents import SCALES, STATE
@@ -267,7 +267,7 @@ def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
     document, own = record(entry, keys_of((*ORBIT, *MULTIPLIERS)), entry.scales), entry.scales
     if own is not None:
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
-        document |= _wall(indentation_of_hit(entry.rotor.in_rigid_wall, entry.radial_speed))
+        document |= _wall(indentation_of_impact(entry.rotor.in_rigid_wall, entry.radial_speed))
     return document
 
 
@@ -301,8 +301,8 @@ def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, Any]:
     at = rotor.in_rigid_wall
     document = record(entry, ATTRACTOR, rotor.scales) | document_of(entry.survival)
     if at is not None:
-        hit = indentation_of_hit(at, entry.largest_impulse / (1.0 + at.d))
-        document |= _wall(max(hit, indentation_of_force(at, entry.largest_force)))
+        by_impulse = indentation_of_impact(at, entry.largest_impulse / (1.0 + at.d))
+        document |= _wall(max(by_impulse, indentation_of_force(at, entry.largest_force)))
     return document
 
 
@@ -325,14 +325,14 @@ def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, Any]:
     }
     if scales is not None:
         document["hardest_impulse_si"] = hardest * scales.impulse
-    return document if at is None else document | _wall(indentation_of_hit(at, hardest / (1.0 + at.d)))
+    return document if at is None else document | _wall(indentation_of_impact(at, hardest / (1.0 + at.d)))
 
 
 def _wall(indentation: float) -> dict[str, Any]:
     """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid; nothing if unknown."""
     if math.isnan(indentation):
         return {}
-    return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
+    return {"indentation": indentation, "rigid_wall": not is_compliant(indentation)}
 
 
 def _rolling(study: StudyData) -> dict[str, Any] | None:

@@ -13,7 +13,7 @@ from carom.motions.magnets import pull_words
 from carom.orbits.orbit import Orbit
 from carom.parameters import GRAVITY
 from carom.parameters.formats import number
-from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
+from carom.parameters.indentation import indentation_of_force, indentation_of_impact, is_compliant
 from carom.studies.advice_facts import advice_facts
 from carom.studies.coverage import not_covered
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, touching
@@ -92,7 +92,7 @@ def _rub(study: StudyData) -> str:
     say, rub = study.wording, stable or rubs[0]
     wall = study.rotor.system.contacts[rub.plane].wall
     load = _load(study, rub.normal_force)
-    if wall.friction and not gives_way(indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)):
+    if wall.friction and not is_compliant(indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)):
         load += f", and friction would heat the contact with {say.power(wall.friction * rub.normal_force * wall.surface_speed)}"
     coexists = "coexists with levitation" if study.levitates else "exists"
     holds = "is stable: it can hold the rotor" if stable else "is not stable in every direction"
@@ -102,16 +102,16 @@ def _rub(study: StudyData) -> str:
 def _load(study: StudyData, force: float) -> str:
     """A force of lasting contact with its multiple of the weight of the rotor, or that no rigid wall bears it."""
     indentation, scales = indentation_of_force(study.rotor.in_rigid_wall, force), study.rotor.scales
-    if gives_way(indentation):
+    if is_compliant(indentation):
         return f"one that the rigid model cannot predict: {steel_words(indentation)}"
     weight = f" ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)" if scales else ""
     return f"{study.wording.force(force)}{weight}"
 
 
-def _of_hit(study: StudyData, impulse: float) -> str:
-    """Return a clause on whether the rigid wall is a valid model for the normal impulse of a hit; empty if it is."""
+def _of_impact(study: StudyData, impulse: float) -> str:
+    """Return a clause on whether the rigid wall is a valid model for the normal impulse of an impact; empty if it is."""
     at = study.rotor.in_rigid_wall
-    text = no_rigid_wall(indentation_of_hit(at, impulse / (1.0 + at.d))) if at else ""
+    text = no_rigid_wall(indentation_of_impact(at, impulse / (1.0 + at.d))) if at else ""
     return f"; {text}" if text else ""
 
 
@@ -140,7 +140,7 @@ def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
         f"{words[0].upper()}{words[1:]} can hold the rotor for ever: one impact every {say.time(orbit.period)} "
         f"({say.per_second(orbit.period)}) at {say.velocity(orbit.radial_speed)} towards the wall, each with a normal "
         f"impulse of {say.impulse(impulse)}, a mean force of {say.force(impulse / orbit.period)}, "
-        f"in {whirl} whirl{_of_hit(study, impulse)}."
+        f"in {whirl} whirl{_of_impact(study, impulse)}."
     )
 
 
@@ -159,7 +159,7 @@ def _disturbances(study: StudyData) -> str:
                 f" Of the {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
             )
     if hardest > 0.0:
-        text += f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
+        text += f" The hardest impact had a normal impulse of {say.impulse(hardest)}{_of_impact(study, hardest)}."
     return text
 
 

@@ -143,8 +143,8 @@ class _Followed(NamedTuple):
     def size(self) -> tuple[float, float]:
         """By what motions are compared: force or impulse; without contact the width of the orbit."""
         planes = self.loads.planes
-        blow = max(each.force if each.gives_way else each.impulse for each in planes)
-        return blow, 0.0 if blow else max(_reach(self.motion, each) for each in planes)
+        peak_load = max(each.force if each.is_compliant else each.impulse for each in planes)
+        return peak_load, 0.0 if peak_load else max(_reach(self.motion, each) for each in planes)
 
 
 def _of_kind(rotor: Rotor, kind: Kind, size: float, model: Disturbance, limits: LoadLimits) -> FullSize:
@@ -209,7 +209,7 @@ def _worst_at(tried: list[_Followed], place: int) -> AtBearing:
         touchdown_bearing=place + 1,
         radius=max(_reach(each.motion, plane) for each, plane in zip(tried, seen, strict=True)),
         contacts=max(plane.contacts for plane in seen),
-        is_compliant=seen[0].gives_way,
+        is_compliant=seen[0].is_compliant,
         scales=seen[0].scales,
         **largest,
     )

@@ -14,7 +14,7 @@ from carom.parameters.formats import number
 from carom.studies.load_checks import check_loads
 from carom.studies.wording import Wording
 
-PLANE = "gives_way contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
+PLANE = "is_compliant contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
 LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
 _IN_BOTH = (
     ("restitution seen", "{restitution} in the fastest impact"),
@@ -71,10 +71,10 @@ def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
 
 
 def _rows(plane: TouchdownLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
-    if plane.gives_way and plane.force_at is None:
+    if plane.is_compliant and plane.force_at is None:
         rows = [("peak force", "none: it did not touch")]
     else:
-        rows = Wording(plane.scales).rows(COMPLIANT if plane.gives_way else RIGID, plane, since=since)
+        rows = Wording(plane.scales).rows(COMPLIANT if plane.is_compliant else RIGID, plane, since=since)
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, outcome))]
 
 
@@ -84,7 +84,7 @@ def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
     entry["loads"] = record(plane, LOADS, plane.scales)
     if plane.pressure is not None:
         entry["loads"]["pressure_si"] = plane.pressure
-    if not plane.gives_way:
+    if not plane.is_compliant:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
         entry["loads"]["force_is_of_lasting_contact"] = True
     entry["whirl"] = whirl and record(whirl, WHIRL, whirl.scales)

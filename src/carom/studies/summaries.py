@@ -14,7 +14,7 @@ from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import Case, Parameters
-from carom.parameters.indentation import indentation_of_force, indentation_of_hit
+from carom.parameters.indentation import indentation_of_force, indentation_of_impact
 from carom.parameters.numbers import own_numbers
 from carom.studies.endings import motion_words
 from carom.studies.kinds import LABELS
@@ -64,7 +64,7 @@ MOTION_COLUMNS = {
     "state": "state",
     "period": "period",
     "size": "radius or impact speed",
-    "impulse": "impulse per hit",
+    "impulse": "impulse per impact",
     "force": "force",
     "trials": "disturbances",
     "remark": "remark",
@@ -165,14 +165,14 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
         return MotionRow(name, "not possible", period, size, remark=orbit.reason)
     impulse, force = say.impulse(orbit.impulse), f"{say.force(orbit.impulse / orbit.period)} mean"
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
-    remark = _joined(grows, no_rigid_wall(indentation_of_hit(orbit.rotor.in_rigid_wall, orbit.radial_speed)))
+    remark = _joined(grows, no_rigid_wall(indentation_of_impact(orbit.rotor.in_rigid_wall, orbit.radial_speed)))
     return MotionRow(name, "stable" if orbit.stable else "unstable", period, size, impulse, force, share, remark)
 
 
 def _seen(say: Wording, member: Attractor, found: AttractorSet, at: Parameters | None) -> MotionRow:
     impulse, force = member.largest_impulse, member.largest_force
-    hit = indentation_of_hit(at, impulse / (1.0 + at.d)) if at else math.nan
-    soft = no_rigid_wall(max(indentation_of_force(at, force), hit))
+    by_impulse = indentation_of_impact(at, impulse / (1.0 + at.d)) if at else math.nan
+    soft = no_rigid_wall(max(indentation_of_force(at, force), by_impulse))
     lasts, known = member.survival.words if member.survival else "", "" if member.count else "from a start next to it"
     return MotionRow(
         member.name.words,

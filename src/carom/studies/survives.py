@@ -18,8 +18,8 @@ from carom.attractors import AttractorSet
 from carom.base.progress import Reporter
 from carom.base.results import Result, record
 from carom.basins import Share, SmallestUnrecovered, smallest_unrecovered
-from carom.basins.families import harmless_size
-from carom.closed_forms.harmless import shift_by_unbalance
+from carom.basins.families import contact_free_size
+from carom.closed_forms.contact_free import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, VelocityKick
 from carom.disturbances.kicks_and_shocks import LONGEST_SHOCK
 from carom.models import Rotor
@@ -32,11 +32,11 @@ from carom.studies.trials import Check
 from carom.studies.wording import SIZES as SIZES_OF
 
 REACH = 4.0
-"""Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
+"""Largest kick and shock searched, as a multiple of what must be survived or is proven to be contact-free."""
 BELOW = 0.999
 """Largest unbalance after a loss of a blade, relative to that with which levitation would fill the clearance."""
 SURVIVED = (
-    "harmless_up_to=harmless:{kind} all_up_to=all_back:{kind} smallest_lost=size:{kind} searched_up_to=largest:{kind} "
+    "harmless_up_to=contact_free:{kind} all_up_to=all_back:{kind} smallest_lost=size:{kind} searched_up_to=largest:{kind} "
     "tried fresh angle instant neighbours neighbours_lost complete"
 )
 
@@ -141,8 +141,8 @@ def _duration(rotor: Rotor, required: Required) -> float:
 
 
 def _reaching(rotor: Rotor, model: VelocityKick | BaseShock) -> SmallestUnrecovered:
-    """Search up to a multiple of a disturbance, or of what is proven to be harmless if that is more."""
-    largest = _times(model, REACH * max(1.0, harmless_size(rotor, model) / model.coordinates[0].high))
+    """Search up to a multiple of a disturbance, or of what is proven to be contact-free if that is more."""
+    largest = _times(model, REACH * max(1.0, contact_free_size(rotor, model) / model.coordinates[0].high))
     return smallest_unrecovered(rotor, largest)
 
 

@@ -116,7 +116,7 @@ def _required_words(study: StudyData) -> str:
 def survived_cells(study: StudyData, name: Kind, found: SmallestUnrecovered) -> dict[str, str]:
     """What of one kind of disturbance is survived, by :data:`SURVIVED`; what is not known is left out."""
     cells = size_cells(study.wording, found, lost_to(study, name, found))
-    if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
+    if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.contact_free:
         cells["sure"] = f"{study.kicks.shown_up_to} (proven)"
     return {column: cells[column] for column in SURVIVED if column in cells}
 
@@ -125,8 +125,8 @@ def size_cells(wording: Wording, found: SmallestUnrecovered, *remarks: str) -> d
     """Sizes of one kind of disturbance up to which it is survived, by :data:`SURVIVED`; remarks stand behind the smallest that is not."""
     name, cells = found.kind.replace("-", "_"), {}
     size = wording.size_of(name)
-    if found.harmless > 0.0:
-        cells["untouched"] = f"{size(found.harmless)} (proven)"
+    if found.contact_free > 0.0:
+        cells["untouched"] = f"{size(found.contact_free)} (proven)"
     none = found.size is None and found.complete
     if (up_to := found.largest if none else found.all_back) is not None:
         most = "; with more it cannot levitate" if none and name == "blade_loss" else ""

@@ -15,7 +15,7 @@ from carom.base.results import KINDS
 from carom.models import Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.formats import format_entry, format_quantity, number, own_entry
-from carom.parameters.indentation import gives_way
+from carom.parameters.indentation import is_compliant
 from carom.parameters.numbers import own_numbers
 
 SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
@@ -47,7 +47,7 @@ def entry_words(entry: str) -> str:
 
 def no_rigid_wall(indentation: float) -> str:
     """Say that the rigid wall is not a valid model if the indentation of steel, in clearances, is large; else nothing."""
-    return f"a rigid wall is no model there: {steel_words(indentation)}" if gives_way(indentation) else ""
+    return f"a rigid wall is no model there: {steel_words(indentation)}" if is_compliant(indentation) else ""
 
 
 def steel_words(indentation: float) -> str:

@@ -39,7 +39,7 @@ def test_no_kick_of_the_set_strikes_harder(monkeypatch):
         for speed in (0.375, 1.125)
         for angle in (2.0 * math.pi * (place + 0.5) / 5 for place in range(5))
     ]
-    assert found.blow == pytest.approx(max(impulses), rel=1e-12)
+    assert found.peak_load == pytest.approx(max(impulses), rel=1e-12)
     assert found.remark == "in 10 kicks up to 1.5 c_r Ω"
 
 

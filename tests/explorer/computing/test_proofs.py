@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom.base.outcome import InputError
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import contact_free_kick
 from carom.explorer.computing import proofs
 from carom.explorer.computing.planes import planes_of
 from carom.models import rotor_of
@@ -21,12 +21,12 @@ PLANES = {plane.name: plane for plane in planes_of(CASE)}
 def test_kicks_that_never_touch_are_proven(monkeypatch):
     rotor = rotor_of(CASE)
     monkeypatch.setattr(proofs, "LIMIT", "1 s")
-    largest = 1.5 * harmless_kick(rotor)
+    largest = 1.5 * contact_free_kick(rotor)
     found = proofs.find_proven(rotor, PLANES["kick"], largest)
     line = largest * ((np.arange(proofs.CELLS) + 0.5) * 2.0 / proofs.CELLS - 1.0)
     size = np.hypot(*np.meshgrid(line, line))
     assert found.open.shape == size.shape
-    assert not found.open[size < 0.8 * harmless_kick(rotor)].any()
+    assert not found.open[size < 0.8 * contact_free_kick(rotor)].any()
     assert found.open[size > largest].all()
     assert found.words.endswith(("mm/s", "impact", "impacts"))
 

@@ -9,10 +9,10 @@ from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress
 from carom.basins import smallest_unrecovered
 from carom.explorer.computing.kicked_motion import MOST_EVENTS
-from carom.explorer.computing.kicks import heavy
+from carom.explorer.computing.kicks import is_slow
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import hits_of, wall_at
+from carom.explorer.computing.walls import contact_peaks, wall_at
 from carom.models import Rotor
 from carom.motions import simulate
 from carom.parameters import Case, LoadLimits
@@ -23,7 +23,7 @@ from carom.studies.facts import about
 
 SIZES, DIRECTIONS = 6, 24
 FEW = 2, 12
-"""Sizes and directions of the disturbances whose blows are compared, and of a rotor whose motions take long."""
+"""Sizes and directions of the disturbances whose impacts are compared, and of a rotor whose motions take long."""
 NO_LIMITS = LoadLimits()
 
 
@@ -48,9 +48,9 @@ class Loss:
 
 @dataclass(frozen=True)
 class Hardest:
-    """The hardest blow among a set of disturbances, in words, and what was tried."""
+    """The hardest impact among a set of disturbances, in words, and what was tried."""
 
-    blow: float
+    peak_load: float
     """An impulse in ``m c_r Ω``, or a force in ``m c_r Ω²``."""
     value: str
     remark: str
@@ -60,7 +60,7 @@ def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress
     """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
     scales = rotor.scales
     try:
-        few = dict(zip(("sizes", "directions"), FEW, strict=True)) if heavy(rotor) else {}
+        few = dict(zip(("sizes", "directions"), FEW, strict=True)) if is_slow(rotor) else {}
         found = smallest_unrecovered(rotor, plane.by_size(rotor, largest), progress=progress, **few)
     except InputError:
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
@@ -81,9 +81,9 @@ def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress
 def find_hardest(
     rotor: Rotor, plane: Plane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
 ) -> Hardest:
-    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest blow."""
+    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest impact."""
     rest, wall = rest_of(rotor), wall_at(rotor, 0)
-    sizes, directions = FEW if heavy(rotor) else (SIZES, DIRECTIONS)
+    sizes, directions = FEW if is_slow(rotor) else (SIZES, DIRECTIONS)
     tell = Reporter.of(progress, wall.searching)
     hardest, scales, count = 0.0, rotor.scales, sizes * directions
     for place in range(count):
@@ -92,8 +92,8 @@ def find_hardest(
         after, start, _ = plane.start(rotor, rest, size * math.cos(angle), size * math.sin(angle))
         motion = simulate(after, start, settle=True, max_events=MOST_EVENTS)
         for seen in map(motion.seen_at, range(len(after.system.planes))):
-            if (blow := hits_of(seen).hardest) > hardest:
-                hardest, scales = blow, seen.scales
+            if (peak_load := contact_peaks(seen).hardest) > hardest:
+                hardest, scales = peak_load, seen.scales
         tell((place + 1) / count)
     tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}{wall.beside(hardest, limits, scales)}"
     return Hardest(hardest, wall.load(hardest, scales) if hardest else f"no {wall.noun}", tried)

@@ -12,7 +12,7 @@ from carom.base.outcome import Outcome
 from carom.base.progress import ShowProgress
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import Hits, hits_of, wall_at
+from carom.explorer.computing.walls import ContactPeaks, contact_peaks, wall_at
 from carom.models import Rotor
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
@@ -56,15 +56,15 @@ class AtBearing:
     force : ndarray of float32, shape (n,)
         Normal force of a compliant bearing, in N or in ``m c_r Ω²``; zero in a rigid one.
     force_unit : str
-    impact_times, impact_angles, impact_speeds, blows : ndarray of float32, shape (m,)
-        Impacts that are drawn, or arrivals at a compliant bearing: time in ``1/Ω``, angle in rad, radial speed before in ``c_r Ω``, and how hard
+    impact_times, impact_angles, impact_speeds, peak_loads : ndarray of float32, shape (m,)
+        Impacts that are drawn, or impacts at a compliant bearing: time in ``1/Ω``, angle in rad, radial speed before in ``c_r Ω``, and how hard
         each is: normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
     forward : ndarray of bool, shape (m,)
         Whether the rotor whirls forward in the fixed frame just before the impact.
     spans : tuple of Span
         Lasting contact.
     hardest : float
-        The hardest of all blows, also of those that are not drawn; 0 without one.
+        The hardest of all impacts, also of those that are not drawn; 0 without one.
     words : str
         What the bearing bears.
     """
@@ -76,7 +76,7 @@ class AtBearing:
     impact_times: np.ndarray
     impact_angles: np.ndarray
     impact_speeds: np.ndarray
-    blows: np.ndarray
+    peak_loads: np.ndarray
     forward: np.ndarray
     spans: tuple[Span, ...]
     hardest: float
@@ -116,10 +116,10 @@ def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progres
     times = times[:: math.ceil(len(times) / (2 * MOST_SAMPLES))]
     _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
     look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
-    every = [hits_of(motion.seen_at(place)) for place in range(len(rotor.system.planes))]
+    every = [contact_peaks(motion.seen_at(place)) for place in range(len(rotor.system.planes))]
     return KickedMotion(
         times=times.astype(np.float32),
-        planes=tuple(_at_bearing(shown.seen_at(place), times, hits) for place, hits in enumerate(every)),
+        planes=tuple(_at_bearing(shown.seen_at(place), times, peaks) for place, peaks in enumerate(every)),
         whole=shown.time >= motion.time,
         outcome=motion.outcome.label,
         colour=look.colour,
@@ -127,10 +127,10 @@ def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progres
     )
 
 
-def _at_bearing(shown: Trajectory, times: np.ndarray, every: Hits) -> AtBearing:
+def _at_bearing(shown: Trajectory, times: np.ndarray, every: ContactPeaks) -> AtBearing:
     """What is drawn of a motion at the touchdown bearing at which it is seen."""
     position, _ = shown.at_plane(times)
-    wall, log = wall_at(shown.rotor, shown.plane), hits_of(shown)
+    wall, log = wall_at(shown.rotor, shown.plane), contact_peaks(shown)
     factor, unit = shown_in("force", shown.scales)
     force = factor * shown.forces(times)[0] if wall.compliant else np.zeros(len(times))
     return AtBearing(
@@ -141,7 +141,7 @@ def _at_bearing(shown: Trajectory, times: np.ndarray, every: Hits) -> AtBearing:
         impact_times=log.time.astype(np.float32),
         impact_angles=np.angle(np.exp(1j * log.angle)).astype(np.float32),
         impact_speeds=log.radial_speed.astype(np.float32),
-        blows=log.blow.astype(np.float32),
+        peak_loads=log.peak_load.astype(np.float32),
         forward=log.angular_speed > -1.0,
         spans=tuple(map(span_of, shown.lasting_contacts)),
         hardest=every.hardest,
@@ -168,13 +168,13 @@ def span_of(stretch: LastingContact) -> Span:
     return Span(stretch.start, stretch.end, look.words, look.colour)
 
 
-def _words(motion: Trajectory, begin: str, hits: list[Hits], ending: str) -> str:
+def _words(motion: Trajectory, begin: str, peaks: list[ContactPeaks], ending: str) -> str:
     """What is seen, with the load of the bearing that bears most."""
-    worst = max(range(len(hits)), key=lambda place: hits[place].hardest)
+    worst = max(range(len(peaks)), key=lambda place: peaks[place].hardest)
     wall, seen = wall_at(motion.rotor, worst), motion.seen_at(worst)
-    met = [str(place) for place, every in enumerate(hits, start=1) if every.count]
-    where = f" at touchdown bearing{'s' if len(met) > 1 else ''} {listed(met)}" if len(hits) > 1 and met else ""
-    load, count = wall.stated(hits[worst], seen.scales), sum(every.count for every in hits)
+    met = [str(place) for place, every in enumerate(peaks, start=1) if every.count]
+    where = f" at touchdown bearing{'s' if len(met) > 1 else ''} {listed(met)}" if len(peaks) > 1 and met else ""
+    load, count = wall.stated(peaks[worst], seen.scales), sum(every.count for every in peaks)
     if motion.outcome in REPEATING:
         return f"{begin} ends in {ending}; {load}."
     impacts = f"without {wall.one}" if count == 0 else f"after {counted(count, wall.noun)}{where}; {load}"

@@ -171,7 +171,7 @@ def _map_losses(rotor: Rotor, rest: Rest, plane: Plane, cells: int, largest: flo
     return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
 
 
-def heavy(rotor: Rotor) -> bool:
+def is_slow(rotor: Rotor) -> bool:
     """Whether motions of a rotor take long to follow: it has many modes."""
     return len(rotor.system.exponents) > MANY_MODES
 
@@ -182,7 +182,7 @@ def opening_range(rotor: Rotor, plane: Plane) -> float:
 
     Of a rotor whose motions take long it is the first at which some are lost.
     """
-    best, least, slow = plane.usual, math.inf, heavy(rotor)
+    best, least, slow = plane.usual, math.inf, is_slow(rotor)
     for times in RANGES[::2] if slow else RANGES:
         share = map_kicks(rotor, plane, TRIED_SLOWLY if slow else TRIED, times * plane.usual).share.fraction
         if (apart := abs(math.log(max(share, 1e-9) / WANTED))) < least:
@@ -192,7 +192,7 @@ def opening_range(rotor: Rotor, plane: Plane) -> float:
     return best
 
 
-def telling_pair(found: KickMap) -> tuple[tuple[float, float], tuple[float, float]]:
+def representative_kicks(found: KickMap) -> tuple[tuple[float, float], tuple[float, float]]:
     """Two disturbances of one size where there are such, of which the first comes back after contact and the second is lost.
 
     Both are far from where the other outcome begins.  The components are in units of the equations.

@@ -1,4 +1,4 @@
-"""How hard a rotor strikes: impulses at a rigid wall, forces and depths in a compliant one."""
+"""Loads of contact of a rotor: impulses at a rigid wall, forces and depths in a compliant one."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from carom.studies import Wording
 
 
 @dataclass(frozen=True, eq=False)
-class Hits:
-    """Impacts of a motion, or its arrivals at a compliant wall, in chronological order.
+class ContactPeaks:
+    """Impacts of a motion, or beginnings of contact with a compliant wall, in chronological order.
 
     Attributes
     ----------
     time, angle, angular_speed, radial_speed : ndarray of float, shape (n,)
         As in :class:`~carom.motions.ContactLog`.
-    blow : ndarray of float, shape (n,)
+    peak_load : ndarray of float, shape (n,)
         Normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
     count : int
         Number of impacts or contacts; a contact in which the motion begins counts too.
     hardest : float
-        The hardest blow, also that of such a contact; 0 without any.
+        The hardest impact, also that of such a contact; 0 without any.
     deepest : float
         Largest depth in the wall, in clearances.
     """
@@ -36,24 +36,24 @@ class Hits:
     angle: np.ndarray
     angular_speed: np.ndarray
     radial_speed: np.ndarray
-    blow: np.ndarray
+    peak_load: np.ndarray
     count: int
     hardest: float
     deepest: float = 0.0
 
 
-def hits_of(motion: Trajectory) -> Hits:
-    """Impacts of a motion, or its arrivals at a compliant wall."""
+def contact_peaks(motion: Trajectory) -> ContactPeaks:
+    """Impacts of a motion, or beginnings of contact with a compliant wall."""
     log, came = motion.contacts, motion.contacts.entered
-    blow = log.peak_force if motion.is_compliant else log.normal_impulse
-    return Hits(
+    peak_load = log.peak_force if motion.is_compliant else log.normal_impulse
+    return ContactPeaks(
         log.time[came],
         log.angle[came],
         log.angular_speed[came],
         log.radial_speed[came],
-        blow[came],
+        peak_load[came],
         len(log),
-        _most(blow),
+        _most(peak_load),
         _most(log.deepest),
     )
 
@@ -72,8 +72,8 @@ class Wall:
         Whether forces have peaks there, and the rotor goes in; a rigid wall gives impulses.
     noun, one : str
         A contact, in a count and with its article.
-    title, hits, section, shaded : str
-        Headings of the hardest blow and of the figure of all, what that shows, and what is shaded over time.
+    title, peaks, section, shaded : str
+        Headings of the hardest impact and of the figure of all, what that shows, and what is shaded over time.
     searching : str
         What is done while the hardest is searched.
     """
@@ -82,25 +82,25 @@ class Wall:
     noun: str
     one: str
     title: str
-    hits: str
+    peaks: str
     section: str
     shaded: str
     searching: str
 
     def load(self, hardest: float, scales: Scales | None) -> str:
-        """Write a blow with its unit."""
+        """Write a load with its unit."""
         return Wording(scales).force(hardest) if self.compliant else Wording(scales).impulse(hardest)
 
-    def stated(self, hits: Hits, scales: Scales | None) -> str:
+    def stated(self, peaks: ContactPeaks, scales: Scales | None) -> str:
         """The load of a motion in words."""
-        load = self.load(hits.hardest, scales)
+        load = self.load(peaks.hardest, scales)
         if not self.compliant:
             return f"hardest impulse {load}"
-        depth = f"{Wording(scales).length(hits.deepest)}, {number(100.0 * hits.deepest, 2)} % of the clearance"
+        depth = f"{Wording(scales).length(peaks.deepest)}, {number(100.0 * peaks.deepest, 2)} % of the clearance"
         return f"largest force {load}, largest depth {depth}"
 
     def beside(self, hardest: float, limits: LoadLimits, scales: Scales | None) -> str:
-        """What follows the hardest blow of many motions: whether a limit of the force is kept."""
+        """What follows the hardest impact of many motions: whether a limit of the force is kept."""
         if not self.compliant or limits.force is None or scales is None:
             return ""
         kept = "kept" if hardest * scales.force <= limits.force else "exceeded"

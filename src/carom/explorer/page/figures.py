@@ -90,8 +90,8 @@ def _distances(parts: dict[str, Any]) -> Any:
     spans = _source(parts, "spans", "left", "right", "bottom", "top", "colour")
     plot.quad("left", "right", "top", "bottom", source=spans, fill_color="colour", fill_alpha=0.35, line_alpha=0.0)
     _curves(plot, parts, "distances")
-    struck = _source(parts, "struck", "t", "r", "colour", "marker")
-    plot.scatter("t", "r", source=struck, marker="marker", size=6, color="colour", name="struck")
+    impacts = _source(parts, "impacts", "t", "r", "colour", "marker")
+    plot.scatter("t", "r", source=impacts, marker="marker", size=6, color="colour", name="impacts")
     parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
     plot.add_layout(parts["now"])
     return plot

@@ -8,7 +8,7 @@ from typing import Any
 from carom.base.results import fields_of
 from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock
+from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.diagrams import Picture, Point
 from carom.explorer.computing.judgement import Loss
@@ -92,7 +92,7 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
         "sentence": sentence(share, words, coarse)
         if found.rest.levitates
         else f"It cannot levitate with these values. The kicks disturb {found.rest.words}.",
-        "harmless": plane_harmless(found, rotor) / found.largest,
+        "contact_free": contact_free_size(found, rotor) / found.largest,
         "lost_size": 0.0 if lost is None else factor * lost,
         "lost": "–" if coarse else "none" if lost is None else format_quantity(lost, plane.scale, scales),
         "lost_remark": WAITS if coarse else f"of {found.share.total:,} {plane.nouns[1]} tried; a finer search follows",
@@ -113,15 +113,15 @@ def judged_share(found: KickMap, rotor: Rotor) -> tuple[Share, str]:
     return found.share, found.plane.words_up_to(found.largest, rotor.scales)
 
 
-def plane_harmless(found: KickMap, rotor: Rotor) -> float:
+def contact_free_size(found: KickMap, rotor: Rotor) -> float:
     """Size up to which contact is proven to be impossible, in units of the equations; 0 where nothing is proven."""
     if not found.rest.levitates:
         return 0.0
     if found.plane.name == "kick":
-        return harmless_kick(rotor)
+        return contact_free_kick(rotor)
     if found.plane.name == "shock":
-        return harmless_shock(rotor, found.plane.lasting(rotor))
-    return harmless_blade_loss(rotor)
+        return contact_free_shock(rotor, found.plane.lasting(rotor))
+    return contact_free_blade_loss(rotor)
 
 
 def sentence(share: Share, words: str, coarse: bool) -> str:

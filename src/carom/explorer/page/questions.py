@@ -16,7 +16,7 @@ from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, mark_of
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import RANGES, TRIED, heavy, map_kicks, opening_range, telling_pair
+from carom.explorer.computing.kicks import RANGES, TRIED, is_slow, map_kicks, opening_range, representative_kicks
 from carom.explorer.computing.levitation import response_of
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import Plane, opening_words, planes_of
@@ -117,7 +117,7 @@ class Questions:
         self.planes: dict[str, Plane] = {plane.name: plane for plane in planes_of(origin.case)}
         self.along = next(name for name in (*MOVING, *self.controls) if name in self.controls)
         rotor = rotor_of(origin.case)
-        self.bearings, self.slow, self.exact = len(rotor.system.planes), heavy(rotor), exact_results(rotor).orbits
+        self.bearings, self.slow, self.exact = len(rotor.system.planes), is_slow(rotor), exact_results(rotor).orbits
         shown = {"forces": rotor.is_compliant, "response": rotor.scales is not None, "diagram": self.exact}
         self.figures = ("distances", "section", *(name for name, has in shown.items() if has))
         self._ranges: dict[str, float] = {}
@@ -185,7 +185,7 @@ class Questions:
         """Compile the kernels, or load them, by a first small use."""
         rotor, kicks = rotor_of(self.origin.case), self.planes["kick"]
         found = map_kicks(rotor, kicks, 5 if self.slow else 17, opening_range(rotor, kicks))
-        follow_kick(rotor, kicks, *telling_pair(found)[0])
+        follow_kick(rotor, kicks, *representative_kicks(found)[0])
 
     def exports(self, shown: Shown) -> Message:
         """What can be copied, by the name of its button."""
@@ -257,7 +257,7 @@ class Questions:
         found = map_kicks(rotor, plane, cells, self._largest(shown), tell)
         name, factor = plane.name, plane.shown(rotor.scales)[0]
         if name not in self._pairs:
-            self._pairs[name] = tuple((factor * one, factor * other) for one, other in telling_pair(found))
+            self._pairs[name] = tuple((factor * one, factor * other) for one, other in representative_kicks(found))
         opening = self._ranges.get(name, self._largest(shown)) / plane.per_unit(rotor.scales)
         return {**messages.basin_message(found, rotor, coarse), "opening": opening}
 

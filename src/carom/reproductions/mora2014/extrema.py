@@ -123,9 +123,9 @@ def extremum_lines(branch: OrbitBranch) -> tuple[ExtremumLine, ...]:
         rows = [(float(place), branch.values[place], extrema[place]) for place in range(start, end)]
         for turn in turns:
             if start - 1 <= turn.place <= start:
-                rows.insert(0, (turn.place, turn.value, _meeting(turn, int(counts[start]))))
+                rows.insert(0, (turn.place, turn.value, _joined(turn, int(counts[start]))))
             elif end - 1 <= turn.place <= end:
-                rows.append((turn.place, turn.value, _meeting(turn, int(counts[start]))))
+                rows.append((turn.place, turn.value, _joined(turn, int(counts[start]))))
         lines += [
             ExtremumLine(
                 places=np.array([place for place, _, _ in rows]),
@@ -155,7 +155,7 @@ def flattest(point: Bifurcation) -> Extremum:
     return Extremum(float(time), _radius(*at, float(time)), highest=False)
 
 
-def _meeting(turn: Bifurcation, count: int) -> list[Extremum]:
+def _joined(turn: Bifurcation, count: int) -> list[Extremum]:
     """Return the extrema at the birth of two, as many as the segment has: the newborn one twice or not at all."""
     newborn = flattest(turn)
     found = radius_extrema(turn.numbers, turn.period, turn.radial_speed)

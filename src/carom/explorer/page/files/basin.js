@@ -1,7 +1,7 @@
 // The plane of disturbances on a canvas: cells coloured by where they lead, rings, and the disturbances that are drawn.
 //
 //     const picture = basinPicture(canvas, { onPoint, onRing });
-//     picture.show(message);        // cells, size, largest, unit, axes, endings, harmless, required, outward
+//     picture.show(message);        // cells, size, largest, unit, axes, endings, contact_free, required, outward
 //     picture.mark(kicks, active);  // pairs { first, second } in the unit of the message
 //     picture.setRing(size);        // in this unit; 0 for none
 //     picture.prove(proven);        // number of the message that it belongs to, open (n by n): pale where nothing is proven
@@ -57,9 +57,9 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
   const rings = (pen, message, circle, span, small) => {
     const step = tickStep(message.largest, small ? 2 : 3);
     for (let size = step; size <= message.largest; size += step) twice(pen, () => circle(size / message.largest), [1.8, 0.8], ["rgba(0,0,0,.2)", "rgba(255,255,255,.5)"]);
-    if (message.harmless > 0) {
+    if (message.contact_free > 0) {
       pen.setLineDash([5, 4]);
-      twice(pen, () => circle(message.harmless), [1.6, 1.6], ["rgba(0,0,0,.6)", "rgba(0,0,0,.6)"]);
+      twice(pen, () => circle(message.contact_free), [1.6, 1.6], ["rgba(0,0,0,.6)", "rgba(0,0,0,.6)"]);
       pen.setLineDash([]);
     }
     if (message.required > 0 && message.required <= message.largest * 1.0001) {

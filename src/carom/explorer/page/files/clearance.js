@@ -1,7 +1,7 @@
-// A flight on a canvas: the rotor flies inside the clearance circle, strikes with a flash and settles.
+// A flight on a canvas: the rotor flies inside the clearance circle, touches the wall with a flash and settles.
 //
 //     const shown = flight(canvas, { looks, onTime });
-//     shown.show(message);   // times, x, y, impact_times, blows, forward, spans, colour, hardest, time, time_unit
+//     shown.show(message);   // times, x, y, impact_times, peak_loads, forward, spans, colour, hardest, time, time_unit
 //     shown.play(); shown.finish(); shown.turnWith("rotating" or "fixed"); shown.rest = { position, colour };
 //
 // onTime(now, end) hears every instant that is drawn while it plays.
@@ -37,12 +37,12 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
     }
   };
 
-  // Where it strikes: a flash that fades, and a mark that stays.
+  // Where it has an impact: a flash that fades, and a mark that stays.
   const impacts = (pen, message, toX, toY) => {
     const { times } = message, now = shown.now, perSecond = times[times.length - 1] / lasts;
     message.impact_times.forEach((time, place) => {
       if (time > now) return;
-      const [x, y] = turned(message, index(times, time)), strength = message.blows[place] / (message.hardest || 1);
+      const [x, y] = turned(message, index(times, time)), strength = message.peak_loads[place] / (message.hardest || 1);
       pen.fillStyle = message.forward[place] ? looks.forward : looks.backward;
       pen.beginPath(); pen.arc(toX(x), toY(y), 2.2, 0, 7); pen.fill();
       const age = (now - time) / perSecond;

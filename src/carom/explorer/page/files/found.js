@@ -1,4 +1,4 @@
-// What is found of one machine: how it levitates at once, and when nothing moves smallest loss, hardest blow, verdict, and motions.
+// What is found of one machine: how it levitates at once, and when nothing moves smallest loss, hardest impact, verdict, and motions.
 (() => {
   const row = (cells) => {
     const line = document.createElement("tr");

@@ -65,9 +65,9 @@ carom.begin_plots = (parts, plots) => {
       const lines = planes.length > 1 ? ink : [colour("trail")];
       const distances = planes.map((one) => Array.from(one.x, (x, place) => Math.hypot(x, one.y[place])));
       // A rigid wall stands at one; into a compliant one the rotor goes farther.
-      const top = distances.reduce((found, one) => Math.max(found, most(one, 0) + 0.04), 1.06), struck = joined(planes, "impact_times");
+      const top = distances.reduce((found, one) => Math.max(found, most(one, 0) + 0.04), 1.06), impacts = joined(planes, "impact_times");
       parts.distances.data = { xs: planes.map(() => t), ys: distances, colour: lines };
-      parts.struck.data = { t: struck.map((one) => time * one), r: struck.map(() => top - 0.03), ...marks(joined(planes, "forward")) };
+      parts.impacts.data = { t: impacts.map((one) => time * one), r: impacts.map(() => top - 0.03), ...marks(joined(planes, "forward")) };
       parts.distances_x.setv({ start: 0, end });
       parts.distances_y.setv({ start: 0, end: top });
       for (const name of ["distances", "forces"]) if (plots[name]) plots[name].below[0].axis_label = `time (${message.time_unit})`;

@@ -43,7 +43,7 @@ carom.stage = {};
 
   const legendOf = (message) => {
     const [one] = message.nouns, rows = [];
-    if (message.harmless > 0) rows.push(["dash", "proven never to touch"]);
+    if (message.contact_free > 0) rows.push(["dash", "proven never to touch"]);
     if (basin.veiled()) rows.push(["pale", `pale: nothing is proven; proven to come back ${basin.proven.share}`]);
     if (message.required > 0) rows.push(["must", `${message.required > message.largest * 1.0001 ? "out of the picture: " : ""}must survive ${short(message.required, 3)} ${message.unit}`]);
     if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest ${one} that does not come back: ${short(basin.ring, 3)} ${message.unit}`]);

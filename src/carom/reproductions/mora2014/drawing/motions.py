@@ -89,14 +89,14 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     line = line * np.exp(1j * times)
     path(fixed, line, look, label=words)
     direction_arrow(fixed, line[times <= 0.4 * motion.span], look)
-    struck = line[:: (len(times) - 1) // count]
-    impacts(fixed, struck, np.full(len(struck), orbit.angular_speed), size=4.0)
+    at_impacts = line[:: (len(times) - 1) // count]
+    impacts(fixed, at_impacts, np.full(len(at_impacts), orbit.angular_speed), size=4.0)
     times, line = _path(orbit, SHOWN_PERIODS)
     radius.plot(times, np.abs(line), **look.stroke)
     radius.axhline(1.0, **LOOKS["wall"].stroke)
-    hits = orbit.period * np.arange(SHOWN_PERIODS + 1)
+    impact_times = orbit.period * np.arange(SHOWN_PERIODS + 1)
     whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
-    point(radius, np.asarray(hits + 1j, complex), whirl, size=4.0, label="", clip=False)
+    point(radius, np.asarray(impact_times + 1j, complex), whirl, size=4.0, label="", clip=False)
     radius.set_xlim(0.0, times[-1])
     depth = 1.0 - float(np.abs(line).min())
     radius.set_ylim(1.0 - 1.12 * depth, 1.0 + 0.12 * depth)

@@ -13,7 +13,7 @@ the plane.  Above zero the rub takes over from levitation, *persistence*; below 
 for any number of modes: the condition of the source paper for the periods, and for the side.  Where ``Re(q a₁₂) < 0`` the cycle exists where the rotor
 levitates, *subcritical*; else beyond, *supercritical*.
 
-Multipliers are those of the flight and the arrival, with what its instant depends on.
+Multipliers are those of the flight and the impact, with what its instant depends on.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class SmallCycle(Result):
     period : float
         In ``1/Ω``.
     speed_rate : float
-        Speed of the arrival, ``c_r Ω``, per clearance of distance of levitation from the wall.
+        Speed of the impact, ``c_r Ω``, per clearance of distance of levitation from the wall.
     levitating_side : bool
         Whether it exists where the rotor levitates inside the wall; otherwise beyond.
     admissible : bool
@@ -137,7 +137,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     """Rubs and cycles that are born where levitation meets a wall, for any number of modes and planes.
 
     The rotor is taken as it is, so it should be near that point: results hold to first order in the gap.  The derivation is in
-    :mod:`carom.closed_forms.wall_meetings`.
+    :mod:`carom.closed_forms.small_cycles_at_walls`.
 
     Parameters
     ----------
@@ -163,8 +163,8 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/source-paper.toml", ["gamma=0.0724686787"])
-    >>> meeting = cm.closed_forms.small_cycles(machine)
-    >>> meeting.kind, [(f"{cycle.period:.4f}", cycle.criticality) for cycle in meeting.cycles]
+    >>> found = cm.closed_forms.small_cycles(machine)
+    >>> found.kind, [(f"{cycle.period:.4f}", cycle.criticality) for cycle in found.cycles]
     ('non-smooth fold', [('0.6668', 'subcritical'), ('3.0765', 'subcritical')])
     """
     model = rotor_of(machine)
@@ -199,14 +199,14 @@ def _bouncing(system: System, plane: int, pieces: Pieces, longest: float | None)
     found = []
     for period in roots.periods.tolist():
         flight = pieces.in_flight(period)
-        # Before the arrival, per speed: (1 − F) x = F b, with the change b by an arrival of speed one.
-        arrival = np.linalg.solve(np.eye(len(flight)) - flight, flight @ pieces.strike)
-        lever = -float(pieces.depth @ arrival)
+        # Before the impact, per speed: (1 − F) x = F b, with the change b by an impact of speed one.
+        before_impact = np.linalg.solve(np.eye(len(flight)) - flight, flight @ pieces.impact_column)
+        lever = -float(pieces.depth @ before_impact)
         if lever == 0.0:
             continue
-        state = arrival / lever
-        carried = flight @ pieces.arrival(state)
-        left = state + pieces.strike * (pieces.speed @ state)
+        state = before_impact / lever
+        carried = flight @ pieces.before_impact(state)
+        left = state + pieces.impact_column * (pieces.speed @ state)
         depths = _along(pieces, left, period)[1:-1] @ pieces.depth + 1.0
         inside = bool((math.copysign(1.0, lever) * depths).max() <= ROUNDING * np.abs(depths).max())
         # For a gap of one, or of minus one if the plane would leave the wall.

@@ -119,7 +119,7 @@ def _is_shaken(model: Rotor) -> bool:
 
 
 @checked
-def harmless_kick(machine: Subject) -> float:
+def contact_free_kick(machine: Subject) -> float:
     """Speed up to which a kick out of levitation provably never reaches the wall, in ``c_r Ω``.
 
     For the planar rotor this is the largest such speed; for other models it follows from a bound by energy, or by modes, and is smaller.  Zero
@@ -134,19 +134,19 @@ def harmless_kick(machine: Subject) -> float:
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> print(f"{cm.closed_forms.harmless_kick(machine):.6f}")
+    >>> print(f"{cm.closed_forms.contact_free_kick(machine):.6f}")
     0.039821
     """
     model = rotor_of(machine)
-    return _harmless_push(model, model.system.translated)
+    return _contact_free_push(model, model.system.translated)
 
 
 @checked
-def harmless_shock(machine: Subject, duration: Positive) -> float:
+def contact_free_shock(machine: Subject, duration: Positive) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
     The deviation is the convolution of the shock with the response to a kick.  So it is no larger than the largest deviation after a
-    kick (:func:`harmless_kick`; of mounts too, which are shaken) by the change of velocity over the pulse, ``2âT/π``.  For the planar rotor this bound, in ``c_r Ω²``,
+    kick (:func:`contact_free_kick`; of mounts too, which are shaken) by the change of velocity over the pulse, ``2âT/π``.  For the planar rotor this bound, in ``c_r Ω²``,
     is sharp for short pulses.
 
     Parameters
@@ -156,10 +156,10 @@ def harmless_shock(machine: Subject, duration: Positive) -> float:
         ``T``, in ``1/Ω``.
     """
     model = rotor_of(machine)
-    return _harmless_push(model, model.carried_by_housing) * math.pi / (2.0 * duration)
+    return _contact_free_push(model, model.carried_by_housing) * math.pi / (2.0 * duration)
 
 
-def _harmless_push(model: Rotor, along: np.ndarray) -> float:
+def _contact_free_push(model: Rotor, along: np.ndarray) -> float:
     """Change of the velocities of all coordinates, in proportion to these, up to which the wall is not reached."""
     levitation, known = _levitation(model), exact_results(model.unforced).response
     if levitation is None:
@@ -170,13 +170,13 @@ def _harmless_push(model: Rotor, along: np.ndarray) -> float:
 
 
 @checked
-def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
+def contact_free_blade_loss(machine: Subject, node: Whole | None = None) -> float:
     """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall, at any phase.
 
     A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, or by what the matrices give.
     This is the deviation at the loss; its velocity in the fixed frame is ``iu₀``.  So the deviation of the planar rotor from the whirl after
     the loss stays below ``|u₀|√(1 + 1/ω²)``, and that whirl is displaced from the one before by ``u₀``.  This bound is not sharp.
-    The change, in ``c_r``, is the modulus of that of the complex eccentricity, at a node of a flexible machine; zero as for :func:`harmless_kick`.
+    The change, in ``c_r``, is the modulus of that of the complex eccentricity, at a node of a flexible machine; zero as for :func:`contact_free_kick`.
     """
     model = rotor_of(machine)
     levitation = _levitation(model)

@@ -1,4 +1,4 @@
-"""States after an impact, by mean value forms, from a patch of flights and the times at which they strike.
+"""States after an impact, by mean value forms, from a patch of flights and the times at which they reach the wall.
 
 At the wall ``a = Re(z̄ż)``, ``b = Im(z̄ż)`` and ``ψ⁺ = ψ + t − arg z``.  An impact changes them to
 
@@ -8,7 +8,7 @@ slip ``s + b`` keeps its direction while it exceeds ``f``, else it stops.  ``cli
 ``(0, 1)``, ``(1, 0)`` and ``(0, −1)`` where slip goes on forward, stops, and goes on backward; on a patch whose case is not
 decided it lies in the hull of those that are possible, as a mean value form of a Lipschitz function may take.
 
-*Strike.*  With the crossing time ``t(x)``, ``|z(t(x), x)| = 1``, derivatives along a column are total ones, ``t' = −Re(z̄z')/Re(z̄ż)``.
+*Impact.*  With the crossing time ``t(x)``, ``|z(t(x), x)| = 1``, derivatives along a column are total ones, ``t' = −Re(z̄z')/Re(z̄ż)``.
 
 *Brush.*  Time is one more column, and of ``a`` only ``0 ≤ a ≤ p`` is known.
 """
@@ -21,7 +21,7 @@ from flint import arb
 
 from carom.proofs.bends import bent, remainder, second_derivatives
 from carom.proofs.moments import FORM, UNIT, Moment, cross, dot, spread
-from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
+from carom.proofs.passages import GRAZE, Brush, Impact, LeftOpenError
 from carom.proofs.patches import Departure, Patch
 from carom.proofs.series import hull
 
@@ -30,18 +30,18 @@ MOST_SPANS = 14
 """Spans that a patch keeps at most."""
 
 
-def after_strike(departure: Departure, strike: Strike) -> Patch:
+def after_impact(departure: Departure, impact: Impact) -> Patch:
     """Patch after the impact; :class:`LeftOpenError` where the radial speed is not known to be positive."""
-    window = hull(strike.begin, strike.end)
+    window = hull(impact.begin, impact.end)
     moment = departure.at(window)
     if not moment.slope > 0:
-        raise LeftOpenError(GRAZE, departure.weights(strike.end))
+        raise LeftOpenError(GRAZE, departure.weights(impact.end))
     time, directions = _crossing(departure, window), departure.patch.directions
     if departure.held.sides:
         # Second derivatives by parameters are not known.
         columns, centre = _columns(moment), _at_wall(departure, departure.at(time), time)
         if not centre[0] + spread([column[0] for column in columns]) > 0:
-            raise LeftOpenError(GRAZE, departure.weights(strike.end))
+            raise LeftOpenError(GRAZE, departure.weights(impact.end))
         return _reset(departure, centre, columns, [arb(0)] * 3)
     middle = Departure(departure.held, departure.patch, alone=True).at(time)
     columns, drift = _columns(middle), []
@@ -51,7 +51,7 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
         drift.append(remainder(directions, squares) * UNIT)
     centre = _at_wall(departure, middle, time)
     if not centre[0] + spread([column[0] for column in columns]) + drift[0] > 0:
-        raise LeftOpenError(GRAZE, departure.weights(strike.end))
+        raise LeftOpenError(GRAZE, departure.weights(impact.end))
     return _reset(departure, centre, columns, drift)
 
 

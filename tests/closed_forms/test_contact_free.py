@@ -7,7 +7,7 @@ import pytest
 from linear_rotors import bending, single, tilting
 
 import carom as cm
-from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock
+from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
 from carom.disturbances import BaseShock, BladeLoss, VelocityKick
 
 TIMES = np.linspace(0.0, 150.0, 6001)
@@ -27,11 +27,11 @@ def farthest(rotor, starts):
 def of_size(rotor, kind, factor):
     """Disturbances of a kind that are that many times the harmless ones, and the rotor after them."""
     if kind == "kick":
-        return rotor, VelocityKick().starts(rotor, np.full(ANGLES.shape, factor * harmless_kick(rotor)), ANGLES)
+        return rotor, VelocityKick().starts(rotor, np.full(ANGLES.shape, factor * contact_free_kick(rotor)), ANGLES)
     if kind == "shock":
-        sizes = np.full(ANGLES.shape, factor * harmless_shock(rotor, 0.4))
+        sizes = np.full(ANGLES.shape, factor * contact_free_shock(rotor, 0.4))
         return rotor, BaseShock(float(sizes[0]), 0.4).starts(rotor, sizes, ANGLES)
-    loss = BladeLoss(factor * harmless_blade_loss(rotor)).starts(rotor, np.zeros(1))
+    loss = BladeLoss(factor * contact_free_blade_loss(rotor)).starts(rotor, np.zeros(1))
     return loss.after[0], loss
 
 
@@ -71,12 +71,12 @@ def test_modes_that_decay_serve_where_there_is_no_energy(kind):
 def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
     """Levitation is a circle about the sag; kicks in any direction, at any phase of the unbalance."""
     heavy = cm.load("examples/dropped-rotor.toml", ["unbalance=40 g mm"])
-    harmless, touched = harmless_kick(heavy), {0.99: 0, 1.4: 0}
-    assert 0.0 < harmless < harmless_kick(heavy.replace(gravity=0))
+    contact_free, touched = contact_free_kick(heavy), {0.99: 0, 1.4: 0}
+    assert 0.0 < contact_free < contact_free_kick(heavy.replace(gravity=0))
     for phase in np.linspace(0.0, 6.0, 7):
         rotor = cm.models.rotor_of(heavy.replace(unbalance_phase=float(phase)))
         for size in touched:
-            places, speeds = rotor.system.kicked(size * harmless * np.exp(1j * np.linspace(0.0, 6.2, 60)))
+            places, speeds = rotor.system.kicked(size * contact_free * np.exp(1j * np.linspace(0.0, 6.2, 60)))
             touched[size] += np.count_nonzero(cm.settle(rotor, places[:, 0], speeds[:, 0]).impacts)
     assert touched[0.99] == 0 < touched[1.4]
 
