@@ -88,7 +88,7 @@ def test_a_factor_that_is_set_moves_what_follows_from_it(in_terms):
         (["rated_speed=3 Hz"], "rated_speed = 3 Hz: has no effect without balance_grade"),
         (["proportional_gain=1"], "proportional_gain = 1: gives stiffness = "),
         (["negative_stiffness=1e9"], "proportional_gain = 1e4 A/m: gives stiffness = "),
-        (["ki=3"], "ki = 3: unknown name in a machine or its parameters; did you mean force_current_factor?"),
+        (["k_i=3"], "k_i = 3: unknown name in a machine or its parameters; did you mean force_current_factor?"),
     ],
 )
 def test_settings_in_terms_that_cannot_be_made_are_named(in_terms, settings_, start):

@@ -191,33 +191,6 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 """The machine field that is set by each dimensionless number while mass, speed and clearance are fixed."""
 
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
-_OTHERS = {
-    "air_gap": "gap magnet_gap",
-    "balance_grade": "grade quality_grade",
-    "clearance": "radial_clearance",
-    "current_limit": "max_current",
-    "damping": "damping_coefficient",
-    "damping_ratio": "zeta",
-    "derivative_gain": "d_gain kd",
-    "diametral_clearance": "clearance_diameter",
-    "force_current_factor": "current_stiffness k_i ki",
-    "force_limit": "max_force",
-    "friction": "coefficient_of_friction friction_coefficient",
-    "magnetic_bearings": "bearing_count number_of_bearings",
-    "mass": "rotor_mass",
-    "natural_frequency": "frequency",
-    "negative_stiffness": "displacement_stiffness k_s ks position_stiffness",
-    "proportional_gain": "kp p_gain",
-    "restitution": "coefficient_of_restitution restitution_coefficient",
-    "rotor_diameter": "diameter",
-    "rotor_radius": "radius",
-    "slew_rate_limit": "max_slew_rate slew_rate",
-    "speed": "rotational_speed rotor_speed rpm shaft_speed",
-    "unbalance": "imbalance",
-    "unbalance_phase": "phase",
-}
-_SYNONYMS = {other: name for name, others in _OTHERS.items() for other in others.split()}
-"""Other names in use; none of them is accepted, but errors suggest the right one."""
 _MISSPELT = 0.66
 """Likeness from which a name counts as misspelt: one wrong letter of three."""
 _OTHER_WORDS = 0.2
@@ -271,16 +244,20 @@ def name_errors(
 
 
 def nearest_name(name: str, known: Mapping[str, object]) -> str | None:
-    """Return the known name that was probably meant, if there is one: a misspelling, a symbol or another name of the same number.
+    """Return the known name that was probably meant, if there is one: a misspelling, a symbol, or the partner of the same number.
 
     A name that merely looks alike may mean something else: ``bearing_stiffness`` is not ``negative_stiffness``.
     """
     symbols = {field.symbol: key for key, field in known.items() if isinstance(field, Field)}
     wanted = "_".join(name[:_LONGEST_NAME].strip().lower().replace("-", " ").replace("_", " ").split())
-    other = next((other for other in (_PARTNERS.get(wanted), _SYNONYMS.get(wanted)) if other in known), None)
+    partner = _PARTNERS.get(wanted, "")
     likeness = {key: _likeness(wanted, key.lower()) for key in known}
     nearest = max(likeness, key=likeness.__getitem__, default=None)
-    return symbols.get(name) or other or (nearest if nearest and likeness[nearest] >= _MISSPELT else None)
+    return (
+        symbols.get(name)
+        or (partner if partner in known else "")
+        or (nearest if nearest and likeness[nearest] >= _MISSPELT else None)
+    )
 
 
 def _likeness(one: str, other: str) -> float:
