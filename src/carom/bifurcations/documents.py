@@ -31,18 +31,19 @@ def kind_words(kind: str) -> str:
     return _NAMED.get(kind, kind.replace("-", " "))
 
 
-def _happens(point: Bifurcation, _: Diagram) -> str:
-    return f"{kind_words(point.kind)} ({point.detail})" if point.detail else kind_words(point.kind)
+def _period_of_point(point: Bifurcation, diagram: Diagram) -> str:
+    """In the unit of the machine there."""
+    return "" if point.period != point.period else number(float(diagram.stated("time", point.value, point.period)), 8)
 
 
-def _size(kind: str, digits: int) -> Any:
-    """Text of a size at a special point, in units of the machine there."""
-
-    def text(point: Bifurcation, diagram: Diagram) -> str:
-        size = {"time": point.period, "velocity": point.radial_speed}[kind]
-        return "" if size != size else number(float(diagram.stated(kind, point.value, size)), digits)
-
-    return text
+def _speed(point: Bifurcation, diagram: Diagram) -> str:
+    """With six decimals in units of the equations, with four in mm/s: where an orbit shrinks to a point it vanishes but for rounding."""
+    decimals, speed = 6 if diagram.model.scales is None else 4, point.radial_speed
+    return (
+        ""
+        if speed != speed
+        else f"{round(float(diagram.stated_speeds(point.value, speed)), decimals) + 0.0:.{decimals}f}"
+    )
 
 
 def _possible(entry: Any, _: object) -> str:
@@ -70,13 +71,13 @@ def _period(point: Any, found: RegionMap) -> str:
 
 POINT = (
     Column("value", "{parameter}", lambda point, found: f"{found.axis.field.in_usual_unit(point.value):.10g}"),
-    Column("kind", "what happens", _happens),
+    Column("kind", "what happens", lambda point, _: kind_words(point.kind)),
     Column("branch=name", "to", lambda point, _: STEADY_WORDS.get(point.name, point.name)),
     Column("parameter"),
-    Column("period", "period ({time_unit})", _size("time", 8)),
-    Column("radial_speed", "radial speed ({speed_unit})", _size("velocity", 7)),
+    Column("period", "period ({time_unit})", _period_of_point),
+    Column("radial_speed", "radial speed ({speed_unit})", _speed),
     Column("admissible", "possible", _possible),
-    Column("detail"),
+    Column("detail", "more"),
 )
 BRANCH = "values period admissible stable ends=stops"
 CURVE = (

@@ -25,15 +25,19 @@ def print_table(
     *,
     styles: Sequence[str] = (),
     note: str = "",
+    spare: Sequence[str] = (),
 ) -> None:
     """Print rows of text below their headings.
 
-    A column that is empty in all rows is left out; one of numbers is flush right.  Cells never wrap: the widest columns for which the screen has no
-    room stand below their row, each with its heading.
+    A column that is empty in all rows is left out; one of numbers is flush right.  Cells never wrap: where the screen has no room, columns
+    that can be spared are left out in their order, and then the widest stand below their row, each with its heading.
     """
     columns = {heading: [row[place] for row in rows] for place, heading in enumerate(headings)}
     columns = {heading: cells for heading, cells in columns.items() if any(cells)}
     widths = {heading: _widest([*cells, *heading.split()]) for heading, cells in columns.items()}
+    for heading in spare:
+        if _room(screen.width, widths, _GAPS[-1]) < 0:
+            widths.pop(heading, None)
     below: list[str] = []
     while (room := _room(screen.width, widths, _GAPS[-1])) < 0 and len(widths) > 1:
         others = list(widths)[1:]

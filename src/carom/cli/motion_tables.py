@@ -28,6 +28,8 @@ from carom.studies.wording import counted, listed, no_rigid_wall
 if TYPE_CHECKING:
     from carom.parameters import Case
 
+_SPARE = ("duration", "friction_impulse", "slip_after")
+"""Columns of contacts that a narrow terminal leaves out, the first one first."""
 FIRST_EVENTS, LAST_EVENTS = 20, 8
 """Numbers of contacts shown at the beginning and at the end of a long log."""
 
@@ -147,8 +149,11 @@ def _print_contacts(console: Console, motion: Trajectory) -> None:
         note = f"… {number(hidden, 12)} more: --csv FILE has all"
         rows = [*rows[:FIRST_EVENTS], {"kind": "…"}, *rows[-LAST_EVENTS:]]
     cells = [_contact_cells(motion, row, {name: shown[name][0] for name in headings}) for row in rows]
-    heads = [f"{heading} ({shown[name][1]})".removesuffix(" (1)") for name, heading in headings.items()]
-    print_table(console, "Contacts", ("contact", *heads, "whirl"), cells, note=note)
+    heads = [
+        f"{heading} ({shown[name][1].replace('Omega', 'Ω')})".removesuffix(" (1)") for name, heading in headings.items()
+    ]
+    spare = tuple(heads[list(headings).index(name)] for name in _SPARE if name in headings)
+    print_table(console, "Contacts", ("contact", *heads, "whirl"), cells, note=note, spare=spare)
 
 
 def _contact_cells(motion: Trajectory, row: dict[str, Any], factors: dict[str, float]) -> list[str]:
