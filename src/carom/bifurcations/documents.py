@@ -42,7 +42,7 @@ def _speed(point: Bifurcation, diagram: Diagram) -> str:
     return (
         ""
         if speed != speed
-        else f"{round(float(diagram.stated_speeds(point.value, speed)), decimals) + 0.0:.{decimals}f}"
+        else f"{round(float(diagram.shown_speeds(point.value, speed)), decimals) + 0.0:.{decimals}f}"
     )
 
 

@@ -21,6 +21,7 @@ from typing import Annotated, Any, TextIO
 import typer
 
 from carom.base.outcome import CaromError, CaromWarning, InputError, printable, shown
+from carom.cli.options import with_purpose
 from carom.cli.terminal import InterruptionError
 
 FAILURE, BAD_INPUT, INTERRUPTED, TERMINATED = 1, 2, 130, 143
@@ -59,7 +60,7 @@ for name in [
     command = getattr(import_module(f"carom.cli.{name}"), name)
     # The list of commands shows the first line of each whole, not its beginning.
     short = str(command.__doc__).partition("\n")[0]
-    app.command(name.replace("_", "-"), help=command.__doc__, short_help=short)(command)
+    app.command(name.replace("_", "-"), help=command.__doc__, short_help=short)(with_purpose(command))
 
 
 def _print_version(wanted: bool) -> None:

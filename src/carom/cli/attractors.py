@@ -72,8 +72,8 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
     if exponents:
         screen.print()
         note = "In Ω, ± standard errors; -inf: contact removes this direction."
-        headings = ("motion", "exponents", "impacts measured")
-        print_table(screen, "Lyapunov exponents", headings, _exponents(found, known), note=note)
+        columns = ("motion", "exponents", "impacts measured")
+        print_table(screen, "Lyapunov exponents", columns, _exponents(found, known), note=note)
     screen.print()
     screen.print(found.argument)
 

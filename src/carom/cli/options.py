@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from enum import StrEnum
+from functools import wraps
+from inspect import Parameter, signature
 from typing import Any
 
 import typer
+
+
+class Purpose(StrEnum):
+    """What figures are made for."""
+
+    PAGE = "page"
+    SLIDE = "slide"
 
 
 def option(metavar: str | None, words: str, *names: str, default: Any = None, **limits: Any) -> Any:
@@ -24,6 +35,9 @@ SETTINGS = option(
     "--set",
 )
 OUT = option("DIR", "Write figures and numbers (JSON) to this directory.")
+FOR = option(
+    None, "What figures are made for: page (of print), or slide (16:9 with large type).", "--for", default="page"
+)
 AS_JSON = flag("--json", "Print one JSON object and nothing else.")
 
 START = option(
@@ -78,3 +92,25 @@ PLANE = option(
 FIRST_RANGE = option("A,B", "Range of the first parameter, by default around its present value.", "--x")
 SECOND_RANGE = option("C,D", "Range of the second parameter.", "--y")
 SEED = option("S", "Seed of the sample, by default 0.", min=0)
+
+
+def with_purpose(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command that writes figures the option ``--for``, behind that which says where."""
+    known = list(signature(command).parameters.values())
+    place = next((n for n, each in enumerate(known, start=1) if each.name in ("out", "figures")), None)
+    if place is None:
+        return command
+
+    @wraps(command)
+    def run(purpose: Purpose, **given: Any) -> None:
+        if purpose is Purpose.PAGE:
+            return command(**given)
+        from carom import plots
+
+        with plots.figures_for("slide"):
+            return command(**given)
+
+    own = Parameter("purpose", Parameter.POSITIONAL_OR_KEYWORD, default=FOR, annotation=Purpose)
+    run.__signature__ = signature(command).replace(parameters=[*known[:place], own, *known[place:]])  # type: ignore[attr-defined]
+    run.__annotations__ = command.__annotations__ | {"purpose": Purpose}
+    return run

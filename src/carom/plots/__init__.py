@@ -24,7 +24,7 @@ from carom.plots.courses import energies, radius, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.drop_maps import drop_map
 from carom.plots.drops import drop_orbit
-from carom.plots.figure import heading, one_column
+from carom.plots.figure import figures_for, heading
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.kick_proofs import proven_kicks
@@ -56,12 +56,12 @@ __all__ = [
     "energies",
     "equilibria",
     "equilibria_and_orbits",
+    "figures_for",
     "gain_map",
     "heading",
     "mode_shapes",
     "motion",
     "multipliers",
-    "one_column",
     "orbit",
     "overview",
     "proven_kicks",

@@ -24,13 +24,15 @@ if TYPE_CHECKING:
 _NEAR = 0.12
 """Distance from the wall, in clearances, up to which the close-up shows the orbit."""
 _REACHES = {15.0: 7, 30.0: 5, 60.0: 5, 90.0: 7, 180.0: 5}
-"""Angles up to which the close-up may reach, in degrees, with the number of ticks."""
+"""Angles up to which the close-up may reach to both sides, in degrees, with the number of ticks."""
+_STEP = 15.0
+"""Step of the angle around which the close-up is drawn, in degrees."""
 
 
 @checked
 @styled
 def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | None = None) -> Figure:
-    """Draw a drop in the fixed frame, and where it touches beside it close to the wall: the gap over the angle from the direction of the fall.
+    """Draw a drop in the fixed frame, and where it touches beside it close to the wall: the gap over the angle from the direction of gravity.
 
     Parameters
     ----------
@@ -60,16 +62,18 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
         left, "fixed", course.scales, f"the first {FOLLOWED} contacts" if until is None and within < end else ""
     )
     for right in close:
-        gap, angles = _gap_of(course), np.degrees(np.angle(course.place * cmath.exp(-1j * course.down)))
-        # Where it goes over the top the angle jumps.
+        gap = _gap_of(course)
+        middle = _middle(course, gap)
+        angles = middle + np.degrees(np.angle(course.place * cmath.exp(-1j * (course.down + np.radians(middle)))))
+        # Opposite of the middle the angle jumps.
         jumps = np.append(np.abs(np.diff(angles)) > 180.0, False)
         _path(right, course, np.where(jumps, np.nan, angles), gap)
-        _close_to_the_wall(right, course, angles, gap)
+        _close_to_the_wall(right, course, angles, gap, middle)
         hardest = int(course.force.argmax())
         if course.impact_log is None:
             for axes, where in ((left, course.place), (right, angles + 1j * gap)):
                 point(axes, complex(where[hardest]), "end", label="largest force", colour=LOOKS["unstable"].colour)
-    point(left, complex(course.place[0]), "start", label="release", size=4.0)
+    point(left, complex(course.place[0]), "start", label="start", size=4.0)
     if title:
         figure.suptitle(title)
     key(figure, (left, *close), columns=5)
@@ -80,6 +84,18 @@ def _gap_of(course: Course) -> Floats:
     """Distance from the wall, in micrometres or clearances; negative in a compliant wall."""
     gap: Floats = (clearance(course.scales) - np.abs(course.place)) * _finer(course.scales)
     return gap
+
+
+def _near(course: Course) -> float:
+    """Largest gap of the close-up."""
+    return _NEAR * clearance(course.scales) * _finer(course.scales)
+
+
+def _middle(course: Course, gap: Floats) -> float:
+    """Angle around which the rotor touches, in degrees from the direction of the fall: that direction itself unless it is far away."""
+    touching = course.place[course.held] if course.held.any() else course.place[gap < _near(course)]
+    mean = np.degrees(np.angle(touching.sum() * cmath.exp(-1j * course.down))) if len(touching) else 0.0
+    return 0.0 if abs(mean) < 2.0 * _STEP else _STEP * round(float(mean) / _STEP)
 
 
 def _finer(scales: Scales | None) -> float:
@@ -112,18 +128,18 @@ def _arrow(axes: Axes, down: float, wall: float) -> None:
     axes.annotate("", (tip.real, tip.imag), (0.0, 0.0), arrowprops=drawn, gid="weight")
 
 
-def _close_to_the_wall(axes: Axes, course: Course, angles: Floats, gap: Floats) -> None:
+def _close_to_the_wall(axes: Axes, course: Course, angles: Floats, gap: Floats, middle: float) -> None:
     """Set the range of the close-up to depths and places of the contacts, and draw the wall."""
     axes.axhline(0.0, **LOOKS["wall"].stroke, gid="wall")
-    low, near = float(gap.min()), _NEAR * clearance(course.scales) * _finer(course.scales)
+    low, near = float(gap.min()), _near(course)
     deep = course.impact_log is None and low < 0.0
-    largest = float(np.abs(angles[gap < near]).max(initial=10.0))
+    largest = float(np.abs(angles[gap < near] - middle).max(initial=10.0))
     reach = next(each for each in _REACHES if largest <= each)
     axes.set(
-        xlim=(-reach, reach),
-        xticks=np.linspace(-reach, reach, _REACHES[reach]),
+        xlim=(middle - reach, middle + reach),
+        xticks=middle + np.linspace(-reach, reach, _REACHES[reach]),
         ylim=(low - 0.08 * (near - low), near),
-        xlabel="angle from the direction of the fall (°)",
+        xlabel="angle from the direction of gravity (°)",
         ylabel=_gap_label(course.scales),
         title="close to the wall; below 0: depth" if deep else "close to the wall",
     )

@@ -20,7 +20,7 @@ from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import Bbox
 
 from carom.base.arguments import checked
-from carom.plots.sheet import ONE_COLUMN, TWO_COLUMNS, applied, drawing
+from carom.plots.sheet import ONE_COLUMN, TWO_COLUMNS, Purpose, applied, drawing, made_for
 
 _heading: ContextVar[str] = ContextVar("_heading", default="")
 
@@ -36,24 +36,36 @@ def heading(text: str) -> Iterator[None]:
         _heading.reset(before)
 
 
-_narrow: ContextVar[bool] = ContextVar("_narrow", default=False)
 _MARGIN = 3.0
 """Least distance of a title or a legend from the left and right edge of a figure [pt]."""
+_SLIDES = (6.4, 3.6), (9.6, 5.4)
+"""Sizes of slides [inch]: the second for figures that are higher on a page."""
+_HIGH = 4.4
+"""Height of a figure from which on it is one of these [inch]."""
+_WIDE, _SIDE = 0.6, 0.36
+"""Height over width from which on the legend of a slide stands on the right, and the largest share of the width that it takes there."""
 
 
+@checked
 @contextmanager
-def one_column() -> Iterator[None]:
-    """Make figures one column wide inside a ``with`` block: readable on a telephone, with panels below each other."""
-    before = _narrow.set(True)
+def figures_for(purpose: Purpose) -> Iterator[None]:
+    """Make figures for a purpose inside a ``with`` block.
+
+    Parameters
+    ----------
+    purpose : {"page", "column", "slide"}
+        A page of print, as without; one column, readable on a telephone, with panels below each other; or a slide of 16:9 with large type.
+    """
+    before = made_for.set(purpose)
     try:
         yield
     finally:
-        _narrow.reset(before)
+        made_for.reset(before)
 
 
 def narrow() -> bool:
     """Whether figures are made one column wide now."""
-    return _narrow.get()
+    return made_for.get() == "column"
 
 
 class StyledFigure(Figure):
@@ -64,9 +76,12 @@ class StyledFigure(Figure):
     """
 
     def __init__(self, figsize: tuple[float, float] | None = None, **kwargs: Any) -> None:
-        self._narrow = _narrow.get()
-        if self._narrow and figsize is not None:
+        self._purpose, self._aside = made_for.get(), False
+        if self._purpose == "column" and figsize is not None:
             figsize = min(figsize[0], ONE_COLUMN), figsize[1]
+        if self._purpose == "slide" and figsize is not None:
+            self._aside = figsize[1] > _WIDE * figsize[0]
+            figsize = _SLIDES[figsize[1] > _HIGH]
         super().__init__(figsize, layout="constrained", **kwargs)
         FigureCanvasAgg(self)
         self._heading = _heading.get()
@@ -85,8 +100,13 @@ class StyledFigure(Figure):
     def legend(self, *args: Any, **kwargs: Any) -> Legend:
         """Add a legend as :meth:`matplotlib.figure.Figure.legend` does, in as many columns as the figure has room for."""
         columns = int(kwargs.get("ncols", 1))
-        if self._narrow:
+        if self._purpose == "column":
             columns = 2
+        if self._aside:
+            legend = super().legend(*args, **kwargs | {"ncols": 1, "loc": "outside right center"})
+            if self._holds(legend, _SIDE):
+                return legend
+            legend.remove()
         while True:
             legend = super().legend(*args, **kwargs | {"ncols": columns})
             if columns == 1 or self._holds(legend):
@@ -94,9 +114,9 @@ class StyledFigure(Figure):
             legend.remove()
             columns -= 1
 
-    def _holds(self, legend: Legend) -> bool:
+    def _holds(self, legend: Legend, share: float = 1.0) -> bool:
         width = legend.get_window_extent(self.canvas.get_renderer()).width  # type: ignore[attr-defined]
-        return bool(width <= self.bbox.width - 2.0 * _MARGIN * self.dpi / 72.0)
+        return bool(width <= share * self.bbox.width - 2.0 * _MARGIN * self.dpi / 72.0)
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw as :meth:`matplotlib.figure.Figure.draw` does, under carom's style sheet."""
@@ -128,7 +148,7 @@ class StyledFigure(Figure):
 
 def frames(count: int) -> tuple[Figure, list[Axes]]:
     """Make a figure of so many square panels beside each other, or below each other where figures are narrow."""
-    if _narrow.get() or count == 1:
+    if narrow() or count == 1:
         figure = StyledFigure(figsize=(ONE_COLUMN, 1.18 * count * ONE_COLUMN))
         return figure, list(figure.subplots(count, 1, squeeze=False)[:, 0])
     figure = StyledFigure(figsize=(TWO_COLUMNS, 1.16 * ONE_COLUMN))

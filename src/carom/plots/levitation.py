@@ -33,7 +33,7 @@ def campbell(found: Campbell) -> Figure:
     """Draw the frequencies of free whirls over the speed of the shaft, and below them their damping ratios.
 
     Each whirl is a line: solid and with triangles that point up where it goes forward, broken and with triangles that point down where it
-    goes backward.  Where it grows the triangles are hollow.  Critical speeds are where forward whirls meet the line on which unbalance excites them.
+    goes backward.  Where it grows the triangles are hollow.  Dotted lines are where forward whirls meet the line on which unbalance excites them: undamped, these would be the critical speeds.
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1.0))
@@ -64,7 +64,7 @@ def campbell(found: Campbell) -> Figure:
     rates = ", ".join(f"{each:,.0f}" for each in sorted(criticals))
     for axes in (upper, lower):
         for each in criticals:
-            axes.axvline(each, **CRITICAL.stroke, label=f"critical speed{'s' * (len(criticals) > 1)}, {rates} rpm")
+            axes.axvline(each, **CRITICAL.stroke, label=f"forward whirl meets the speed: {rates} rpm")
         present = found.machine.speed / RPM
         axes.axvline(present, **PRESENT.stroke, label=f"present speed, {present:,.0f} rpm", gid="present")
     lower.axhline(0.0, color="#1a1a1a", lw=0.5)

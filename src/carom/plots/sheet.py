@@ -6,13 +6,18 @@ import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from typing import Literal
 
-import matplotlib.style
+from matplotlib import style
+
+Purpose = Literal["page", "column", "slide"]
 
 ONE_COLUMN, TWO_COLUMNS = 88 / 25.4, 180 / 25.4
 """Widths of figures of one column and of two [inch]."""
-_SHEET = "carom.plots.carom"
+_SHEETS = ["carom.plots.carom", "carom.plots.slide"]
 _in_use = ContextVar("_in_use", default=False)
+made_for: ContextVar[Purpose] = ContextVar("made_for", default="page")
+"""What figures are made for now."""
 
 
 @contextmanager
@@ -26,7 +31,7 @@ def applied() -> Iterator[None]:
     if _in_use.get():
         yield
         return
-    with matplotlib.style.context(_SHEET, after_reset=True):
+    with style.context(_SHEETS[: 1 + (made_for.get() == "slide")], after_reset=True):
         before = _in_use.set(True)
         try:
             yield

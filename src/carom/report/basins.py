@@ -44,17 +44,21 @@ def decisive(study: Study) -> Kind:
 
 def caption(study: Study) -> str:
     """What is to be seen."""
-    words = _SEEN[decisive(study)]
-    return f"{words} Each comes {ITS_INSTANT}." if study.rotor.depends_on_instant else words
+    words = [_SEEN[decisive(study)]]
+    if study.rotor.depends_on_instant:
+        words.append(f"Each comes {ITS_INSTANT}.")
+    if study.recommendation.advised is None:
+        words.append(_MISSING[study.recommendation.kind])
+    return " ".join(words)
 
 
 def draw(study: Study) -> Figure:
-    """Draw both basins; words stand where there is none."""
+    """Draw the basin now, and beside it that after the change that is advised."""
     kind, change = decisive(study), study.recommendation.advised
     model = _disturbances(study, kind)
     here = _basin(study.rotor, model, kind) if study.levitates else "There is no stable levitation to come back to."
     if change is None:
-        panels = [("now", here), ("after a change", _MISSING[study.recommendation.kind])]
+        panels = [("", here)]
     else:
         # As the study moved the machine to the value that it checked.
         changed = axis(study.rotor, change.parameter).move(study.rotor, change.value)

@@ -19,7 +19,7 @@ from carom.studies.wording import Wording, machine_heading
 
 DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"
 _ORBIT = (
-    "The orbit of the rotor centre in the fixed frame, and close to the wall: its gap over the angle from the direction of the fall. "
+    "The orbit of the rotor centre in the fixed frame, and close to the wall: its gap over the angle from the direction of gravity. "
     "The arrow shows the weight."
 )
 _SOFT = "Distance from the centre, forces of the contact, its slip and the speed of the surface of the race."

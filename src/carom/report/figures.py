@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
@@ -33,6 +34,8 @@ LONGEST_SHOWN = 1000.0
 """Longest time that an example shows, in ``1/Ω``."""
 SHOWN_TAIL = 4.0
 """Time that an example shows after its last contact, in time constants of levitation."""
+SHORTEST_TAIL = 20.0 * math.pi
+"""Time that it shows then even if it touched for a shorter one: ten turns."""
 
 
 def pictures(study: Study) -> list[Picture]:
@@ -99,12 +102,12 @@ def _of_levitation(study: Study) -> Iterator[Picture]:
     machine = found.machine
     if machine is None or found.campbell is None:
         return
-    whirls = "Free whirls over the speed of the shaft, from all modes; unbalance excites forward whirls where they cross the line."
+    whirls = "Free whirls over the speed of the shaft, from all modes, with their damping ratios. Unbalance excites forward whirls where they cross the line of the speed; peaks of the response lie elsewhere where damping is large."
     yield Picture("campbell", "levitating", whirls, found.campbell.plot)
     shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
     yield Picture("shapes", "levitating", shapes, lambda: plots.mode_shapes(machine, found.whirls))
     if found.response is not None:
-        radii = "Radii (0-to-peak) of the whirl by unbalance over the speed of the shaft, at the touchdown bearings."
+        radii = "Vibration (peak to peak) by unbalance over the speed of the shaft, at the touchdown bearings, and its phase."
         ends = float(found.response.speeds[0]), float(found.response.speeds[-1])
         yield Picture("unbalance", "levitating", radii, lambda: unbalance_response(study.case, ends).plot())
     if found.sensitivity is not None:
@@ -156,6 +159,7 @@ def touched(motion: Trajectory) -> bool:
 
 
 def until_decayed(rotor: Rotor, time: float) -> float:
-    """Return the time until which a motion is shown that returns to levitation at a time, in ``1/Ω``."""
+    """Time until which a motion is shown that returns to levitation at a time, in ``1/Ω``: not so long that its contacts cannot be seen."""
     decay = rotor.system.decay
-    return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)
+    tail = min(SHOWN_TAIL / decay, max(2.0 * time, SHORTEST_TAIL)) if decay > 0.0 else 0.0
+    return min(time + tail, LONGEST_SHOWN)

@@ -11,7 +11,7 @@ from carom.base.files import staged_directory, write_json
 from carom.base.files.directory import MANIFEST
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.parameters.formats import number
-from carom.plots.sheet import drawing
+from carom.plots.sheet import Purpose, drawing, made_for
 from carom.report.basins import drawable
 from carom.report.figure_files import draw_figures
 from carom.report.figures import pictures
@@ -52,7 +52,8 @@ def write_report(study: Study, directory: str, *, progress: ShowProgress = None)
     tell = Reporter.of(progress, "drawing")
     wanted = pictures(study)
     named = plots.heading(machine_heading(study.case))
-    with staged_directory(directory, "--out") as place, drawing(), named, plots.one_column():
+    purpose: Purpose = "slide" if made_for.get() == "slide" else "column"
+    with staged_directory(directory, "--out") as place, drawing(), named, plots.figures_for(purpose):
         inline, names = draw_figures(wanted, place, tell)
         document = {**study.to_dict(), "figures": names}
         write_json(place / MANIFEST, document)
