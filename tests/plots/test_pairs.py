@@ -1,4 +1,4 @@
-"""Basins side by side share axes, legend and colours, and words stand where there is no basin."""
+"""Basins side by side share axes, legend and colours."""
 
 import numpy as np
 import pytest

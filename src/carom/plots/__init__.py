@@ -3,11 +3,10 @@
 Every function returns a :class:`matplotlib.figure.Figure` drawn with carom's own style sheet.  It shows nothing and
 does not change the user's settings or backend.  :mod:`carom.plots.style` explains what the colours mean.
 
-Where a function has the argument `axes`, it draws into these axes of the user; by default it makes a new figure.  A new
+A
 figure is 180 mm wide (two columns of a page) unless its function says otherwise.  What is drawn is in
 the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units, and otherwise in those of the equations.
-Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits
-are drawn where the argument `virtual` asks for them.
+Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits are not drawn.
 
 Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``shapes``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.base.arguments import checked
@@ -21,12 +20,12 @@ _ROW, _EDGES = 0.26, 0.9
 
 @checked
 @styled
-def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | None = None) -> Figure:
+def attractors(found: AttractorSet, title: str | None = None) -> Figure:
     """Draw the share of the disturbances that end on each attractor, of any rotor.
 
     An attractor that only starts next to it have reached has no bar.
     """
-    figure, drawn = one_axes(axes, (TWO_COLUMNS, _EDGES + _ROW * len(found)))
+    figure, drawn = one_axes((TWO_COLUMNS, _EDGES + _ROW * len(found)))
     total = len(found.disturbances)
     looks = looks_of([member.name for member in found], [member.share_of_disturbances for member in found])
     by_row = sorted(looks, key=lambda look: look.index)

@@ -75,28 +75,26 @@ def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str 
 
 @checked
 @styled
-def basin_pair(panels: Sequence[tuple[str, Basin | Cells | str]], required: float | None = None) -> Figure:
+def basin_pair(panels: Sequence[tuple[str, Basin | Cells]], required: float | None = None) -> Figure:
     """Draw basins of the same disturbances beside each other, such as those before and after a change of the machine.
 
     They share axes, legend and colours.  The figure is 88 mm wide.
 
     Parameters
     ----------
-    panels : sequence of (str, Basin, Cells or str)
+    panels : sequence of (str, Basin or Cells)
         Title and basin from left to right: of kicks by components, of shocks by peak and direction or of losses of a blade by
-        phase. A text instead of a basin is written in its place.
+        phase.
     required : float, optional
         Size of kicks or shocks, in units of the equations, at which a circle is drawn: what must be survived.
 
     Raises
     ------
     InputError
-        None of the panels has a basin, or these are no grids of such disturbances, all of one kind.
+        There is no panel, or these are no grids of such disturbances, all of one kind.
     """
-    # A basin has cells; cells and words are what they are.
     given: Sequence[tuple[str, Any]] = panels
-    shown: list[tuple[str, Cells | str]] = [(title, getattr(entry, "cells", entry)) for title, entry in given]
-    basins = [entry for _, entry in shown if not isinstance(entry, str)]
+    basins: list[Cells] = [getattr(entry, "cells", entry) for _, entry in given]
     kinds = sorted({basin.plan.model.kind for basin in basins})
     if len(kinds) != 1:
         raise InputError("panels", " and ".join(kinds) or None, "basins of one kind of disturbance, at least one")
@@ -108,13 +106,8 @@ def basin_pair(panels: Sequence[tuple[str, Basin | Cells | str]], required: floa
     drawn = figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0]
     size = basins[0].plan.model.coordinates[0]
     factor, unit = size.shown_in(basins[0].scales)
-    for axes, (title, entry) in zip(drawn, shown, strict=True):
+    for axes, (title, _), entry in zip(drawn, panels, basins, strict=True):
         axes.set_title(title)
-        if isinstance(entry, str):
-            axes.set_aspect("equal")
-            axes.set_axis_off()
-            axes.text(0.5, 0.5, textwrap.fill(entry, _LINE), ha="center", va="center", transform=axes.transAxes)
-            continue
         draw_cells(axes, entry, motions)
         axes.label_outer()
         if required is not None:

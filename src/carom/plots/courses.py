@@ -13,7 +13,7 @@ from matplotlib.transforms import blended_transform_factory
 from carom.base.arguments import Count, Positive, checked
 from carom.base.outcome import Outcome
 from carom.plots.figure import StyledFigure, narrow
-from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
+from carom.plots.plane import MANY_POINTS, Floats, axes_of, finish, key, marker_size, orbit_impacts, orbit_path, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number, orbit_look, orbit_title
 
@@ -72,7 +72,7 @@ def radius(
     """
     from carom.motions.trajectories import Trajectory
 
-    figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
+    figure, drawn = axes_of(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
     if isinstance(motion, Trajectory):
         if motion.begins + motion.time > 0.0:
             _distance(drawn, motion, sampled(motion, motion.begins + motion.time))
@@ -164,7 +164,7 @@ def touchdown(
 @styled
 def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     """Draw the energy of the rotor and the works that change it; circulatory ones, of weight and in a wall where there are any."""
-    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    figure, drawn = axes_of(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
     unit, short = display_unit("energy", scales)

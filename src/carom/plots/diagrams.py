@@ -77,16 +77,11 @@ _PRESENT: dict[str, Any] = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), 
 
 @checked
 @styled
-def bifurcation_diagram(diagram: Diagram, virtual: bool = False) -> Figure:
+def bifurcation_diagram(diagram: Diagram) -> Figure:
     """Draw all motions along a parameter, with their special points, in two panels.
 
     Upper, where there are orbits: their radial speed at the impact, in mm/s if the machine is known.  Lower: which motions exist, with broad bars
     where they are stable.  The shaft speed is in rpm.
-
-    Parameters
-    ----------
-    virtual : bool
-        Draw virtual orbits and their special points too, faint.
     """
     strip = 0.18 * len(rows_of(diagram))
     unit, scales = diagram.axis.field.usual_size, diagram.model.scales
@@ -98,26 +93,26 @@ def bifurcation_diagram(diagram: Diagram, virtual: bool = False) -> Figure:
     label_parameter(below, "x", diagram.axis.field, scales, own=[*upper, below][0])
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     for panel in upper:
-        _speeds(panel, diagram, unit, virtual)
+        _speeds(panel, diagram, unit)
         panel.axhline(0.0, color="#1a1a1a", lw=0.5)
         panel.set(
             ylim=(lowest, highest), ylabel=axis_label(r"radial speed at the impact, $\dot r$", "velocity", scales)
         )
     present = _mark_present(diagram, (*upper, below), unit)
-    marked = _mark_points(diagram, upper, below, unit, virtual)
-    figure.legend(handles=[*_diagram_key(diagram, marked, virtual), *present], loc="outside lower center", ncols=4)
+    marked = _mark_points(diagram, upper, below, unit)
+    figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
     return figure
 
 
-def _speeds(axes: Axes, diagram: Diagram, unit: float, virtual: bool) -> None:
+def _speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
     """Draw the radial speeds of orbits."""
     for branch in diagram.orbits:
         there = [point.radial_speed for point in branch.special]
-        _speed_line(axes, diagram, branch, branch.radial_speed, there, virtual)
+        _speed_line(axes, diagram, branch, branch.radial_speed, there)
     for several in diagram.several:
         for k, speeds in enumerate(several.radial_speeds.T):
             there = [float(point.orbit.impact_speeds[k]) for point in several.special]
-            _speed_line(axes, diagram, several, speeds, there, virtual)
+            _speed_line(axes, diagram, several, speeds, there)
 
 
 def _speed_line(
@@ -126,14 +121,13 @@ def _speed_line(
     branch: OrbitBranch,
     speeds: np.ndarray,
     at_special_points: list[float],
-    virtual: bool,
 ) -> None:
     """Draw speeds along a branch, in their display unit."""
     unit, places = diagram.axis.field.usual_size, np.arange(len(branch))
     special = np.array([point.value for point in branch.special])
     there = diagram.shown_speeds(special, np.array(at_special_points))
     shown = diagram.shown_speeds(branch.values, speeds)
-    branch_line(axes, branch, places, branch.values / unit, shown, there, unit, virtual=virtual)
+    branch_line(axes, branch, places, branch.values / unit, shown, there, unit, virtual=False)
 
 
 def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:
@@ -145,7 +139,7 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
     return [panel.axvline(value / unit, gid="present", label=words, **_PRESENT) for panel in panels][:1]
 
 
-def _mark_points(diagram: Diagram, upper: list[Axes], below: Axes, unit: float, virtual: bool) -> list[Look]:
+def _mark_points(diagram: Diagram, upper: list[Axes], below: Axes, unit: float) -> list[Look]:
     """Mark the special points of orbits at their speed and those of other motions on their bars; return the looks of the visible ones, each once."""
     rows = rows_of(diagram)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
@@ -154,7 +148,7 @@ def _mark_points(diagram: Diagram, upper: list[Axes], below: Axes, unit: float, 
         row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
         speed = float(diagram.shown_speeds(point.value, point.radial_speed))
         panels, height = (upper, speed) if row is None else ([below], heights.get(row))
-        if height is None or not (point.admissible or virtual):
+        if height is None or not point.admissible:
             continue
         for axes in panels:
             _mark(axes, look, point.value / unit, float(height), point.admissible)
@@ -227,11 +221,10 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
     return -0.12 * (high or 1.0), 1.1 * high
 
 
-def _diagram_key(diagram: Diagram, marked: list[Look], virtual: bool) -> list[Line2D]:
+def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     entries = []
     if diagram.orbits or diagram.several:
         entries += [LOOKS["stable"].entry("stable orbit"), LOOKS["unstable"].entry("unstable orbit")]
-        entries += [LOOKS["virtual"].entry("virtual")] if virtual else []
     return [*entries, *(look.entry() for look in marked)]
 
 

@@ -46,7 +46,6 @@ def gain_map(
     *,
     measure: str = "recovered",
     in_terms_of: Case | None = None,
-    axes: Axes | None = None,
 ) -> Figure:
     """Draw the share of disturbances that comes back, with contours and the present machine.
 
@@ -67,7 +66,7 @@ def gain_map(
     known = [name for name in _MEASURES if name in found.dataset]
     if measure not in known:
         raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
-    figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
+    figure, drawn = one_axes((0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     stated = [_shown(axis, now, in_terms_of) for axis, now in zip(found.axes, found.present, strict=True)]
     x, y = (
         np.array([of(value) for value in found.dataset[axis.name].values.tolist()])

@@ -89,7 +89,7 @@ def sensitivity(found: Sensitivity) -> Figure:
     """Draw the size of the sensitivity of each loop over the frequency, with its peak and the zones of ISO 14839-3, which an unstable loop has not."""
     from carom.rotors.loop_sensitivity import LIMITS
 
-    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    figure, axes = one_axes((TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     if not found.stable:
         figure.suptitle("The loop is unstable: it has no zones of ISO 14839-3")
     top = max(_ROOM * float(found.peaks.max()), _ROOM * LIMITS["C"])

@@ -22,7 +22,6 @@ from carom.plots.plane import (
     key,
     label_frame,
     magnifier,
-    one_axes,
     orbit_impacts,
     orbit_path,
     path,
@@ -51,7 +50,7 @@ _ONCE: dict[str, Any] = {"marker": ".", "ms": 3.4, "mew": 0.0, "color": "#5d6f87
 
 @checked
 @styled
-def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes] | None = None) -> Figure:
+def orbit(orbit: Orbit, periods: Count | None = None) -> Figure:
     """Draw a periodic orbit in the co-rotating and in the fixed frame.
 
     In the co-rotating frame the orbit closes after one period.  In the fixed frame it is quasi-periodic unless its
@@ -65,11 +64,9 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
     periods : int, optional
         Number of periods in the fixed frame.  Default: 5 to 16 (fewer for a long period), the number after which the
         pattern comes nearest to closing.
-    axes : sequence of two matplotlib.axes.Axes, optional
-        For the co-rotating and the fixed frame.
     """
     count = _pattern_length(orbit.period) if periods is None else periods
-    figure, (left, right) = _two_frames(axes)
+    figure, (left, right) = frames(2)
     scales = orbit.scales
     wall, once = clearance(scales), orbit_path(orbit, 1)[1]
     reach = max(1.12, 1.06 * float(np.abs(once).max()) / wall)
@@ -87,9 +84,8 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
     if inner is not None:
         _draw_orbit(inner, orbit, "rotating", 1)
         _levitation(inner, equilibrium, wall)
-    if axes is None:
-        figure.suptitle(orbit_title(orbit))
-        key(figure, (left, right), columns=3)
+    figure.suptitle(orbit_title(orbit))
+    key(figure, (left, right), columns=3)
     return figure
 
 
@@ -126,8 +122,6 @@ def motion(
     since: float = 0.0,
     title: str | None = None,
     turns: Count = 8,
-    *,
-    axes: tuple[Axes, Axes] | None = None,
 ) -> Figure:
     """Draw a simulated motion in the co-rotating and in the fixed frame.
 
@@ -141,8 +135,6 @@ def motion(
         Default: number of impacts and outcome in words.
     turns : int
         Number of last turns of the shaft that are drawn of a motion of more than three times as many.
-    axes : sequence of two matplotlib.axes.Axes, optional
-        For the co-rotating and the fixed frame.
 
     Raises
     ------
@@ -151,10 +143,10 @@ def motion(
     """
     if not 0.0 <= since <= trajectory.time:
         raise InputError("since", since, f"a time from 0 to the end of the motion at {trajectory.time:g}/Omega")
-    figure, frames = _two_frames(axes)
+    figure, both = frames(2)
     long = trajectory.time - since > _LONG * turns * math.tau
     last = trajectory.time - turns * math.tau if long else since
-    sides: tuple[tuple[Frame, Axes], ...] = (("rotating", frames[0]), ("fixed", frames[1]))
+    sides: tuple[tuple[Frame, Axes], ...] = (("rotating", both[0]), ("fixed", both[1]))
     bearing = f"touchdown bearing {trajectory.plane + 1}" if len(trajectory.rotor.system.contacts) > 1 else ""
     for frame, drawn in sides:
         clearance_circle(drawn, wall=clearance(trajectory.scales))
@@ -170,10 +162,9 @@ def motion(
         point(drawn, complex(ends[0]), "start", size=3.5)
         point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {trajectory.outcome.words}")
     wall = clearance(trajectory.scales)
-    _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
-    if axes is None:
-        figure.suptitle(title or f"{contacts_in_words(trajectory)} \N{EM DASH} {trajectory.outcome.words}")
-        key(figure, frames, columns=4)
+    _levitation(both[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
+    figure.suptitle(title or f"{contacts_in_words(trajectory)} \N{EM DASH} {trajectory.outcome.words}")
+    key(figure, both, columns=4)
     return figure
 
 
@@ -197,10 +188,3 @@ def _levitation(axes: Axes, equilibrium: complex, wall: float) -> None:
     virtual = abs(equilibrium) > 1.0
     words = LOOKS["contact-free"].words
     point(axes, wall * equilibrium, "contact-free", hollow=virtual, label=f"{words} (virtual)" if virtual else words)
-
-
-def _two_frames(axes: tuple[Axes, Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:
-    if axes is None:
-        figure, (left, right) = frames(2)
-        return figure, (left, right)
-    return one_axes(axes[0], (0.0, 0.0))[0], axes

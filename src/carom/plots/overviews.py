@@ -17,7 +17,6 @@ from carom.plots.plane import (
     Complex,
     clearance_circle,
     direction_arrow,
-    finish,
     key,
     label_frame,
     one_axes,
@@ -34,7 +33,6 @@ if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
 
-_ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
 _FARTHEST = 3.0
 """Displacement beyond which an equilibrium is left out of a picture of a contact plane."""
@@ -49,9 +47,7 @@ def equilibria_and_orbits(
     equilibria: Iterable[Equilibrium] = (),
     title: str | None = None,
     *,
-    virtual: bool = False,
     plane: Whole = 0,
-    axes: Axes | None = None,
 ) -> Figure:
     """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
 
@@ -60,8 +56,6 @@ def equilibria_and_orbits(
 
     Parameters
     ----------
-    virtual : bool
-        Draw virtual orbits too, pale.
     plane : int
         The contact plane, of a rotor with several.
 
@@ -73,20 +67,21 @@ def equilibria_and_orbits(
     planes = len(orbits.rotor.system.contacts)
     if plane >= planes:
         raise InputError("plane", plane, f"a contact plane, from 0 to {planes - 1}")
-    wanted = [orbit for orbit in orbits if orbit.admissible or virtual]
-    shown = {
-        orbit: orbit_path(orbit, 1, plane)[1] for orbit in sorted(wanted, key=lambda orbit: _ORDER[orbit_look(orbit)])
-    }
+    wanted = sorted((orbit for orbit in orbits if orbit.admissible), key=lambda orbit: orbit.stable)
+    shown = {orbit: orbit_path(orbit, 1, plane)[1] for orbit in wanted}
     size = (ONE_COLUMN, 1.25 * ONE_COLUMN) if narrow() else (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS)
-    figure, whole = one_axes(axes, size)
+    figure, whole = one_axes(size)
     wall = _draw_equilibria(whole, orbits.rotor, plane, equilibria, 1.36)
     _draw_orbits(whole, shown, wall)
     _name(whole, shown, wall)
-    return finish(figure, whole, axes, title, columns=2)
+    if title:
+        figure.suptitle(title)
+    key(figure, [whole], columns=2)
+    return figure
 
 
 @checked
-def overview(study: Any, title: str | None = None, *, virtual: bool = False) -> Figure:
+def overview(study: Any, title: str | None = None) -> Figure:
     """Draw :func:`~carom.plots.equilibria_and_orbits` of a study.
 
     Raises
@@ -98,26 +93,23 @@ def overview(study: Any, title: str | None = None, *, virtual: bool = False) -> 
         allowed = "a rotor without weight; carom.plots.motion and carom.plots.basin draw what one with weight does"
         raise InputError("study", "of a rotor under gravity", allowed)
     points = cast("tuple[Equilibrium, ...]", study.equilibria)
-    return equilibria_and_orbits(study.orbits, points, title, virtual=virtual)
+    return equilibria_and_orbits(study.orbits, points, title)
 
 
 def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
     """Draw the paths of orbits, with a mark at the first impact of each and an entry of the legend for each kind."""
     for orbit, line in shown.items():
         meaning = orbit_look(orbit)
-        look = LOOKS["outside" if meaning == "virtual" else meaning]
+        look = LOOKS[meaning]
         path(axes, line, look, label="", wall=wall)
-        if meaning != "virtual":
-            direction_arrow(axes, line, look)
+        direction_arrow(axes, line, look)
         point(axes, complex(line[0]), meaning, hollow=meaning != "stable", size=3.2, label="", layer=5.0)
     for meaning in dict.fromkeys(orbit_look(orbit) for orbit in reversed(list(shown))):
-        look, line_look = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
+        look = LOOKS[meaning]
         axes.plot(
             [],
             [],
-            linestyle=line_look.line,
-            color=line_look.colour,
-            lw=line_look.width,
+            **look.stroke,
             marker=look.marker,
             markersize=3.2,
             markerfacecolor=look.colour if meaning == "stable" else "white",

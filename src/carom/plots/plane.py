@@ -250,11 +250,16 @@ def look_closer(axes: Axes, middle: complex, half: float, wall: float = 1.0) -> 
     axes.set(xlim=(middle.real - half, middle.real + half), ylim=(middle.imag - half, middle.imag + half))
 
 
-def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
+def one_axes(size: tuple[float, float]) -> tuple[Figure, Axes]:
+    """Return axes of a new figure of that size [inch]."""
+    figure = StyledFigure(figsize=size)
+    return figure, figure.subplots()
+
+
+def axes_of(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
     """Return axes of a new figure of that size [inch], or those of the user with their figure."""
     if axes is None:
-        figure = StyledFigure(figsize=size)
-        return figure, figure.subplots()
+        return one_axes(size)
     owner = axes.get_figure(root=True)
     if owner is None:
         raise InputError("axes", axes, "must belong to a figure")

@@ -12,7 +12,7 @@ from matplotlib.patheffects import Normal, Stroke
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
-from carom.plots.diagrams import CURVES, FAINT, curve_line
+from carom.plots.diagrams import CURVES, curve_line
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter
 from carom.plots.plane import legend_above
@@ -31,15 +31,10 @@ _HEIGHT, _LINE = 0.6, 0.135
 
 @checked
 @styled
-def region_map(found: RegionMap, virtual: bool = False) -> Figure:
+def region_map(found: RegionMap) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
     Each region has its number in the JSON document, by which it is described below the axes, without the motions of all regions.
-
-    Parameters
-    ----------
-    virtual : bool
-        Draw the curves of virtual motions too, faint.
     """
     lines = [f"{number}: {_name(found, region)}" for number, region in enumerate(found.regions, start=1)]
     if found.everywhere:
@@ -52,14 +47,14 @@ def region_map(found: RegionMap, virtual: bool = False) -> Figure:
         _draw_cells(drawn, found, units)
     # The broad line of non-smooth Hopf bifurcations lies below all others.
     for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
-        curve_line(drawn, curve, units, virtual)
+        curve_line(drawn, curve, units, virtual=False)
     for number, region in enumerate(found.regions, start=1):
         _write(drawn, str(number), np.array(region.point) / units, "numeral", ha="center", va="center")
     scales = found.model.scales
     aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
     label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
     drawn.set(xlim=np.array(found.plane.first_range) / units[0], ylim=np.array(found.plane.second_range) / units[1])
-    legend_above(drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual)], 3, aside=aside)
+    legend_above(drawn, [*_curve_key(found), *_mark_points(drawn, found, units)], 3, aside=aside)
     handles = [Line2D([], [], ls="none", label=with_symbols(line)) for line in lines]
     figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
     return figure
@@ -101,20 +96,18 @@ def _name(found: RegionMap, region: Region) -> str:
     return ", ".join(lines) or "none of these motions"
 
 
-def _curve_key(found: RegionMap, virtual: bool) -> list[Line2D]:
+def _curve_key(found: RegionMap) -> list[Line2D]:
     """Return the legend entries of the curves, with their orbits."""
     lines = []
-    shown = [curve for curve in found.curves if virtual or np.any(curve.admissible)]
+    shown = [curve for curve in found.curves if np.any(curve.admissible)]
     for kind, look in CURVES.items():
         if any(curve.kind == kind for curve in shown):
             orbits = found.orbits_of(kind)
             lines.append(look.entry(f"{look.words}: {with_symbols(orbits)}" if orbits else ""))
-    if not all(np.all(curve.admissible) for curve in shown) and virtual:
-        lines.append(Line2D([], [], color=_BLACK, lw=1.1, alpha=FAINT, label="faint: virtual motions only"))
     return lines
 
 
-def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray, virtual: bool) -> list[Line2D]:
+def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D]:
     """Mark meeting points, resonances, changes without a curve and the machine; return their legend entries."""
     entries: dict[str, Line2D] = {}
 
@@ -125,7 +118,7 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray, virtual: bool)
         entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=filled, mec=edge, label=words))
 
     for point in found.codimension2:
-        if not (point.admissible or virtual):
+        if not point.admissible:
             continue
         resonance = point.resonance
         look = ("resonance of the multipliers", "D", 4.0) if resonance else ("two at once", "o", 4.5)

@@ -25,7 +25,7 @@ _LINEAR_UP_TO = 2.0
 
 @checked
 @styled
-def multipliers(orbits: Iterable[Orbit], *, virtual: bool = False, axes: Axes | None = None) -> Figure:
+def multipliers(orbits: Iterable[Orbit]) -> Figure:
     """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
 
     An orbit is stable if all its multipliers lie inside the circle.  A multiplier that leaves it through +1 means a
@@ -33,32 +33,17 @@ def multipliers(orbits: Iterable[Orbit], *, virtual: bool = False, axes: Axes | 
     beyond -1 and 1.
 
     A new figure is 88 mm wide.
-
-    Parameters
-    ----------
-    virtual : bool
-        Draw the multipliers of virtual orbits too; if there are more than twelve orbits, these share one small marker.
     """
-    every = [orbit for orbit in orbits if orbit.admissible or virtual]
-    grouped = [orbit for orbit in every if not orbit.admissible] if len(every) > len(_SHAPES) else []
-    shown = [orbit for orbit in every if orbit not in grouped]
-    entries = len(shown) + bool(grouped)
-    columns = 1 if entries <= 4 else 2
-    lines = -(-entries // columns)
-    figure, drawn = one_axes(axes, (ONE_COLUMN, 0.97 * ONE_COLUMN + 0.15 * lines))
-    _plane(drawn, max((float(np.abs(orbit.multipliers.values).max()) for orbit in every), default=1.0))
+    shown = [orbit for orbit in orbits if orbit.admissible]
+    columns = 1 if len(shown) <= 4 else 2
+    lines = -(-len(shown) // columns)
+    figure, drawn = one_axes((ONE_COLUMN, 0.97 * ONE_COLUMN + 0.15 * lines))
+    _plane(drawn, max((float(np.abs(orbit.multipliers.values).max()) for orbit in shown), default=1.0))
     for orbit, shape in zip(shown, cycle(_SHAPES), strict=False):
         _markers(drawn, orbit, shape)
-    if grouped:
-        values = np.concatenate([orbit.multipliers.values for orbit in grouped])
-        look, words = LOOKS["virtual"], f"{len(grouped)} orbits \N{EM DASH} {LOOKS['virtual'].words}"
-        drawn.plot(values.real, values.imag, ".", ms=2.5, color=look.colour, label=words, zorder=2, gid="virtual")
-    if not every:
-        drawn.plot([], [], linestyle="none", label="no periodic orbit" if virtual else "no possible periodic orbit")
-    if axes is None:
-        figure.legend(*drawn.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
-    else:
-        drawn.legend(loc="upper left", bbox_to_anchor=(1.03, 1.0))
+    if not shown:
+        drawn.plot([], [], linestyle="none", label="no possible periodic orbit")
+    figure.legend(*drawn.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
     return figure
 
 

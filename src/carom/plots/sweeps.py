@@ -66,7 +66,6 @@ def sweep_map(
     title: str | None = None,
     *,
     present: Mapping[str, float] | None = None,
-    axes: Axes | None = None,
 ) -> Figure:
     """Draw a variable of a sweep over its two axes, or over its only one.
 
@@ -94,7 +93,7 @@ def sweep_map(
     if not 1 <= len(dimensions) <= 2 or not set(dimensions) <= spacings.keys():
         remedy = "a variable over one or two axes of the sweep; choose values of the other dimensions first, with sel"
         raise InputError("name", f"{name} over {', '.join(dimensions) or 'nothing'}", remedy)
-    figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
+    figure, drawn = one_axes((0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     places, sizes = [], []
     for dimension, direction in zip(dimensions, "xy", strict=False):
         varied = _field(data[dimension])

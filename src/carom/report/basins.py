@@ -47,6 +47,8 @@ def caption(study: Study) -> str:
     words = [_SEEN[decisive(study)]]
     if study.rotor.depends_on_instant:
         words.append(f"Each comes {ITS_INSTANT}.")
+    if not study.levitates:
+        words.append("Now there is no stable levitation to come back to.")
     if study.recommendation.advised is None:
         words.append(_MISSING[study.recommendation.kind])
     return " ".join(words)
@@ -56,15 +58,14 @@ def draw(study: Study) -> Figure:
     """Draw the basin now, and beside it that after the change that is advised."""
     kind, change = decisive(study), study.recommendation.advised
     model = _disturbances(study, kind)
-    here = _basin(study.rotor, model, kind) if study.levitates else "There is no stable levitation to come back to."
-    if change is None:
-        panels = [("", here)]
-    else:
+    panels = [("now" if change else "", _basin(study.rotor, model, kind))] if study.levitates else []
+    if change is not None:
         # As the study moved the machine to the value that it checked.
         changed = axis(study.rotor, change.parameter).move(study.rotor, change.value)
         there = _basin(changed, model.rescaled(study.rotor.scales, changed.scales), kind)
         entry, value = entry_words(change.terms.entry), in_terms_of(study.case, change.parameter, change.present).text
-        panels = [(f"now\n{entry} {value}", here), (f"after the change\n{entry} {change.terms.text}", there)]
+        panels = [(f"{title}\n{entry} {value}", cells) for title, cells in panels]
+        panels.append((f"after the change\n{entry} {change.terms.text}", there))
     with plots.heading(study.case.name):  # the panels say the values
         return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind))
 

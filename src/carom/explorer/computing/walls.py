@@ -122,7 +122,7 @@ COMPLIANT = Wall(
     "contact",
     "contact",
     "largest force",
-    "Arrivals at the bearing",
+    "Impacts at the bearing",
     "Angle and radial speed on entering it.",
     "contact",
     "looking for the largest force",
