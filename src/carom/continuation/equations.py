@@ -76,7 +76,7 @@ class Equations:
             size = max(sizes)
             good = size <= self.steps.tolerance or correction <= self.steps.tolerance
             if size > previous / 30.0 and not good:
-                inverse = applied(np.linalg.inv, self.jacobian(x), normal)
+                inverse = self.inverse(x, normal)
             if inverse is None:
                 return x if good else None
             right[:-1], right[-1] = -value, normal @ (guess - x)
@@ -96,7 +96,11 @@ class Equations:
 
     def near_fold(self, guess: np.ndarray, here: Point) -> np.ndarray | None:
         """The same beside a fold, in the normal hyperplane: by Newton's method, for the direction of the branch has to be exact."""
-        return self.correct(guess, here.tangent, applied(np.linalg.inv, self.jacobian(guess), here.tangent))
+        return self.correct(guess, here.tangent, self.inverse(guess, here.tangent))
+
+    def inverse(self, x: np.ndarray, normal: np.ndarray) -> np.ndarray | None:
+        """Inverse of the Jacobian at a point, bordered by a normal."""
+        return applied(np.linalg.inv, self.jacobian(x), normal)
 
     def tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
         """Unit tangent on the side of ``along``."""

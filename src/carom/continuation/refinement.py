@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from carom.continuation.branch import Branch, Steps
-from carom.continuation.equations import Equations, Function, applied
+from carom.continuation.equations import Equations, Function
 
 HALVINGS = 6
 """Largest number of times that a step is halved to insert points."""
@@ -52,7 +52,7 @@ def refined_points(
             return []
         length = float(np.linalg.norm(chord))
         normal = chord / length
-        found = equations.correct(middle, normal, applied(np.linalg.inv, equations.jacobian(middle), normal))
+        found = equations.correct(middle, normal, equations.inverse(middle, normal))
         if found is None or np.linalg.norm(found - middle) > 0.5 * length:
             return []
         if np.linalg.norm((found - middle) * scales / widths) <= bend:

@@ -141,7 +141,6 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
     See Also
     --------
     carom.studies.unbalance_response : with critical speeds, limits of standards and contact
-    carom.closed_forms.speed_response : of the rotor with one mass in closed form
 
     Examples
     --------

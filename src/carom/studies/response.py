@@ -14,7 +14,7 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import in_a_line
-from carom.closed_forms import find_equilibria, rolling, speed_response
+from carom.closed_forms import contact_changes, find_equilibria, rolling, rub_angles
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
@@ -108,7 +108,7 @@ def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     """Synchronous rubs over the speed in one touchdown bearing, where nothing stands in the fixed frame."""
     system = model.system
     if found.exact:
-        angles = speed_response(found.case).rub_angles(found.speeds)
+        angles = rub_angles(found.case, found.speeds)
         return Rubs(found.speeds, -angles % math.tau, np.where(np.isnan(angles), np.nan, 1.0))
     if len(system.contacts) > 1 or system.outer.any() or system.is_anisotropic or system.shaft is not None:
         return None
@@ -137,7 +137,7 @@ def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[Stretch,
         return Steady(clear, sum(pushed), len(pushed) - sum(pushed), rolls)
 
     if found.exact:
-        return stretches_between(found.interval, speed_response(found.case).contact_changes(), steady)
+        return stretches_between(found.interval, contact_changes(found.case), steady)
     edges = found.reaching(1.0)
     if found.rubs is not None:
         edges += _bisected(found.rubs.speeds.tolist(), lambda speed: steady(speed)[1:])

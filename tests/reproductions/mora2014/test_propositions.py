@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from machines import PAPER
@@ -9,7 +11,9 @@ from machines import PAPER
 from carom import find_orbits
 from carom.base.outcome import InputError
 from carom.models import jeffcott
-from carom.reproductions.mora2014.propositions import fixed_points, hopf_side
+from carom.reproductions.mora2014.propositions import cycles_at_wall, fixed_points, hopf_side
+
+BOUNDARY = PAPER.replace(gamma=float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)))
 
 
 @pytest.mark.parametrize("gamma", [0.03, 0.06, 0.1, 0.17, 0.2])
@@ -57,3 +61,22 @@ def test_the_side_is_a_result_not_a_constant():
             small = [o for o in orbits if abs(o.period - cycle.period) < 1e-3 and abs(o.radial_speed) < 1e-2]
             assert any(orbit.radial_speed > 0.0 for orbit in small)
     assert sides == {"subcritical", "supercritical"}
+
+
+@pytest.mark.parametrize("parameter", ["gamma", "rho", "omega"])
+def test_slopes_are_those_of_the_exact_branches(parameter):
+    """Derivatives of the exact branches by a parameter: central differences extrapolated twice, error of order h⁶."""
+    stiffness = complex(BOUNDARY.omega**2 - 1.0, BOUNDARY.gamma)
+    rates = {"gamma": -1j / stiffness, "rho": 1.0 / BOUNDARY.rho, "omega": -2.0 * BOUNDARY.omega / stiffness}
+    cycles, here = cycles_at_wall(BOUNDARY, complex(rates[parameter])), getattr(BOUNDARY, parameter)
+    assert len(cycles) == 2
+
+    def state(name, value):
+        orbit = find_orbits(jeffcott(BOUNDARY.replace(**{parameter: value})))[name]
+        return np.array([orbit.radial_speed, orbit.angular_speed, orbit.angle])
+
+    for name, cycle in zip(("B1,a", "B1,b"), cycles, strict=True):
+        table = [(state(name, here + h) - state(name, here - h)) / (2 * h) for h in (4e-4, 2e-4, 1e-4)]
+        first = [(4 * fine - coarse) / 3 for coarse, fine in pairwise(table)]
+        got = cycle.radial_slope, cycle.angular_slope, cycle.angle_slope
+        assert got == pytest.approx((16 * first[1] - first[0]) / 15, abs=1e-8)

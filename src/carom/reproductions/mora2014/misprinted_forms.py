@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.closed_forms.local import ContactSystem
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import jeffcott
 from carom.orbits.orbit import Orbit
@@ -212,11 +211,13 @@ def _letters_of_section_5(branches: FirstPair) -> dict[str, _Values]:
     """Evaluate the symbols of section 5 that are printed in place of others, on the small ``B1,b``."""
     hopf = branches.hopf
     cycle = max(hopf.cycles, key=lambda entry: entry.period)
-    system = ContactSystem.of_rotor(machine_at(hopf.gamma))
-    rest = system.equilibrium  # u₀ = e^{iΨ}, as σ = 1
-    shift = -1j * rest / system.stiffness  # u₁ = c e^{iψ} of the equilibrium, with β₁ = i and Γ₁ = 0
+    rotor = jeffcott(machine_at(hopf.gamma))
+    rest = rotor.equilibrium  # u₀ = e^{iΨ}, as σ = 1
+    shift = (
+        -1j * rest / complex(rotor.parameters.omega**2 - 1.0, hopf.gamma)
+    )  # u₁ = c e^{iψ} of the equilibrium, with β₁ = i and Γ₁ = 0
     across = cycle.angle_slope * 1j * rest  # r₁,₀ e^{iθ₁,₀} with θ₁,₀ = Ψ + π/2
-    condition = PeriodCondition.of(system.system)
+    condition = PeriodCondition.of(rotor.system)
     # From ṙ = −ε r₁,₀θ̇₁,₀ at the impact; the normal is e^{iΨ}.
     lever = complex((condition.factor * condition.a12(np.array([cycle.period])))[0]) * cycle.radial_slope * rest
     printed, right = abs(shift / abs(shift) + abs(shift) * across), abs(rest + SMALL * across)

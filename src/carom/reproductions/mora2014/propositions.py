@@ -6,12 +6,14 @@ equilibrium meets the wall and ``N`` pairs of periods.
 
 from __future__ import annotations
 
+import cmath
 from dataclasses import dataclass
+from typing import Literal
 
 from carom.base.outcome import InputError
-from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
+from carom.closed_forms.small_cycles_at_walls import SmallCycle, small_cycles
 from carom.closed_forms.thresholds import ranges_of
-from carom.models import jeffcott
+from carom.models import Rotor, jeffcott
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
@@ -41,6 +43,27 @@ class FixedPoints:
     outward: int
     admissible: int
     levitates: bool
+
+
+@dataclass(frozen=True)
+class LocalCycle:
+    """A family of small impacting cycles, to first order in the distance ``ε`` of a parameter from the bifurcation.
+
+    Attributes
+    ----------
+    period : float
+        ``T``, the same for all sizes.
+    radial_slope, angular_slope, angle_slope : float
+        ``dṙ/dε``, ``dθ̇/dε`` and ``dθ₀/dε`` of the state just before the impact.
+    criticality : {"subcritical", "supercritical"}
+        Subcritical: the cycles exist on the side where the contact-free equilibrium is admissible.
+    """
+
+    period: float
+    radial_slope: float
+    angular_slope: float
+    angle_slope: float
+    criticality: Literal["subcritical", "supercritical"]
 
 
 @dataclass(frozen=True)
@@ -84,6 +107,34 @@ def hopf_side(parameters: Parameters) -> HopfSide:
     ((wall, _),) = ranges_of("contact-free", parameters, "gamma")
     if not wall.kind:
         raise InputError("rho", parameters.rho, f"above |1 - omega^2| = {abs(1.0 - parameters.omega**2):.6g}")
-    system = ContactSystem.of_rotor(parameters.replace(gamma=wall.value))
-    hopf = non_smooth_hopf(system, -1j * system.equilibrium / system.stiffness)
-    return HopfSide(wall.value, hopf.cycles)
+    at = parameters.replace(gamma=wall.value)
+    return HopfSide(wall.value, cycles_at_wall(at, -1j / complex(at.omega**2 - 1.0, at.gamma)))
+
+
+def cycles_at_wall(parameters: Parameters, rate: complex) -> tuple[LocalCycle, ...]:
+    """Cycles that are born where levitation meets the wall, as a parameter varies.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Those there: ``|K| = 1`` for the equilibrium ``K``.
+    rate : complex
+        ``K'/K`` by the parameter.  Its real part ``κ`` is the rate at which the equilibrium leaves the wall.
+    """
+    rotor = jeffcott(parameters)
+    return tuple(_along(rotor, cycle, rate) for cycle in small_cycles(rotor).cycles)
+
+
+def _along(rotor: Rotor, cycle: SmallCycle, rate: complex) -> LocalCycle:
+    """A small cycle, which is known by the distance of the equilibrium from the wall, by a parameter."""
+    arrays = rotor.system.arrays
+    normal = cmath.exp(-1j * cmath.phase(rotor.equilibrium))
+    outward = -rate.real if cycle.levitating_side else rate.real
+    displacement, velocity = (complex(normal * (row @ cycle.state)) for row in (arrays.rows[0], arrays.rate_rows[0]))
+    return LocalCycle(
+        period=cycle.period,
+        radial_slope=outward * velocity.real,
+        angular_slope=outward * velocity.imag,
+        angle_slope=rate.imag + outward * displacement.imag,
+        criticality=cycle.criticality,
+    )
