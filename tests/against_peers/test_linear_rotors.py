@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from compilation import sized
 from linear_rotors import bending, single, tilting, to_fixed
 
 from carom.base.outcome import Outcome, Phase
-from carom.basins import map_basins
-from carom.closed_forms.rub_stability import sliding_rates
-from carom.disturbances import Grid, KickPlane, kick
+from carom.disturbances import kick
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -117,66 +113,6 @@ def test_no_plane_leaves_its_clearance(rotor):
             assert motion.seen_at(plane).radius(times).max() < 1.0 + 1e-11
 
 
-def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
-    """Flights and impacts, in the fixed frame; a flight by quadrature of its powers."""
-    nodes, weights = np.polynomial.legendre.leggauss(24)
-    for motion in motions(rotor, 20.0, 2):
-        system, ends = motion.rotor.system, np.append(motion.segment_starts, motion.time)
-        flying = np.flatnonzero((motion.segment_phases == Phase.FLIGHT).all(axis=1))[:40]
-        for place in flying[flying < len(motion.event_amplitudes)]:
-            half = 0.5 * (ends[place + 1] - ends[place])
-            if not half or half > 2.0:
-                continue
-            times = ends[place] + half * (1.0 + nodes)
-            position, velocity = (np.reshape(part, (24, -1)) for part in motion.at(times))
-            _, speed = to_fixed(times, position, velocity)
-            force = np.exp(1j * times)[:, None] * rotor.forcing - speed @ rotor.damping.T
-            gained = half * weights @ (speed.conj() * force).real.sum(axis=1)
-            around = [motion.segment_amplitudes[place], motion.event_amplitudes[place]]
-            states = [
-                to_fixed(t, *(np.atleast_1d(p) for p in system.state(c)))
-                for t, c in zip(ends[place:], around, strict=False)
-            ]
-            before, after = (rotor.energy(*state) for state in states)
-            assert after - before == pytest.approx(gained, abs=1e-10)
-        chosen, log = motion.is_impact, motion.log_of(motion.is_impact)
-        events = np.searchsorted(np.flatnonzero(chosen), motion.impulses(chosen).events)
-        times, work = motion.segment_starts[1:][chosen], np.bincount(events, log.contact_work + log.drive_work)
-        energies = [
-            rotor.energy(
-                *to_fixed(times, *(np.reshape(p, (len(times), len(rotor.mass))) for p in system.state(states[chosen])))
-            )
-            for states in (motion.event_amplitudes, motion.segment_amplitudes[1:])
-        ]
-        # Both energies are rounded, and some motions are fast.
-        assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-12 * (1.0 + energies[0].max()))
-
-
-def test_a_synchronous_rub_at_two_planes_attracts_as_its_exponents_say():
-    rotor = ROTORS["pressed, 4 modes, 2 planes"]
-    system = rotor.model.system
-    found = simulate(rotor.model, State(np.zeros(2, complex), np.zeros(2, complex)), settle=True)
-    assert found.outcome is Outcome.FORWARD_RUB
-    assert found.segment_phases[-1].tolist() == [Phase.FORWARD_SLIP] * 2
-    position, velocity = found.final.position, found.final.velocity
-    assert np.abs(velocity).max() < 1e-8
-    rates = sliding_rates(system, found.segment_amplitudes[-1], found.segment_phases[-1])
-    assert len(rates) == 4
-    assert rates.real.max() < 0.0
-    # Slides along both walls from nearby; the slowest exponent remains.
-    slips, times = {0: 1, 1: 1}, np.array([0.0, 60.0, 90.0])
-    angles = np.angle(rotor.planes @ position) + np.array([1e-3, 2e-3])
-    moved = np.linalg.solve(rotor.planes, np.exp(1j * angles))
-    states = [to_fixed(0.0, moved, np.zeros(2, complex))]
-    for before, after in itertools.pairwise(times):
-        states.append(rotor.follow(before, after, *states[-1], slips))
-    apart = [np.abs(state[0] * np.exp(-1j * time) - position).max() for time, state in zip(times, states, strict=True)]
-    slowest = rates[rates.real.argmax()]
-    assert apart[1] < 1e-6
-    if abs(slowest.imag) < 1e-9:
-        assert np.log(apart[2] / apart[1]) / 30.0 == pytest.approx(slowest.real, abs=0.01)
-
-
 def test_planes_that_meet_their_walls_together():
     """A symmetric rotor without tilt: both ends strike at once, and are struck one after the other."""
     rotor = tilting(arms=(0.7, -0.7), gyroscopic=np.zeros((2, 2)), forcing=np.array([0.25 * np.exp(0.2j), 0.0]))
@@ -187,20 +123,6 @@ def test_planes_that_meet_their_walls_together():
         times = motion.sample(1000)
         assert max(motion.seen_at(plane).radius(times).max() for plane in (0, 1)) < 1.0 + 1e-11
     assert Outcome.GRAZING not in outcomes
-
-
-def test_basins_and_settling_of_a_rotor_with_two_planes():
-    """Each start ends as its motion does alone; the map is saved, read and drawn like any other."""
-    model = tilting().model
-    plan = Grid(KickPlane(2.0), (4, 3))
-    basin = map_basins(model, plan)
-    starts = plan.starts(model)
-    for place in np.argwhere(starts.exists):  # cells in the corners lie outside the disc of kicks
-        place = tuple(place)
-        alone = simulate(model, State(starts.positions[place], starts.velocities[place]), settle=True)
-        assert basin.outcomes[place] == alone.outcome
-        assert basin.dataset["time"].values[place] == pytest.approx(alone.time, rel=1e-12)
-    assert basin.unresolved == 0
 
 
 @pytest.mark.parametrize(("inertia", "restitution"), [(0.1, 0.3), (0.06, 0.0), (0.1, 0.9)])

@@ -7,7 +7,6 @@ import pytest
 from carom.attractors.settled import forces_on, same_motion, settled_motion, whirl_of
 from carom.base.outcome import Outcome
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.whirl import rolling
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -44,21 +43,6 @@ def test_where_no_orbit_closes_the_last_impacts_are_compared(bouncing, doubled):
 
 
 @pytest.mark.jit_only
-def test_orbit_of_two_impacts_closes(doubled):
-    ended = settled_motion(doubled[0])
-    log = simulate(doubled[0].rotor, ended.orbit.section.state, 1.2 * ended.period).contacts
-
-    assert ended.orbit.stable
-    assert ended.orbit.admissible
-    assert log.time[2] == pytest.approx(ended.period, abs=1e-9)
-    assert log.radial_speed[:2] == pytest.approx(ended.orbit.impact_speeds, abs=1e-9)
-    assert log.radial_speed[2] == pytest.approx(log.radial_speed[0], abs=1e-9)
-    assert log.angular_speed[2] == pytest.approx(log.angular_speed[0], abs=1e-9)
-    assert log.angle[2] == pytest.approx(log.angle[0], abs=1e-9)
-    assert abs(log.radial_speed[1] - log.radial_speed[0]) > 1e-2
-
-
-@pytest.mark.jit_only
 def test_bouncing_with_rub_repeats_an_orbit_with_lasting_contact():
     parameters = Parameters(0.0431456484, 1.25902546543, 1.31671186334, 0.0, 0.427612705, 0.43781982, 2.0)
     motion = settled(jeffcott(parameters), State(0.3, 0.5 + 1.0j))
@@ -85,24 +69,3 @@ def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
     assert impulse == 0.0
     assert force == pytest.approx(rub.normal_force, rel=1e-8)
     assert whirl_of(ended) == "forward"
-
-
-@pytest.mark.jit_only
-@pytest.mark.parametrize("ratio", [5.0, 400 / 7])
-def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
-    # Damping halfway between that up to which rolling holds and that beyond which no backward whirl can.
-    parameters = SOURCE.replace(radius_ratio=ratio, rho=1.0)
-    limits = rolling(jeffcott(parameters))
-    rotor = jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
-    motion = settled(rotor, State(1.0 + 0j, -1j * (1.0 + ratio)))
-    ended = settled_motion(motion)
-
-    assert (ended.outcome, ended.synchronous) == (Outcome.BACKWARD_WHIRL, False)
-    assert ended.period > limits.period
-    again = simulate(rotor, motion.final, ended.period).final
-    assert again.position == pytest.approx(motion.final.position, abs=1e-8)
-    assert again.velocity == pytest.approx(motion.final.velocity, abs=1e-8 * ratio)
-    assert whirl_of(ended) == "backward"
-    impulse, force = forces_on(ended)
-    assert impulse == 0.0
-    assert limits.least_force < force <= limits.largest_force

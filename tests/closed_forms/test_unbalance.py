@@ -6,10 +6,9 @@ import math
 from itertools import pairwise
 
 import numpy as np
-import pytest
 from compilation import sized
 
-from carom.closed_forms import contact_changes, find_equilibria, rolling, rub_angles
+from carom.closed_forms import contact_changes, find_equilibria, rolling
 from carom.models import jeffcott
 from carom.parameters import Machine
 
@@ -51,24 +50,6 @@ def test_steady_motions_change_only_at_the_speeds_listed():
             changes += before is not None and before not in found
             before = next(iter(found))
     assert changes > 20
-
-
-def test_rub_angles_are_those_of_the_equilibria():
-    random = np.random.default_rng(5)
-    count = 0
-    for _ in range(sized(compiled=40, interpreted=10, deep=400)):
-        machine = random_machine(random)
-        speeds = math.sqrt(machine.stiffness / machine.mass) * random.uniform(0.5, 3.0, 4)
-        for speed, angles in zip(speeds, rub_angles(machine, speeds).T, strict=True):
-            rotor = jeffcott(machine.parameters.replace(speed=speed))
-            rubs = {rub.stable: rub for rub in find_equilibria(rotor)[1:] if rub.status == "admissible"}
-            for angle, stable in zip(angles, (True, False), strict=True):
-                assert math.isnan(angle) == (stable not in rubs)
-                if stable in rubs:
-                    turned = np.exp(1j * (angle + rotor.unbalance_phase))
-                    assert turned == pytest.approx(complex(rubs[stable].places[0]), abs=1e-7)
-                    count += 1
-    assert count > 20
 
 
 def steady(machine: Machine, speed: float) -> tuple[object, ...]:

@@ -11,10 +11,7 @@ import pytest
 from compilation import sized
 from linear_rotors import FixedFrame, random_rotor, single, tilting
 
-import carom
-from carom.disturbances import AnyState, ContactRelease, Grid, Sample, StateSlice
 from carom.disturbances.shocks import states_after_shocks
-from carom.models import jeffcott
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,32 +108,3 @@ def test_random_rotors_and_shocks():
         assert np.allclose(velocities[0], speed, rtol=0, atol=1e-6), seed
         checked += 1
     assert checked > 0
-
-
-@pytest.mark.parametrize(
-    "model",
-    [
-        single().model,
-        tilting().model,
-        three_masses().model,
-        jeffcott(carom.load("examples/source-paper.toml").parameters),
-    ],
-)
-@pytest.mark.parametrize("release", ["fixed", "rotating", "rolling"])
-def test_displaced_rotors_touch_with_the_plane_that_moves_farthest(model, release):
-    starts = Grid(ContactRelease(release), (7,)).starts(model)
-    positions, velocities = (values.reshape(7, -1) for values in (starts.positions, starts.velocities))
-    places, speeds = positions @ model.system.planes.T, velocities @ model.system.planes.T
-    plane = int(np.abs(places[0]).argmax())
-    assert np.allclose(np.abs(places[:, plane]), 1.0, rtol=0, atol=1e-14)
-    assert (np.abs(places) <= 1.0 + 1e-14).all()
-    assert starts.touched.all()
-    fixed = speeds[:, plane] + 1j * places[:, plane]  # velocity of the plane in the fixed frame
-    expected = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - model.system.arrays.surface_speed[plane]}[release]
-    assert np.allclose(fixed, 1j * expected * places[:, plane], rtol=0, atol=1e-12)
-    states = Sample(AnyState(), 50, 0).starts(model)
-    reached = np.abs(states.positions.reshape(50, -1) @ model.system.planes.T).max(axis=1)
-    assert 0.8 < reached.max() <= 1.0 + 1e-14
-    assert states.exists.all()
-    cells = Grid(StateSlice(0.1), (5, 5)).starts(model)
-    assert cells.exists.sum() == 21

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import dataclasses
 import math
 
 import numpy as np
@@ -12,8 +11,6 @@ from compilation import sized
 from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from machines import PAPER
-from scipy.integrate import solve_ivp
 
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
@@ -86,61 +83,6 @@ def test_machines_with_the_same_parameters_move_alike(machine, start, scales):
     assert error <= 400 * EPSILON * size * amplification
 
 
-def test_the_same_motion_integrated_in_si_units():
-    """Newton's law in kilograms, metres and seconds in the fixed frame, by a general integrator with events."""
-    scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-    machine = dataclasses.replace(PAPER, scales=scales)
-    physical = Machine.from_parameters(machine)
-    start = State(0.3 + 0.1j, 0.9 - 0.4j)
-    motion = simulate(jeffcott(machine), start, 12.0)
-    columns = {name: column.values for name, column in motion.contacts.to_dataset().variables.items()}
-    position = start.position * physical.clearance
-    velocity = (start.velocity + 1j * start.position) * physical.clearance * physical.speed
-    time = 0.0
-    assert len(motion.contacts) >= 5
-    for index in range(5):
-        time, position, velocity = next_contact(physical, time, position, velocity)
-        assert time == pytest.approx(columns["time"][index], rel=1e-8)
-        normal = position / abs(position)
-        radial, tangential = (normal.conjugate() * velocity).real, (normal.conjugate() * velocity).imag
-        assert radial == pytest.approx(columns["radial_speed"][index], rel=1e-6)
-        impulse = physical.mass * (1.0 + physical.restitution) * radial
-        assert impulse == pytest.approx(columns["normal_impulse"][index], rel=1e-6)
-        slip = physical.rotor_radius * physical.speed + tangential
-        assert slip == pytest.approx(columns["slip_before"][index], rel=1e-8)
-        friction = -math.copysign(min(physical.friction * impulse, physical.mass * abs(slip)), slip)
-        assert friction == pytest.approx(columns["friction_impulse"][index], rel=1e-6)
-        velocity += normal * complex(-impulse, friction) / physical.mass
-
-
-def next_contact(physical, time, position, velocity):
-    """Time, position and velocity where the rotor next reaches the clearance circle."""
-    unbalance = physical.mass * physical.eccentricity * physical.speed**2
-
-    def newton(moment, state):
-        place, speed = complex(state[0], state[1]), complex(state[2], state[3])
-        force = unbalance * cmath.exp(1j * (physical.speed * moment + physical.unbalance_phase))
-        push = (force - physical.damping * speed - physical.stiffness * place) / physical.mass
-        return [speed.real, speed.imag, push.real, push.imag]
-
-    def gap(moment, state):
-        return math.hypot(state[0], state[1]) / physical.clearance - 1.0
-
-    gap.terminal, gap.direction = True, 1.0
-    solved = solve_ivp(
-        newton,
-        (time, time + 1.0),
-        [position.real, position.imag, velocity.real, velocity.imag],
-        method="DOP853",
-        events=gap,
-        rtol=1e-12,
-        atol=1e-15,
-        max_step=1e-3,
-    )
-    x, y, vx, vy = solved.y[:, -1]
-    return solved.t[-1], complex(x, y), complex(vx, vy)
-
-
 def energies(machine, motion, times):
     """Energy and angular momentum in the fixed frame, and Jacobi's integral in the co-rotating one."""
     position, velocity = motion.at(times)
@@ -184,12 +126,3 @@ def test_without_unbalance_and_friction_energy_only_falls(machine, start):
     motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
     energy, _, _ = energies(machine, motion, motion.sample(SAMPLES))
     assert np.all(np.diff(energy) <= 64 * EPSILON * (10.0 + motion.time) * (1.0 + energy[0]))
-
-
-def test_times_and_speeds_scale_with_the_shaft_speed():
-    slow, fast = (Scales(mass=50.0, clearance=0.7e-3, speed=speed) for speed in (100.0, 300.0))
-    log = simulate(jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.4j), 10.0).contacts
-    one, other = (dataclasses.replace(log, scales=scales).to_dataset() for scales in (slow, fast))
-    assert np.allclose(one["time"], 3.0 * other["time"], rtol=1e-15, atol=0)
-    for work in ("heat", "normal_loss", "drive_work"):
-        assert np.allclose(9.0 * one[work], other[work], rtol=1e-14, atol=0)

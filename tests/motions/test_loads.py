@@ -14,8 +14,6 @@ from scipy.integrate import solve_ivp
 from yielding_walls import with_walls
 
 import carom as cm
-from carom.base.outcome import Outcome
-from carom.closed_forms import rolling
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import drop_loads, energy_ledger
 from carom.parameters import Parameters
@@ -109,30 +107,6 @@ def test_heat_of_impacts_by_the_law_in_polar_form():
     assert loads.restitution_loss == pytest.approx(0.5 * (1.0 - PAPER.d**2) * (log.radial_speed**2).sum(), rel=1e-9)
     assert loads.lasting_power == 0.0  # it has not settled
     assert not loads.goes_on
-
-
-def test_motions_that_go_on():
-    machine = cm.load("examples/keogh-cole.toml")
-    rub = drop_loads(cm.simulate(machine, cm.kick(0.1, 2.0), settle=True)).planes[0]
-    (equilibrium,) = [one for one in cm.find_equilibria(machine) if one.kind == "rub" and one.stable]
-    at = machine.parameters
-    assert rub.outcome is Outcome.FORWARD_RUB
-    assert rub.lasting_power == pytest.approx(at.mu * equilibrium.normal_force * (at.radius_ratio + 1.0), rel=1e-6)
-    assert rub.goes_on
-    assert not rub.goes_on_bouncing
-    bouncing = drop_loads(cm.simulate(machine, cm.kick("50 mm/s"), settle=True)).planes[0]
-    orbit = cm.find_orbits(machine)["B1,d"]
-    taken = at.mu * (1.0 + at.d) * orbit.radial_speed
-    power = taken * (at.radius_ratio + 1.0 + orbit.angular_speed - 0.5 * taken) / orbit.period
-    assert bouncing.goes_on_bouncing
-    assert bouncing.lasting_power == pytest.approx(power, rel=1e-6)
-    place = cmath.rect(1.0, 0.3)
-    roll = drop_loads(cm.simulate(machine, cm.State(place, -1j * (1.0 + at.radius_ratio) * place), settle=True)).planes[
-        0
-    ]
-    assert roll.outcome is Outcome.ROLLING
-    assert roll.force == rolling(machine).largest_force
-    assert roll.lasting_power == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.jit_only

@@ -6,8 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
-from scipy.optimize import brentq
 
 from carom.base.outcome import CaromError, Outcome
 from carom.models import Rotor, jeffcott
@@ -17,7 +15,7 @@ from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
 from carom.orbits.recognising import orbit_of_motion
 from carom.parameters import Parameters
 from tests.compilation import sized
-from tests.machines import PAPER, flight_matrix, random_parameters, rest_position, strike
+from tests.machines import PAPER, random_parameters
 
 # Hundreds of impacts with their derivatives.
 pytestmark = pytest.mark.jit_only
@@ -132,70 +130,3 @@ def nearby_growth(rotor, state: State, time: float, count: int) -> tuple[float, 
             other = State(other.position / abs(other.position) * (1.0 - 1e-9), other.velocity)
         state = first
     return float(np.mean(rates[10:])), float(np.std(rates[10:]) / math.sqrt(len(rates) - 10))
-
-
-def test_all_exponents_agree_with_a_variational_integration():
-    """Matrix exponentials, root finding, and the derivative of the impact law and of the time of impact by hand."""
-    state = bouncing_from(jeffcott(CHAOTIC), 20, wanted=(Outcome.BOUNCING,))[0]
-    transient, impacts = 10, sized(40, 5)
-    found = lyapunov_exponents(CHAOTIC, state, impacts, transient=transient, batches=2)
-    position, velocity = state.position, state.velocity
-    directions, grown, lasted = np.eye(4)[:, 1:], np.zeros(3), 0.0
-    for impact in range(transient + impacts):
-        passage, time, position, velocity = _to_next_impact(CHAOTIC, position, velocity)
-        directions, triangle = np.linalg.qr(passage @ directions)
-        if impact >= transient:
-            grown += np.log(np.abs(np.diag(triangle)))
-            lasted += time
-    assert abs(lasted - found.time) < 1e-6 * lasted
-    expected = np.sort(grown / lasted)[::-1]
-    others = found.values[found.values != found.along]
-    # The error of the root finding grows with the motion.
-    np.testing.assert_allclose(others, expected, atol=1e-6)
-
-
-def _to_next_impact(parameters: Parameters, position: complex, velocity: complex):
-    """Derivative from just before an impact to just before the next, in real and then imaginary parts."""
-
-    def struck(values: np.ndarray) -> np.ndarray:
-        place, speed = values[0] + 1j * values[2], values[1] + 1j * values[3]
-        normal = place / abs(place)
-        local = speed / normal
-        after = normal * complex(*strike(parameters, local.real, local.imag))
-        return np.array([place.real, after.real, place.imag, after.imag])
-
-    matrix, rest = flight_matrix(parameters), rest_position(parameters)
-    whole = np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
-    offset = np.array([rest.real, 0.0, rest.imag, 0.0])
-
-    def flown(values: np.ndarray, time: float) -> np.ndarray:
-        return offset + expm(whole * time) @ (values - offset)
-
-    before = np.array([position.real, velocity.real, position.imag, velocity.imag])
-    step = 1e-5
-    # Differences of fourth order: their error is far below that of the integration.
-    jumps = np.array(
-        [
-            (8.0 * (struck(before + h) - struck(before - h)) - struck(before + 2 * h) + struck(before - 2 * h))
-            / (12.0 * step)
-            for h in step * np.eye(4)
-        ]
-    ).T
-    after = struck(before)
-    times = np.linspace(1e-6, 20.0, 2001)
-    propagate, state, heights = expm(whole * (times[1] - times[0])), flown(after, times[0]), []
-    for _ in times:
-        heights.append(state[0] ** 2 + state[2] ** 2 - 1.0)
-        state = offset + propagate @ (state - offset)
-    first = int(np.flatnonzero((np.array(heights[:-1]) < 0.0) & (np.array(heights[1:]) >= 0.0))[0])
-
-    def height(time: float) -> float:
-        there = flown(after, time)
-        return float(there[0] ** 2 + there[2] ** 2 - 1.0)
-
-    time = brentq(height, times[first], times[first + 1], xtol=1e-15, rtol=1e-14)
-    end = flown(after, time)
-    rate, normal = whole @ (end - offset), np.array([end[0], 0.0, end[2], 0.0])
-    carried = expm(whole * time) @ jumps
-    carried -= np.outer(rate, normal @ carried) / (normal @ rate)
-    return carried, time, complex(end[0], end[2]), complex(end[1], end[3])

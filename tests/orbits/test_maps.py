@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
+from machines import ExactMotion, fly, path, random_parameters, rest_position, strike
 
 from carom import simulate
 from carom.base.outcome import Outcome
@@ -136,37 +136,3 @@ def differences(rotor, section: Section, step: float) -> np.ndarray:
         return np.array(columns).T
 
     return (4.0 * central(step / 2) - central(step)) / 3.0
-
-
-def test_between_hit_and_miss_lies_grazing():
-    """A flight that touches the wall within rounding is said to graze; neighbours on either side hit there, or pass."""
-    parameters = PAPER.replace(gamma=0.06)
-    rotor = jeffcott(parameters)
-
-    def flight(speed: float):
-        return impact_map(rotor, Section(0.4, 0.6, speed))
-
-    # Bisect on the time of arrival, which jumps where the first of two maxima of r leaves the wall.
-    low, high = grazing_bracket(flight)
-    outcomes = [flight(float(speed)).outcome for speed in np.linspace(low, high, 60)]
-    assert Outcome.GRAZING in outcomes
-    before, after = flight(low - 1e-9), flight(high + 1e-9)
-    assert {before.outcome, after.outcome} == {Outcome.CONTACT}
-    assert abs(before.duration - after.duration) > 0.1
-    early = min(before, after, key=lambda mapped: mapped.duration)
-    assert early.image.radial_speed < 1e-3
-
-
-def grazing_bracket(flight) -> tuple[float, float]:
-    speeds = np.linspace(-3.0, 1.0, 400)
-    durations = np.array([flight(float(speed)).duration for speed in speeds])
-    jump = int(np.argmax(np.abs(np.diff(durations))))
-    low, high = float(speeds[jump]), float(speeds[jump + 1])
-    first = flight(low).duration
-    while high - low > 4e-15:
-        middle = 0.5 * (low + high)
-        if abs(flight(middle).duration - first) < 0.05 + 0.5 * abs(durations[jump + 1] - durations[jump]):
-            low = middle
-        else:
-            high = middle
-    return low - 1e-14, high + 1e-14
