@@ -19,8 +19,9 @@ from compliant_reference import (
     follow,
 )
 from mpmath import mpf
+from scipy.special import lambertw
 
-from carom.parameters.restitution import half_contact, restitution_of_damping, restitution_of_dissipation
+from carom.parameters.restitution import half_contact
 
 STIFFNESS, SPEED = 1e4, 1.3
 ERROR = 1e-11
@@ -40,7 +41,7 @@ def free_mass(law, friction=0.0):
 def test_a_spring_and_a_dashpot_restitute_as_they_should(damping):
     frequency = math.sqrt(STIFFNESS)
     ratio = damping / (2.0 * frequency)
-    restitution = restitution_of_damping(ratio)
+    restitution = math.exp(-2.0 * ratio * half_contact(ratio))
     motion = follow(free_mass(KelvinVoigt(STIFFNESS, damping)), [0.9], [SPEED], 0.4)
 
     assert [event.phase for event in motion.events] == [FORWARD, *[SEPARATED] * (damping > 0.0), AWAY]
@@ -55,7 +56,8 @@ def test_a_spring_and_a_dashpot_restitute_as_they_should(damping):
 @pytest.mark.parametrize("exponent", [1.0, 10 / 9, 1.5])
 @pytest.mark.parametrize("dissipation", [0.0, 0.1, 8.0])
 def test_a_hunt_crossley_wall_restitutes_as_it_should(exponent, dissipation):
-    restitution = restitution_of_dissipation(dissipation, SPEED)
+    above = 1.0 + dissipation * SPEED  # w e^(-w) has the same value at 1 - (restitution)(dissipation)(speed)
+    restitution = (1.0 + lambertw(-above * math.exp(-above)).real) / (above - 1.0) if dissipation else 1.0
     motion = follow(free_mass(HuntCrossley(STIFFNESS, dissipation, exponent)), [0.9], [SPEED], 0.5)
 
     assert [event.phase for event in motion.events] == [FORWARD, AWAY]
@@ -68,7 +70,7 @@ def test_friction_takes_its_share_of_the_normal_impulse():
     for stiffness in (1e6, 1e8):
         law = KelvinVoigt(stiffness, 0.2 * np.sqrt(stiffness))
         motion = follow(free_mass(law, friction=0.3), [1.0 - 1e-9], [SPEED], 100.0 / np.sqrt(stiffness))
-        share = restitution_of_damping(0.1)
+        share = math.exp(-0.2 * half_contact(0.1))
         misses.append(motion.velocity[0].imag + 0.3 * (1.0 + share) * SPEED)
     assert abs(misses[0]) < 1e-2
     assert misses[0] / misses[1] == pytest.approx(10.0, rel=0.05)  # an error of the order 1/√k

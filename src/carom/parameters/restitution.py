@@ -42,7 +42,7 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from carom.base.arguments import Kind, NotNegative, Positive, checked
+from carom.base.arguments import Kind, Positive, checked
 from carom.base.roots import bracketed_root
 
 Restitution = Annotated[float, Kind(lambda number: 0.0 < number <= 1.0, "a number above 0, at most 1")]
@@ -66,40 +66,6 @@ def half_contact(damping_ratio: float) -> float:
 
 
 @checked
-def restitution_of_damping(damping_ratio: NotNegative) -> float:
-    """Restitution of a free mass by a Kelvin–Voigt wall without tension, derived in :mod:`carom.parameters.restitution`.
-
-    ``d = exp(−2ζ acos ζ/√(1 − ζ²))``: contact ends where the force vanishes.
-
-    Parameters
-    ----------
-    damping_ratio : float
-        ``ζ = c/(2√(km))``; at 1 and above, where a wall that could pull would hold the mass, it is thrown back too.
-
-    Returns
-    -------
-    float
-        Coefficient of restitution ``d``, whatever the speed.
-
-    Raises
-    ------
-    InputError
-        The damping ratio is negative.
-
-    See Also
-    --------
-    carom.parameters.restitution.damping_ratio_of : the inverse
-
-    Examples
-    --------
-    >>> from carom.parameters.restitution import restitution_of_damping
-    >>> round(restitution_of_damping(1.0), 6)  # e⁻²
-    0.135335
-    """
-    return math.exp(-2.0 * damping_ratio * half_contact(damping_ratio))
-
-
-@checked
 def damping_ratio_of(restitution: Restitution) -> float:
     """Damping ratio of the Kelvin–Voigt wall without tension that restitutes a free mass as stated.
 
@@ -111,7 +77,7 @@ def damping_ratio_of(restitution: Restitution) -> float:
     Returns
     -------
     float
-        ``ζ = c/(2√(km))`` with the mass ``m`` of that body: the root of :func:`restitution_of_damping`.
+        ``ζ = c/(2√(km))`` with the mass ``m`` of that body: the root of ``ln d = −2ζf(ζ)``, derived in :mod:`carom.parameters.restitution`.
 
     Raises
     ------
@@ -120,7 +86,6 @@ def damping_ratio_of(restitution: Restitution) -> float:
 
     See Also
     --------
-    carom.parameters.restitution.restitution_of_damping : the inverse, with the derivation
     carom.parameters.restitution.dissipation_of : the same of a Hunt–Crossley wall
 
     Examples
@@ -146,45 +111,6 @@ def damping_ratio_of(restitution: Restitution) -> float:
 
 
 @checked
-def restitution_of_dissipation(dissipation: NotNegative, speed: Positive) -> float:
-    """Restitution of a free mass by a Hunt–Crossley wall, derived in :mod:`carom.parameters.restitution`.
-
-    The root of ``ln[(1 + χv)/(1 − χdv)] = χ(1 + d)v``: whatever stiffness, mass and exponent are, it depends on the speed.
-
-    Parameters
-    ----------
-    dissipation : float
-        ``χ`` of the force ``kδⁿ(1 + χδ̇)``, in the unit of one over the speed.
-    speed : float
-        Speed ``v`` of the impact.
-
-    Returns
-    -------
-    float
-        Coefficient of restitution ``d``.
-
-    Raises
-    ------
-    InputError
-        The dissipation is negative or the speed not positive.
-
-    See Also
-    --------
-    carom.parameters.restitution.dissipation_of : the inverse
-
-    Examples
-    --------
-    Approximations do not give what they are asked for: ``χv = 3(1 − d)/2`` of Hunt and Crossley for 0.76.
-
-    >>> from carom.parameters.restitution import restitution_of_dissipation
-    >>> round(restitution_of_dissipation(1.5 * (1.0 - 0.76), 1.0), 5)
-    0.80573
-    """
-    product = dissipation * speed
-    return _restitution(sum_of_speeds(product)) if product > 0.0 else 1.0
-
-
-@checked
 def dissipation_of(restitution: Restitution, speed: Positive) -> float:
     """Dissipation of the Hunt–Crossley wall that restitutes a free mass as stated at one speed.
 
@@ -198,7 +124,7 @@ def dissipation_of(restitution: Restitution, speed: Positive) -> float:
     Returns
     -------
     float
-        ``χ``, in the unit of one over the speed: the root of :func:`restitution_of_dissipation`.
+        ``χ``, in the unit of one over the speed: the root of ``ln[(1 + χv)/(1 − χdv)] = χ(1 + d)v``, derived in :mod:`carom.parameters.restitution`.
 
     Raises
     ------
@@ -207,7 +133,6 @@ def dissipation_of(restitution: Restitution, speed: Positive) -> float:
 
     See Also
     --------
-    carom.parameters.restitution.restitution_of_dissipation : the inverse, with the derivation
     carom.parameters.restitution.damping_ratio_of : the same of a Kelvin–Voigt wall
 
     Examples
@@ -223,24 +148,11 @@ def dissipation_of(restitution: Restitution, speed: Positive) -> float:
     return _product(total) / speed
 
 
-def sum_of_speeds(product: float) -> float:
-    """``s = χ(1 + d)v`` for a positive ``p = χv``: where the restitution itself is not known yet."""
-    high = min(2.0 * product, product + 1.0)
-    return bracketed_root(lambda s: _product(s) / product - 1.0, product * (1.0 - 1e-12), high * (1.0 + 1e-12))
-
-
 def _product(s: float) -> float:
     """``p = χv`` of a sum ``s``."""
     if s < SMALL:
         return s * (s / math.expm1(s)) * _series(s, 1)
     return (s - 1.0 + math.exp(-s)) / -math.expm1(-s)
-
-
-def _restitution(s: float) -> float:
-    """``d`` of a sum ``s``."""
-    if s < SMALL:
-        return _series(s) / _series(s, 1)
-    return (1.0 - (1.0 + s) * math.exp(-s)) / (s - 1.0 + math.exp(-s))
 
 
 def _relative_loss(s: float) -> float:
