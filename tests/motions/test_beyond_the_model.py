@@ -88,12 +88,12 @@ def test_a_motion_stops_at_a_magnet(tmp_path):
     radii = motion.radius(motion.segment_starts)
     assert radii[-1] > 1.5 >= radii[:-1].max()
     reach = drop_loads(motion).magnets
-    assert reach.struck
+    assert reach.reached
     assert reach.words.startswith("The rotor strikes a magnet")
     kicked = cm.simulate(case, cm.kick("150 mm/s"), 100.0)
     found, farthest = drop_loads(kicked).magnets, kicked.radius(np.linspace(0.0, kicked.time, 5000)).max()
     assert found.share == pytest.approx(farthest / 1.5, rel=1e-3)
-    assert not found.struck
+    assert not found.reached
     assert f"{100.0 * found.share:.2g} % of an air gap" in found.words
 
 
@@ -115,5 +115,5 @@ def test_magnets_of_a_flexible_machine(tmp_path):
     near = munich(longest_element=0.2, bearings=bearings(0.99 * at_events.max())).with_modes(3)
     stopped = cm.simulate(near.model, cm.kick("495 mm/s", "30 deg"), "12 ms")
     assert stopped.outcome is Outcome.BEYOND_MODEL
-    assert drop_loads(stopped).magnets.struck
+    assert drop_loads(stopped).magnets.reached
     assert stopped.time == pytest.approx(motion.segment_starts[at_events > 0.99 * at_events.max()][0], rel=1e-9)

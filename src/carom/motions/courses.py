@@ -52,7 +52,7 @@ class Course:
         Speed of the surface of the race; ``None`` if it does not turn.
     held : ndarray of bool
         Whether the wall presses.
-    impact_log : Blows or None
+    impact_log : ImpactLog or None
         ``None`` if the wall is compliant.
     stages : tuple of float
         Times at which later stages begin.

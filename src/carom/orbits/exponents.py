@@ -244,7 +244,7 @@ def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch | 
             )
         word, begin = impacts_between(motion, 0, last + 1)
         links = links_of(rotor, word, begin)
-        apart = np.abs(links.event_amplitudes[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())
+        apart = np.abs(links.ends[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())
         if not (apart <= REPEATED and np.isfinite(links.values).all()):
             raise CaromError(f"the segments of the motion cannot be repeated: their ends are {apart:.3g} apart")
         state = State.of(*rotor.system.state(motion.event_amplitudes[last]))

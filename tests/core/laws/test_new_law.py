@@ -52,7 +52,7 @@ def rates(_, state):
     return [state[1], -0.2 * state[1] - 0.5 * state[0] - 500.0 * (depth + 40.0 * depth**3) * state[0] / abs(state[0])]
 end = solve_ivp(rates, (0.0, 1.4), [0.5 + 0j, 1.3 + 0.9j], method="DOP853", rtol=1e-12, atol=1e-13, max_step=1e-3).y[0, -1]
 apart = abs(end * np.exp(-1.4j) - motion.at(1.4)[0])
-assert len(motion.arrivals) > 1 and apart < 1e-9, apart
+assert len(motion.event_amplitudes) > 1 and apart < 1e-9, apart
 """
 
 
