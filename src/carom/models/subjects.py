@@ -36,22 +36,15 @@ def rotor_of(subject: Subject) -> Rotor:
         return subject
     if isinstance(subject, Parameters):
         return jeffcott(subject)
-    if isinstance(subject, Machine):
-        return _limited(rotor_of(subject.parameters), subject)
-    if isinstance(subject, Case):
-        rotor = rotor_of(subject.parameters)
-        if (subject.touchdown or subject.drive) and rotor.has_closed_forms:
-            gap = subject.si.get("air_gap")
-            rotor = jeffcott(rotor.parameters, subject.touchdown or RIGID, drive=subject.drive, air_gap=gap)
-        rotor = _limited(rotor, subject.machine)
-        return rotor.under_gravity(subject.gravity) if subject.gravity else rotor
-    raise InputError("machine", shown(subject), _ALLOWED)
-
-
-def _limited(rotor: Rotor, machine: Machine | None) -> Rotor:
-    """The rotor with the limits of its magnetic bearings that its machine states."""
-    stated = None if machine is None else machine.control_limit
-    return rotor if stated is None else replace(rotor, limits=stated)
+    case = Case("machine", subject.parameters, subject, Zones()) if isinstance(subject, Machine) else subject
+    if not isinstance(case, Case):
+        raise InputError("machine", shown(subject), _ALLOWED)
+    rotor, limits = rotor_of(case.parameters), case.machine and case.machine.control_limit
+    if (case.touchdown or case.drive) and rotor.has_closed_forms:
+        rotor = jeffcott(rotor.parameters, case.touchdown or RIGID, drive=case.drive, air_gap=case.si.get("air_gap"))
+    if limits is not None:
+        rotor = replace(rotor, limits=limits)
+    return rotor.under_gravity(case.gravity) if case.gravity else rotor
 
 
 def exact_rotor_of(subject: Subject) -> Rotor:

@@ -209,7 +209,7 @@ def _end_document(say: Wording, name: str, edge: Edge) -> dict[str, Any]:
 def with_setting(case: Case, terms: InTerms) -> Case:
     """The case with this value set, as by ``--set``."""
     text = terms.setting.partition("=")[2]
-    return case.replace(**{terms.entry: text})
+    return case.replace(**{terms.entry: text if case.si else terms.value})
 
 
 def _nearest(recovery: Recovery) -> Margin | None:
