@@ -36,7 +36,7 @@ def test_a_bearing_that_gives_way_in_words(whirl):
     ((title, rows),) = whirl.tables
     shown = dict(rows)
     assert title == ""
-    assert whirl.headline == "Followed for 60 ms, and not settled by then (time reached)."
+    assert whirl.headline == "Followed for 60 ms, and not settled by then."
     assert shown["peak force"] == "12,900 N, 0.596 ms after the release"
     assert shown["depth"] == "74.3 µm"
     assert shown["pressure of balls"] == "5.01 GPa on the most loaded one"

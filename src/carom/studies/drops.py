@@ -67,7 +67,8 @@ class DropStudy(Result):
         if loads.outcome is Outcome.BEYOND_MODEL:
             return f"Beyond the model since {say.time(loads.time)} after the release: {loads.outcome.meaning}"
         if not loads.outcome.settled:
-            return f"Followed for {say.time(loads.time)}, and not settled by then ({loads.outcome.words})."
+            why = "" if loads.outcome is Outcome.TIME_REACHED else f" ({loads.outcome.words})"
+            return f"Followed for {say.time(loads.time)}, and not settled by then{why}."
         goes_on = "" if loads.outcome is Outcome.LEVITATED else ", and goes on"
         how = goes_on if loads.settled_at is None else f", since {say.time(loads.settled_at)} after the release"
         name = MotionName(loads.outcome).words

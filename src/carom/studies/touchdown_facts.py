@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from carom.base.outcome import Outcome
 from carom.parameters.formats import number
 from carom.rotors import ReducedMachine
 from carom.studies.facts import Fact
@@ -61,7 +62,8 @@ def drop_headline(study: StudyData) -> Iterator[Fact]:
     ]
     limits = "" if study.case.limits.given else "; no limit of a touchdown bearing is stated to compare them with"
     loads = drop.loads
-    text = f"{loads.outcome.words} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
+    ending = "not settled" if loads.outcome is Outcome.TIME_REACHED else loads.outcome.words
+    text = f"{ending} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
     yield Fact("Verdict", f"{text}{ASSUMED if drop.assumed else ''}", "Drop", "sampled")
 
 
