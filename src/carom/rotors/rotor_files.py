@@ -68,7 +68,7 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
     if "names" in arrays:
         given["names"] = arrays["names"]
     is_complex = "coordinates" not in arrays and arrays["M"].shape == (2 * arrays["nodes"].size,) * 2
-    order = {} if is_complex else {"coordinates": arrays.get("coordinates")}
+    order: dict[str, Any] = {} if is_complex else {"coordinates": arrays.get("coordinates")}
     try:
         found = (MatrixRotor if is_complex else MatrixRotor.of_planes)(**given, **order)
         object.__setattr__(found, "source", str(Path(name).absolute()))
