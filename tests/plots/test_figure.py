@@ -83,3 +83,24 @@ def test_garbage_is_collected_after_drawing_as_before(damped, tmp_path):
             assert gc.isenabled() is wanted
         finally:
             gc.enable()
+
+
+@pytest.mark.parametrize("size", [(7.1, 3.0), (3.5, 4.0), (7.1, 5.7)])
+def test_slides_are_wide_with_large_type(size):
+    @styled
+    def draw():
+        figure = StyledFigure(figsize=size)
+        axes = figure.subplots()
+        axes.plot([0.0, 1.0], label="path")
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center")
+        return figure
+
+    page = draw()
+    with plots.figures_for("slide"):
+        slide = draw()
+    assert tuple(page.get_size_inches()) == size
+    assert slide.get_figwidth() / slide.get_figheight() == pytest.approx(16 / 9)
+    assert slide.axes[0].xaxis.label.get_size() > page.axes[0].xaxis.label.get_size()
+    assert fits(slide)
+    pixels = matplotlib.image.imread(io.BytesIO(written(slide, "png"))).shape
+    assert pixels[:2] in ((1080, 1920), (1620, 2880))
