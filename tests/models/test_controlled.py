@@ -78,7 +78,7 @@ def by_size(exponents):
 
 
 @pytest.mark.parametrize("levitates", [True, False])
-@pytest.mark.parametrize("heavy", [True, False])
+@pytest.mark.parametrize("has_mass", [True, False])
 def test_flights_are_those_of_first_order_equations(levitates, has_mass):
     model = controlled() if levitates else controlled().without_levitation()
     pull = Gravity().pull(SCALES) if has_mass else 0.0

@@ -7,7 +7,6 @@ import json
 
 import numpy as np
 import pytest
-from carom.proofs.event_amplitudes import limits_of, read_forms, traps_of
 from compilation import sized
 from scipy.linalg import expm
 
@@ -16,6 +15,7 @@ from carom.base.outcome import InputError, Outcome
 from carom.models import jeffcott
 from carom.motions import settle
 from carom.proofs import check, prove_states
+from carom.proofs.arrivals import limits_of, read_forms, traps_of
 from carom.proofs.balls import at_precision
 from carom.proofs.forms import Surface
 from carom.proofs.rotor import Rotor
