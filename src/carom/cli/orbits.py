@@ -37,8 +37,8 @@ def orbits(
 ) -> None:
     """List equilibria and periodic orbits, stable or not.
 
-    Lists all orbits with one impact a period, with the argument that there are no more, of a machine without closed forms the steady motions; or, with
-    --impacts N, the orbits with at most N impacts that are known or that a search finds, with what it tried.
+    Lists the orbits with one impact a period: all of them, with the argument that there are no more, of a planar rotor on a rigid bearing, and those that a search
+    finds of any other machine; or, with --impacts N, the orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.cli.starts import read_time
     from carom.models import rotor_of
@@ -48,16 +48,13 @@ def orbits(
     if impacts is None:
         model.system.refuse_non_stationary()
         exact = model.has_closed_forms
-    if longest_period is not None and not exact:
-        allowed = "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid wall, without weight or limits"
-        raise InputError("--longest-period", longest_period, allowed)
     longest = None
     if longest_period is not None:
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
         from carom.base.results import record
         from carom.closed_forms.equilibria import steady_motions
-        from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
+        from carom.orbits.single_impact import find_orbits, orbits_within_reach
         from carom.studies import found_orbits_document, orbits_document
 
         if impacts is not None:
@@ -69,7 +66,7 @@ def orbits(
             if exact:
                 found = orbits_within_reach(model) if longest is None else find_orbits(model, longest)
             else:
-                found = OrbitSet.none(model)
+                found = find_orbits(case, longest, guesses=guesses, progress=tell.part(0.3, 1.0))
             document = orbits_document(model, steady, found, case)
             for entry, each in zip(document["equilibria"], steady, strict=True):
                 entry["touchdown_bearings"] = [place + 1 for place in each.planes]

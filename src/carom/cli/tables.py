@@ -133,12 +133,12 @@ def print_orbits(
         ends = "stability not judged" if whirl.slips else "rolls before it gets there"
         size = f"r = {say.radius(whirl.radius)}"
         rows.append(MotionRow(f"{name}; {ends}", "undecided", size=size, force=say.force(whirl.normal_force)))
-    exact = rotor.has_closed_forms
-    title = "Equilibria and orbits with one impact a period" if exact else "Steady motions"
-    print_motions(console, title, rows)
+    print_motions(console, "Equilibria and orbits with one impact a period", rows)
     _print_left_out(console, orbits, most_virtual=40)
     _print_numbers(console, [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS])
-    console.print(orbits.argument if exact else f"{_why_only(rotor)} --impacts N searches for orbits with impacts.")
+    if not rotor.has_closed_forms:
+        console.print(f"{_why_only(rotor)} --impacts N searches longer, and for orbits with more impacts.")
+    console.print(orbits.argument)
 
 
 def _why_only(rotor: Rotor) -> str:

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.base.arguments import Count, Positive, Reals, Seed, checked
+from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Members, in_a_line
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
@@ -27,6 +28,9 @@ from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 
+_CLOSED_FORMS_ALONE = "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid bearing, without weight or limits"
+A_FEW = 30
+"""Guesses of a search that is asked for no number of impacts."""
 MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
 
@@ -142,11 +146,11 @@ def find_orbits(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        With positive damping, or with ``longest_period``.  With ``impacts`` any model, otherwise the planar rotor.
+        Any; a planar rotor on a rigid bearing with positive damping, or with ``longest_period``.
     longest_period : float, optional
-        Search only periods up to this, in ``1/Ω``.
+        Search only periods up to this, in ``1/Ω``; where all orbits with one impact have closed forms.
     impacts : int, optional
-        Orbits with at most this many impacts a period instead, with lasting contact too: those with one impact of the planar
+        Orbits with at most this many impacts a period instead; by default of rotors without closed forms a short search of those with 1, with lasting contact too: those with one impact of the planar
         rotor, and others by Newton's method from ends and stretches of simulated motions; what is found is exact, but nothing proves
         that it is all.
     guesses, seed : int
@@ -183,8 +187,13 @@ def find_orbits(
     >>> print(f"{orbits['B1,d'].period:.6f}", orbits["B1,d"].stable)
     2.328416 True
     """
-    if impacts is not None:
-        model, tell = rotor_of(machine), Reporter.of(progress, "searching orbits")
+    model = rotor_of(machine)
+    if impacts is not None or not model.has_closed_forms:
+        if longest_period is not None:
+            raise InputError("longest_period", longest_period, _CLOSED_FORMS_ALONE)
+        if impacts is None:
+            impacts, guesses = 1, guesses or A_FEW
+        tell = Reporter.of(progress, "searching orbits")
         model.system.refuse_non_stationary()
         members: tuple[Any, ...]
         if model.has_closed_forms:
@@ -195,7 +204,7 @@ def find_orbits(
         return OrbitSet(
             model, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
         )
-    rotor = exact_rotor_of(machine)
+    rotor = model
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, roots, 1)

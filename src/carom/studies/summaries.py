@@ -164,6 +164,8 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     if not orbit.admissible:
         return MotionRow(name, "not possible", period, size, remark=orbit.reason)
     impulse, force = say.impulse(orbit.impulse), f"{say.force(orbit.impulse / orbit.period)} mean"
+    if math.isnan(orbit.impulse):  # contact that never ends
+        size, impulse, force = "", "", ""
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
     remark = _joined(grows, no_rigid_wall(indentation_of_impact(orbit.rotor.in_rigid_wall, orbit.radial_speed)))
     return MotionRow(name, "stable" if orbit.stable else "unstable", period, size, impulse, force, share, remark)
