@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.terminal import console, print_document, progress, read_machine

@@ -28,7 +28,9 @@ from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 
-_CLOSED_FORMS_ALONE = "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid bearing, without weight or limits"
+_CLOSED_FORMS_ALONE = (
+    "none, but of the planar rotor on a rigid bearing without weight and limits, whose orbits have closed forms"
+)
 A_FEW = 30
 """Guesses of a search that is asked for no number of impacts."""
 MOST_RADIANS = 1500.0
