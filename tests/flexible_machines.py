@@ -15,7 +15,7 @@ from carom.rotors import (
     Material,
     ModalDamping,
     ProportionalDamping,
-    Section,
+    ShaftSection,
     TouchdownPlane,
     Unbalance,
 )
@@ -34,7 +34,7 @@ PRINTED = ProportionalDamping("10 1/s", "10 us")
 
 def munich_rotor(longest_element=0.02, damping=PRINTED, material=STEEL):
     sections = [
-        Section(f"{end - begin} mm", "9.6 mm" if any(a <= begin < b for a, b in THICK) else "8 mm", 0.0, material)
+        ShaftSection(f"{end - begin} mm", "9.6 mm" if any(a <= begin < b for a, b in THICK) else "8 mm", 0.0, material)
         for begin, end in itertools.pairwise(BOUNDARIES)
     ]
     discs = [
@@ -64,7 +64,7 @@ def munich(longest_element=0.02, touchdown=SOFT, **changes):
 
 def symmetric(stiffer=1.0, touchdown=None, **changes):
     """A uniform shaft on two bearings, without gyroscopic moments worth mentioning, on springs without damping and friction."""
-    shaft = [Section(length, 0.03, 0.0, Material(2.1e11 * stiffer, 7800.0)) for length in (0.1, 0.4, 0.1)]
+    shaft = [ShaftSection(length, 0.03, 0.0, Material(2.1e11 * stiffer, 7800.0)) for length in (0.1, 0.4, 0.1)]
     spring = touchdown or TouchdownBearing("kelvin-voigt", stiffness=2e7, damping=0.0)
     given = {
         "rotor": FlexibleRotor(shaft, [], ModalDamping(0.0)),

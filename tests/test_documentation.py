@@ -19,7 +19,7 @@ from carom.proofs import hypotheses_of
 from carom.proofs.families import FAMILIES, KICKS
 from carom.proofs.kick_cells import DISC, REFUTED, read
 from carom.proofs.kick_claims import claims_of
-from carom.proofs.kick_discs import Disc
+from carom.proofs.kick_discs import KickDisc
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
@@ -106,8 +106,8 @@ def test_claims_that_are_explained_are_made():
     machine = hypotheses_of(ROOT / "examples" / "source-paper.toml", ["gamma=0.3"])
     for about, family in FAMILIES.items():
         # Claims as they would be if all of the disc were refuted, which nobody asks here.
-        made |= {claim.name for claim in claims_of(Disc(family, machine, sizes[about], 1), {DISC: REFUTED})}
-    box = Disc(KICKS, machine, "1", 1, (("mu", "0.1", "0.2"),))
+        made |= {claim.name for claim in claims_of(KickDisc(family, machine, sizes[about], 1), {DISC: REFUTED})}
+    box = KickDisc(KICKS, machine, "1", 1, (("mu", "0.1", "0.2"),))
     made |= {claim.name for claim in claims_of(box, read("p0t", 1))}
     assert len(named) > 10
     assert set(named) <= made

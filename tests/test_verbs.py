@@ -18,7 +18,7 @@ import carom as cm
 from carom.base.outcome import CaromError, InputError
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.models import jeffcott
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import ShootingStart
 from carom.parameters import Case, Machine, Scales, Zones
 from carom.sweeps import GridAxis
 
@@ -104,7 +104,7 @@ CALLS = {
     "orbits.orbit_near": lambda m: cm.orbits.orbit_near(
         m,
         cm.orbits.Word.of(cm.orbits.Kind.IMPACT_FORWARD),
-        Start(np.repeat([1.0, 0.7 - 1.0j], len(cm.models.rotor_of(m).system.rest))[None], np.array([2.9])),
+        ShootingStart(np.repeat([1.0, 0.7 - 1.0j], len(cm.models.rotor_of(m).system.rest))[None], np.array([2.9])),
     ),
     "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
     "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,

@@ -17,7 +17,7 @@ from carom.rotors import (
     MagneticBearing,
     Material,
     ModalDamping,
-    Section,
+    ShaftSection,
     TouchdownPlane,
     Unbalance,
 )
@@ -33,7 +33,7 @@ def ross(request):
 
 def rotor_of(ross):
     steel = Material(*ross["material"])
-    sections = [Section(*each, steel) for each in ross["sections"]]
+    sections = [ShaftSection(*each, steel) for each in ross["sections"]]
     return FlexibleRotor(sections, [Disc(*each) for each in ross["discs"]], ModalDamping(0.0), longest_element=100.0)
 
 

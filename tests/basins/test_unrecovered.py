@@ -12,7 +12,7 @@ from machines import PAPER
 import carom
 from carom.base.outcome import InputError, Outcome
 from carom.basins import smallest_unrecovered
-from carom.basins.unrecovered import FULL, Found, _Search
+from carom.basins.unrecovered import FULL, Found, _SizeSearch
 from carom.disturbances import StateSlice, VelocityKick
 
 pytestmark = pytest.mark.jit_only
@@ -151,7 +151,7 @@ def test_levitation_that_grows_has_nothing_to_come_back_to():
             smallest_unrecovered(rotor, VelocityKick(1.0))
 
 
-class _Striped(_Search):
+class _Striped(_SizeSearch):
     """Disturbances are lost and come back in stripes so narrow that neighbours differ."""
 
     def _outcomes(self, sizes, angles):

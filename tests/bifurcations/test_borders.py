@@ -14,7 +14,7 @@ from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import ShootingStart
 from tests.bifurcations.test_words import doubled, located
 from tests.machines import PAPER
 
@@ -131,7 +131,7 @@ def test_period_doubling_and_neimark_sacker_by_another_derivative():
 def test_the_orbit_attracts_between_these_points_and_repels_outside():
     for gamma, attracts in ((0.0875, False), (0.0879, True), (0.0915, True), (0.0919, False)):
         (start,) = resonant().starts_at(gamma)
-        orbit = orbit_near(PAPER.replace(gamma=gamma), resonant().word, Start(*start))
+        orbit = orbit_near(PAPER.replace(gamma=gamma), resonant().word, ShootingStart(*start))
         assert orbit is not None
         assert orbit.admissible
         assert orbit.stable is attracts

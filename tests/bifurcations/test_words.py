@@ -14,7 +14,7 @@ from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import ShootingStart
 from tests.machines import PAPER
 
 DOUBLING = 0.0833814175
@@ -115,7 +115,7 @@ def test_the_stable_doubled_orbits_attract_and_end_where_they_graze():
     assert min(orbit.rotor.parameters.gamma for orbit in real) > grazing.value
     for shift, inside in ((1e-6, True), (-1e-6, False)):
         rotor = jeffcott(PAPER.replace(gamma=grazing.value + shift))
-        near = orbit_near(rotor, branch.word, Start(grazing.orbit.nodes, grazing.orbit.durations))
+        near = orbit_near(rotor, branch.word, ShootingStart(grazing.orbit.nodes, grazing.orbit.durations))
         assert near is not None
         assert near.admissible is inside
         if inside:

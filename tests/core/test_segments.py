@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carom.models import Rotor, jeffcott
-from carom.orbits.shooting import Start, links_of, pack, unpack
+from carom.orbits.shooting import ShootingStart, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
 from tests.compilation import COMPILED, sized
 from tests.linear_rotors import bending, tilting
@@ -21,7 +21,7 @@ def rotor_of(modes: int, planes: int, seed: int) -> Rotor:
     return {4: tilting, 8: bending}[modes](planes=planes).model
 
 
-def differences(rotor: Rotor, word: Word, start: Start, step: float = 1e-6) -> np.ndarray:
+def differences(rotor: Rotor, word: Word, start: ShootingStart, step: float = 1e-6) -> np.ndarray:
     unknowns = pack(start)
     columns = []
     for change in step * np.eye(len(unknowns)):
@@ -30,14 +30,14 @@ def differences(rotor: Rotor, word: Word, start: Start, step: float = 1e-6) -> n
     return np.array(columns).T
 
 
-def arbitrary(rotor: Rotor, word: Word, rng: np.random.Generator) -> Start:
+def arbitrary(rotor: Rotor, word: Word, rng: np.random.Generator) -> ShootingStart:
     """Nodes with their planes on the wall, as fast as an impact, and durations about one."""
     arrays = rotor.system.arrays
     nodes = rng.normal(size=(len(word), arrays.rows.shape[1], 2)) @ [1.0, 1j]
     for node, plane in zip(nodes, word.planes, strict=True):
         y = node @ arrays.rows[plane] + arrays.offsets[plane]
         node += arrays.rows[plane].conj() / arrays.weights[plane] * (y / abs(y) - y)
-    return Start(rotor.system.states_of(nodes), rng.uniform(0.3, 1.2, len(word)))
+    return ShootingStart(rotor.system.states_of(nodes), rng.uniform(0.3, 1.2, len(word)))
 
 
 @pytest.mark.parametrize(("modes", "planes"), [(2, 1), (4, 2), (8, 2)])

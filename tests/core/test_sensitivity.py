@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carom.models import Rotor, jeffcott
-from carom.orbits.shooting import Start, by_parameter, links_of
+from carom.orbits.shooting import ShootingStart, by_parameter, links_of
 from carom.orbits.word import Kind, Word
 from carom.parameters import DIMENSIONLESS_FIELDS, Scales
 from tests.compilation import sized
@@ -14,7 +14,7 @@ from tests.core.test_segments import FLIGHTS, arbitrary, rotor_of
 from tests.machines import PAPER
 
 
-def differences(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray:
+def differences(rotor: Rotor, word: Word, start: ShootingStart, name: str) -> np.ndarray:
     """Two central differences, extrapolated to a step of zero (Richardson): the error falls with its fourth power."""
     value, found = rotor.value(name), []
     for step in (2e-4 * (abs(value) or 1.0), 1e-4 * (abs(value) or 1.0)):
@@ -53,7 +53,7 @@ def test_the_work_does_not_grow_with_stiffness():
     """A decay that is over at once: the derivative by the phase is that of the rotor at rest, turned by a right angle."""
     rotor = jeffcott(PAPER.replace(gamma=1e3, omega=40.0))
     word, at_rest = Word.of(Kind.IMPACT_FORWARD), rotor.equilibrium
-    start = Start(np.array([[1.0 + 0j, 0.0]]), np.array([50.0]))
+    start = ShootingStart(np.array([[1.0 + 0j, 0.0]]), np.array([50.0]))
     exact = by_parameter(rotor, word, start, "phi")
     # Fifteen doublings lose four digits of a displacement of 2e-4.
     assert exact[:4] == pytest.approx([(1j * at_rest).real, 0.0, (1j * at_rest).imag, 0.0], abs=1e-16)

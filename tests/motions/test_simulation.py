@@ -6,7 +6,7 @@ import pytest
 
 import carom as cm
 from carom.base.outcome import Outcome
-from carom.motions.settling import Progress
+from carom.motions.settling import SettlingProgress
 
 
 @pytest.mark.jit_only
@@ -23,7 +23,7 @@ def test_a_flight_in_slices_is_the_same_flight(monkeypatch):
 
 def test_steps_that_take_next_to_no_time_stall():
     """The steps of the stiffest walls, flights without an event, and the steps of a race that stops within picoseconds."""
-    stiff, flying, race = Progress(), Progress(), Progress()
+    stiff, flying, race = SettlingProgress(), SettlingProgress(), SettlingProgress()
     assert not any(stiff.stalls(256, 256 * 1e-5) for _ in range(300))
     assert not any(flying.stalls(0, 1.0) for _ in range(300))
     assert any(race.stalls(256, 256 * 1e-9) for _ in range(300))

@@ -12,7 +12,7 @@ from carom.orbits import find_orbits, impact_map
 from carom.orbits.admissibility import why_virtual
 from carom.orbits.orbit import Orbit, margins_of, orbit_near
 from carom.orbits.recognising import impacts_between, orbit_of_motion
-from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
+from carom.orbits.shooting import ShootingStart, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
 from tests.compilation import sized
 from tests.machines import PAPER, exact_matrix, random_parameters
@@ -33,7 +33,7 @@ def as_shot(orbit: Orbit) -> Orbit:
     """A single-impact orbit of the closed form, solved again by shooting from a start beside it."""
     rng = np.random.default_rng(0)
     nudge = 1e-4 * (rng.normal(size=(*orbit.nodes.shape, 2)) @ [1.0, 1j])
-    shot = orbit_near(orbit.rotor, orbit.word, Start(orbit.nodes + nudge, orbit.durations * 1.0001), orbit.name)
+    shot = orbit_near(orbit.rotor, orbit.word, ShootingStart(orbit.nodes + nudge, orbit.durations * 1.0001), orbit.name)
     assert shot is not None
     return shot
 
@@ -125,11 +125,11 @@ def test_a_stable_orbit_attracts_and_an_unstable_one_repels():
 
 def test_where_the_word_is_not_what_the_machine_does():
     one = find_orbits(PAPER)["B1,d"]
-    start = Start(one.nodes, one.durations)
+    start = ShootingStart(one.nodes, one.durations)
     assert why_virtual(one.rotor, one.word, start) == ""
     assert "other way" in why_virtual(one.rotor, Word.of(Kind.IMPACT_BACKWARD), start)
     assert "not stop" in why_virtual(one.rotor, Word.of(Kind.IMPACT_STOPPED), start)
-    doubled = why_virtual(one.rotor, one.word, Start(one.nodes, 2.0 * one.durations))
+    doubled = why_virtual(one.rotor, one.word, ShootingStart(one.nodes, 2.0 * one.durations))
     assert "before its period is over" in doubled
 
 
@@ -149,7 +149,7 @@ def test_margins_of_the_doubled_orbit():
 def test_the_compiled_iteration_ends_where_the_other_ends():
     orbit, rng = two_impacts(), np.random.default_rng(5)
     for _ in range(6):
-        moved = pack(Start(orbit.nodes, orbit.durations)) + 1e-4 * rng.normal(size=10)
+        moved = pack(ShootingStart(orbit.nodes, orbit.durations)) + 1e-4 * rng.normal(size=10)
         start = unpack(moved, 2)
         links, found = converged(orbit.rotor, orbit.word, start), closed_flights(orbit.rotor, orbit.word, start)
         assert links is not None
@@ -157,10 +157,10 @@ def test_the_compiled_iteration_ends_where_the_other_ends():
         assert np.abs(pack(found) - pack(links.start)).max() < 1e-12
         # The start itself is left as it is.
         assert np.array_equal(pack(start), moved)
-    lost = Start(np.full((2, 2), np.nan + 0j), orbit.durations)
+    lost = ShootingStart(np.full((2, 2), np.nan + 0j), orbit.durations)
     assert closed_flights(orbit.rotor, orbit.word, lost) is None
     # A duration that becomes negative on the way ends it.
-    assert closed_flights(orbit.rotor, orbit.word, Start(orbit.nodes, 1e-3 * orbit.durations)) is None
+    assert closed_flights(orbit.rotor, orbit.word, ShootingStart(orbit.nodes, 1e-3 * orbit.durations)) is None
 
 
 def test_the_jacobian_of_a_grazing_impact_is_regular():
@@ -169,7 +169,7 @@ def test_the_jacobian_of_a_grazing_impact_is_regular():
     one = find_orbits(rotor)["B1,d"]
     flown = rotor.system.fly(rotor.system.amplitudes(one.departure.position, one.departure.velocity), np.array(0.3))
     node = np.array(rotor.system.state(flown))
-    start = Start(np.array([one.nodes[0], node]), np.array([0.3, one.period - 0.3]))
+    start = ShootingStart(np.array([one.nodes[0], node]), np.array([0.3, one.period - 0.3]))
     links = links_of(rotor, one.word.repeated(2), start)
     assert np.linalg.cond(links.jacobian) < 1e6
 

@@ -13,7 +13,7 @@ from carom.motions import State, settle, simulate
 from carom.orbits import find_orbits
 from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.search import Search
+from carom.orbits.search import OrbitSearch
 from carom.orbits.searched import random_starts
 from carom.parameters import Parameters
 from tests.compilation import sized
@@ -34,7 +34,7 @@ for Newton's method, by a program of its own with the closed form of a flight, w
 
 def searched_alone(machine, impacts: int, guesses: int) -> list[Orbit]:
     """What the search finds without any known orbit."""
-    search = Search(rotor_of(machine), impacts)
+    search = OrbitSearch(rotor_of(machine), impacts)
     search.run(2000, guesses, 10, [0], Reporter())
     return [orbit for orbit in search.found if orbit.admissible]
 
@@ -87,7 +87,7 @@ def test_the_share_of_fresh_motions_that_end_on_a_listed_orbit():
     assert found.search.share_on_listed == pytest.approx(share, abs=5 * np.sqrt(0.25 / found.search.fresh))
     assert 0.5 < share < 1.0
     assert found.search.on_others == 0
-    listed, others = Search(found.rotor, 2).measured(500, random)  # of a search that has found nothing
+    listed, others = OrbitSearch(found.rotor, 2).measured(500, random)  # of a search that has found nothing
     assert listed == 0
     assert others / 500 == pytest.approx(share, abs=5 * np.sqrt(0.25 / 500))
 

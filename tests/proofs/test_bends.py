@@ -16,8 +16,8 @@ from carom.proofs.bends import second_derivatives
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.impacts import after_impact
 from carom.proofs.passages import Impact, LeftOpenError, begin, bounce, next_event
-from carom.proofs.patches import Departure, Held, Patch
-from carom.proofs.rotor import Rotor
+from carom.proofs.patches import Held, Patch, PatchDeparture
+from carom.proofs.rotor import ProvenRotor
 
 NAMES = ("gamma", "omega", "rho", "mu", "d", "radius_ratio")
 MACHINES = {
@@ -35,7 +35,7 @@ ROUNDING = 1e-8
 def held(request):
     numbers = dict(zip(NAMES, MACHINES[request.param], strict=True))
     with at_precision(64):
-        yield Held(Rotor(hypotheses_of({**numbers, "phi": 0.0})).numbers), numbers
+        yield Held(ProvenRotor(hypotheses_of({**numbers, "phi": 0.0})).numbers), numbers
 
 
 def patch(centre, size, random):
@@ -79,7 +79,7 @@ def test_second_derivatives_are_those_of_single_flights(held):
     numbers, random, seen = held[1], np.random.default_rng(3), 0
     for centre in states(random):
         exact, _ = patch(centre, 1e-7, random)
-        departure = Departure(held[0], exact)
+        departure = PatchDeparture(held[0], exact)
         strike = struck(departure)
         if strike is None or not departure.plain(strike.end)[1] > 0.3:
             continue
@@ -112,7 +112,7 @@ def test_flights_stay_in_the_forms_over_many_impacts(held):
         shares = np.vstack([random.uniform(-1, 1, (8, 2)), [[1, 1], [1, -1], [-1, 1], [-1, -1], [1, 0], [0, -1]]])
         singles, impacts = centre + shares @ spans, 0
         while impacts < 20:
-            departure = Departure(held[0], exact)
+            departure = PatchDeparture(held[0], exact)
             strike = struck(departure)
             if strike is None:
                 break

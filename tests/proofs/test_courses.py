@@ -10,17 +10,17 @@ from machines import random_parameters
 
 from carom.bifurcations.conditions import conditions_at, jacobian_at, profile_at
 from carom.orbits import find_orbits
-from carom.parameters import Numbers as Doubles
+from carom.parameters import LineNumbers as Doubles
 from carom.proofs.balls import at_precision
-from carom.proofs.courses import Course, Return, period_condition
+from carom.proofs.courses import OrbitCourse, Return, period_condition
 from carom.proofs.hypotheses import hypotheses_of
-from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor
+from carom.proofs.lines import LineNumbers
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.series import hyperbolic, short_return, squared, terms
 
 
-def balls(parameters) -> Numbers:
-    return Rotor(hypotheses_of(parameters)).numbers
+def balls(parameters) -> LineNumbers:
+    return ProvenRotor(hypotheses_of(parameters)).numbers
 
 
 def response(gamma, split, time):
@@ -120,7 +120,7 @@ def test_values_agree_with_closed_forms_written_a_second_time():
             assert back.discriminant.overlaps(written.discriminant())
             # Anywhere, also off the orbits, both are derivatives of the same map only where F1 = 0.
             assert back.closing.overlaps(1 + written.turn.real)
-            course = Course(back, speed)
+            course = OrbitCourse(back, speed)
             for row, other in zip(course.jacobian(), written.jacobian(), strict=True):
                 assert all(a.overlaps(b) and a.rad() < 1e-15 * (1 + abs(a)) for a, b in zip(row, other, strict=True))
             time = arb(random.uniform(0.0, 1.0)) * period
@@ -140,7 +140,7 @@ def test_tests_of_orbits_agree_with_the_kernels():
                 if orbit.slip < 0 or abs(orbit.radial_speed) > 20.0:
                     continue
                 at = Doubles.of(parameters), orbit.period, orbit.radial_speed
-                known, course = conditions_at(*at), Course(Return(balls(parameters), arb(at[1])), arb(at[2]))
+                known, course = conditions_at(*at), OrbitCourse(Return(balls(parameters), arb(at[1])), arb(at[2]))
                 scale = 1.0 + np.abs(jacobian_at(*at)).max() ** 3
                 assert float(course.invariants.at_minus_one) == pytest.approx(known.period_doubling, abs=1e-9 * scale)
                 assert float(course.invariants.of_pairs) == pytest.approx(-known.neimark_sacker, abs=1e-9 * scale)
@@ -169,7 +169,7 @@ def test_characteristic_polynomial_at_one_is_a_product_of_slopes():
                     period = (period - back.closing / back.closing_rate).mid()
                 back = Return(numbers, period)
                 speed = min(back.speeds(), key=lambda v: abs(float(v) - orbit.radial_speed))
-                course = Course(back, speed)
+                course = OrbitCourse(back, speed)
                 even, _, growth = back.over
                 gap = 1 - 2 * even + growth * growth
                 trace, minors, determinant = course.invariants
@@ -191,7 +191,7 @@ def test_series_are_derivatives():
 
             def value(late, numbers=numbers, period=period):
                 moved = numbers._replace(gamma=numbers.gamma + late, d=numbers.d + late)
-                course = Course(Return(moved, period + late), arb(1) / 2 + late)
+                course = OrbitCourse(Return(moved, period + late), arb(1) / 2 + late)
                 return [
                     course.invariants.at_minus_one,
                     course.invariants.of_pairs,

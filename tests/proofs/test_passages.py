@@ -16,12 +16,12 @@ from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.impacts import after_brush, after_impact
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.moments import FORM
-from carom.proofs.passages import Brush, Impact, LeftOpenError, Return, begin, next_event
-from carom.proofs.patches import Departure, Held, Patch
+from carom.proofs.passages import Brush, Impact, LeftOpenError, PatchReturn, begin, next_event
+from carom.proofs.patches import Held, Patch, PatchDeparture
 from carom.proofs.plain_flights import PlainRotor
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.sides import Side, responses_by
 
 ROUNDING = 1e-9
@@ -38,7 +38,7 @@ def held(request):
     names = ("gamma", "omega", "rho", "mu", "d", "radius_ratio")
     numbers = dict(zip(names, MACHINES[request.param], strict=True))
     with at_precision(64):
-        yield Held(Rotor(hypotheses_of({**numbers, "phi": 0.0})).numbers), numbers
+        yield Held(ProvenRotor(hypotheses_of({**numbers, "phi": 0.0})).numbers), numbers
 
 
 def patch(random, from_wall, size):
@@ -64,7 +64,7 @@ def test_mean_value_forms_hold_all_flights(held, from_wall):
     numbers, random = held[1], np.random.default_rng(5)
     for _ in range(sized(6, 2, 60)):
         exact, states = patch(random, from_wall, 0.05)
-        departure, time = Departure(held[0], exact), float(random.uniform(0.1, 6))
+        departure, time = PatchDeparture(held[0], exact), float(random.uniform(0.1, 6))
         moment = departure.at(arb(time))
         for state in states:
             z, dz = Single(numbers, state).at(time)
@@ -83,7 +83,7 @@ def test_events_happen_to_all_flights_and_none_before(held):
     numbers, random, seen = held[1], np.random.default_rng(11), set()
     for number in range(sized(60, 12, 600)):
         exact, states = patch(random, bool(number % 2), 10 ** random.uniform(-4, -1.5))
-        departure = Departure(held[0], exact)
+        departure = PatchDeparture(held[0], exact)
         try:
             event = next_event(departure, begin(departure))
             after = _after(departure, event)
@@ -92,7 +92,7 @@ def test_events_happen_to_all_flights_and_none_before(held):
         seen.add(type(event))
         for state in states:
             _check(Single(numbers, state), event, after)
-    assert {Return, Impact} <= seen
+    assert {PatchReturn, Impact} <= seen
 
 
 def _after(departure, event):
@@ -102,11 +102,11 @@ def _after(departure, event):
 
 
 def _check(flight, event, after, shares=None):
-    end = {Return: 30.0, Impact: getattr(event, "end", 0), Brush: getattr(event, "end", 0)}[type(event)]
+    end = {PatchReturn: 30.0, Impact: getattr(event, "end", 0), Brush: getattr(event, "end", 0)}[type(event)]
     times = np.linspace(1e-3, end, 400)
     heights = flight.heights(times)
     above = np.flatnonzero(heights > 1)
-    if isinstance(event, Return):
+    if isinstance(event, PatchReturn):
         assert not above.size
         return
     if not above.size:
@@ -157,7 +157,7 @@ def test_events_happen_to_all_flights_of_all_machines_of_a_box(held):
         along = size * random.uniform(-1, 1, (count, len(exact.centre)))
         bends = [[arb(0)] * len(exact.centre)] * (FORM - 2)
         exact = replace(exact, spans=[*exact.spans, *bends, *([arb(x) for x in span] for span in along)])
-        departure = Departure(of_box, exact)
+        departure = PatchDeparture(of_box, exact)
         try:
             event = next_event(departure, begin(departure))
             after = _after(departure, event)
@@ -172,7 +172,7 @@ def test_events_happen_to_all_flights_of_all_machines_of_a_box(held):
             rest = random.uniform(-1, 1, len(exact.rest)) * [float(x) for x in exact.rest]
             state = [float(x) for x in exact.centre] + shares @ spans + rest
             _check(Single(at(shares[FORM:]), state), event, after, shares)
-    assert {Return, Impact} <= seen
+    assert {PatchReturn, Impact} <= seen
 
 
 @pytest.mark.parametrize("split", [-0.02, -1e-4, 0.0, 3e-4, 0.5])
@@ -188,7 +188,7 @@ def test_responses_are_differentiated_by_damping_and_stiffness(split):
     none = arb(0)
     sides = [Side(arb(1), none, none, none, none, none), Side(none, arb(1), none, none, none, none)]
     with at_precision(64):
-        exact = Numbers(arb(gamma), arb(stiffness), none, none, none, none)
+        exact = LineNumbers(arb(gamma), arb(stiffness), none, none, none, none)
         for time in (0.1, 0.9, 3.0, 8.0):
             wanted = [
                 responses(gamma + step, stiffness, time) - responses(gamma - step, stiffness, time),
@@ -206,9 +206,9 @@ def test_a_patch_across_a_graze_has_two_outcomes():
     whole = np.linspace(1e-3, 30, 4000)
     graze = brentq(lambda speed: Single(numbers, (speed, -1.0)).heights(whole).max() - 1, 0.15, 0.2)
     with at_precision(64):
-        held = Held(Rotor(hypotheses_of({**numbers, "phi": 0.0})).numbers)
+        held = Held(ProvenRotor(hypotheses_of({**numbers, "phi": 0.0})).numbers)
         exact = Patch([arb(graze), arb(-1)], [[arb(0.0006), arb(0)], [arb(0), arb(0.02)]], [arb(0), arb(0)])
-        departure = Departure(held, exact)
+        departure = PatchDeparture(held, exact)
         event = next_event(departure, begin(departure))
         after = after_brush(departure, event)
     assert isinstance(event, Brush)

@@ -24,7 +24,7 @@ from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import line_of
 from carom.proofs.points import _searched, _system, point_claims
 from carom.proofs.proving import proof_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 
 KNOWN = {
     "boundary-equilibrium of contact-free": "0.07246867866709798125333961",
@@ -38,7 +38,7 @@ KNOWN = {
 def points(machine, along, low, high):
     hypotheses = hypotheses_of(machine)
     with at_precision(128):
-        claims = point_claims(Rotor(hypotheses), Evidence(), {"along": along, "from": low, "to": high})
+        claims = point_claims(ProvenRotor(hypotheses), Evidence(), {"along": along, "from": low, "to": high})
     return {claim.name: claim for claim in claims}
 
 
@@ -200,7 +200,9 @@ def test_zero_that_is_no_point_of_the_interval_is_refused(kind, guess, low, high
         entry["centre"] = [str(exact_ends(x)[0]) for x in centre]
         assert "centre" not in _searched(line, kind, "B1,d", guess)
         with pytest.raises(NotShownError, match="not at a value and at times"):
-            point_claims(Rotor(hypotheses), Evidence({"points": [entry]}), {"along": "gamma", "from": low, "to": high})
+            point_claims(
+                ProvenRotor(hypotheses), Evidence({"points": [entry]}), {"along": "gamma", "from": low, "to": high}
+            )
 
 
 def test_a_pair_of_multipliers_leaves_the_unit_circle_where_continuation_says():

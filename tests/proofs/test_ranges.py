@@ -16,7 +16,7 @@ from carom.proofs.evidence import Evidence
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.proving import proof_of
 from carom.proofs.ranges import range_claims
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 
 LIMITS = {"blocks": 60, "narrowest": "1/200"}
 
@@ -29,7 +29,7 @@ def proven_along(machine, along, low, high, **limits) -> Proof:
 def ranges(machine, along, low, high, **limits) -> list[Claim]:
     """Claims of ranges alone: the search for points takes longer."""
     options = {"along": along, "from": low, "to": high, **LIMITS, **limits}
-    return range_claims(Rotor(hypotheses_of(machine)), Evidence(), options)
+    return range_claims(ProvenRotor(hypotheses_of(machine)), Evidence(), options)
 
 
 def named(claims, name) -> Claim:
@@ -166,7 +166,7 @@ def test_what_cannot_be_asked_is_told_in_one_line(arguments, words):
 def test_why_a_block_is_open_is_found_again_by_the_check():
     """Nothing of the text that is printed comes from the certificate."""
     options = {"along": "gamma", "from": "0.08338", "to": "0.08339", "blocks": 6, "narrowest": "1/4"}
-    rotor, searched = Rotor(hypotheses_of(DECIMAL)), Evidence()
+    rotor, searched = ProvenRotor(hypotheses_of(DECIMAL)), Evidence()
     found = range_claims(rotor, searched, options)
     document = searched.document()
     assert "open" in {known for _, known in document["blocks"]} <= {"", "open", "ended"}

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.patches import Held, Patch
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.rub_traps import Bounces, ends_in_rub
 from carom.proofs.rubs import Rub
 
@@ -32,7 +32,7 @@ def drawn(random):
 
 
 def held_of(machine):
-    return Held(Rotor(hypotheses_of(machine)).numbers)
+    return Held(ProvenRotor(hypotheses_of(machine)).numbers)
 
 
 def state_of(machine, speed, off, turning):
@@ -77,7 +77,7 @@ def test_bounds_hold_along_flights():
     peer, (mu, gamma) = Bouncing(PAPER), (PAPER["mu"], PAPER["gamma"])
     angle, _ = peer.rub()
     with at_precision(64):
-        rub = Rub.of(Rotor(hypotheses_of(PAPER)).numbers)
+        rub = Rub.of(ProvenRotor(hypotheses_of(PAPER)).numbers)
         bounces = Bounces(rub, arb(0.2), arb(0.1))
         first, free, fast, fast_rate = bounces._growth
         gain, box, least = float(bounces._gain.upper()), bounces.box, float(bounces._least)

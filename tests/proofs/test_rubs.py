@@ -10,7 +10,7 @@ from compilation import sized
 
 from carom.proofs.balls import at_precision, rational
 from carom.proofs.hypotheses import hypotheses_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.rubs import Rub
 
 
@@ -34,7 +34,7 @@ def test_formulas_beside_quadrature():
     with mpmath.workdps(30), at_precision(128):
         for _ in range(sized(20, 5, 200)):
             machine = random_machine(random)
-            rotor = Rotor(hypotheses_of(machine))
+            rotor = ProvenRotor(hypotheses_of(machine))
             if not (rub := Rub.of(rotor.numbers)).stiffness > 0:
                 continue
             gamma, mu, rho, kappa = (

@@ -20,7 +20,7 @@ from carom.proofs.balls import at_precision
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.krawczyk import enclosed_zero, newton
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.words import ShootingOrbit, equations_of
 
@@ -62,7 +62,7 @@ def test_simulation_from_the_enclosure_repeats(proof):
 
 def test_derivative_over_a_period_is_that_of_the_kernels(proof):
     with at_precision(128):
-        numbers = Rotor(hypotheses_of(NEAR_DOUBLING)).numbers
+        numbers = ProvenRotor(hypotheses_of(NEAR_DOUBLING)).numbers
         equations = partial(equations_of, numbers)
         centre = [
             arb(Fraction(text).numerator) / Fraction(text).denominator
@@ -105,7 +105,7 @@ def test_orbit_of_one_impact_run_twice_is_not_told_as_one_of_two():
     angle = orbit.angle - float(np.angle(orbit.rotor.equilibrium))
     guess = [angle, orbit.radial_speed, orbit.angular_speed, orbit.period] * 2
     with at_precision(128):
-        numbers = Rotor(hypotheses_of(PAPER)).numbers
+        numbers = ProvenRotor(hypotheses_of(PAPER)).numbers
         equations = partial(equations_of, numbers)
         found, _ = enclosed_zero(equations, newton(equations, guess))
         assert ShootingOrbit(numbers, (tuple(found[:4]), tuple(found[4:]))).repeats() is None
@@ -115,7 +115,7 @@ def test_orbit_of_one_impact_by_shooting_has_the_claims_of_the_closed_form():
     orbit, closed = cm.find_orbits(PAPER)["B1,d"], prove(PAPER)["B1,d solution"]
     angle = orbit.angle - float(np.angle(orbit.rotor.equilibrium))
     with at_precision(128):
-        numbers = Rotor(hypotheses_of(PAPER)).numbers
+        numbers = ProvenRotor(hypotheses_of(PAPER)).numbers
         equations = partial(equations_of, numbers)
         guess = newton(equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
         found, _ = enclosed_zero(equations, guess)
@@ -132,7 +132,7 @@ def test_flight_through_the_wall_is_told():
     assert not orbit.admissible
     angle = orbit.angle - float(np.angle(orbit.rotor.equilibrium))
     with at_precision(128):
-        numbers = Rotor(hypotheses_of(at)).numbers
+        numbers = ProvenRotor(hypotheses_of(at)).numbers
         equations = partial(equations_of, numbers)
         guess = newton(equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
         found, _ = enclosed_zero(equations, guess)
@@ -145,4 +145,4 @@ def test_orbit_that_is_listed_twice_is_refused(proof, first):
     again = {**entry, "centre": [*entry["centre"][first:], *entry["centre"][:first]]}
     evidence = Evidence({**proof.evidence, "orbits": [entry, again]})
     with at_precision(proof.bits), pytest.raises(NotShownError, match="lists an orbit twice"):
-        several_impact_claims(Rotor(proof.hypotheses), evidence, proof.options)
+        several_impact_claims(ProvenRotor(proof.hypotheses), evidence, proof.options)

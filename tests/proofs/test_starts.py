@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.patches import Held
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.starts import KickStart, Pulse, Step
 
 MACHINES = {"light damping": (0.05, 0.14), "paper": (0.3, 0.76), "overdamped": (1.2, 0.5)}
@@ -24,7 +24,7 @@ INTEGRATED = 1e-8
 def held_of(name, start):
     gamma, omega = MACHINES[name]
     numbers = {"gamma": gamma, "omega": omega, "rho": 0.1, "phi": 0, "mu": 0.1, "d": 0.5, "radius_ratio": 50}
-    return Held(Rotor(hypotheses_of(numbers)).numbers, start)
+    return Held(ProvenRotor(hypotheses_of(numbers)).numbers, start)
 
 
 def integrated(name, start, force, times, longest=np.inf):

@@ -18,7 +18,7 @@ from carom.proofs import check, prove_states
 from carom.proofs.arrivals import limits_of, read_forms, traps_of
 from carom.proofs.balls import at_precision
 from carom.proofs.forms import Surface
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import doubles_of
 
 NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
@@ -84,7 +84,7 @@ def test_forms_fall_in_flight_and_at_every_impact_in_their_trap(proof):
     rng, p = np.random.default_rng(5), doubles_of(proof.hypotheses)
     levitation = abs(p.rho / (p.omega**2 - 1 + 1j * p.gamma))
     with at_precision(proof.bits):
-        wall = Surface.of(Rotor(proof.hypotheses).numbers)
+        wall = Surface.of(ProvenRotor(proof.hypotheses).numbers)
         traps = traps_of(wall, read_forms(proof.evidence["forms"][1]))
     step = expm(np.array([[0, 1], [-(p.omega**2), -p.gamma]]) * 0.01)
     number = 4000
@@ -117,7 +117,7 @@ def test_states_up_to_a_speed_arrive_within_its_bounds(proof):
     levitation = abs(p.rho / (p.omega**2 - 1 + 1j * p.gamma))
     speed = proof["states recover"].enclosures["speed"].value
     with at_precision(proof.bits):
-        wall = Surface.of(Rotor(proof.hypotheses).numbers)
+        wall = Surface.of(ProvenRotor(proof.hypotheses).numbers)
         limits = limits_of(wall, wall.gamma * 0 + speed, read_forms(proof.evidence["forms"][2]))
     place, turning = drawn(speed, 2000, seed=int(rng.integers(100)))
     circle = levitation * np.exp(2j * np.pi * rng.random(2000))

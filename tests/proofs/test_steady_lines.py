@@ -10,7 +10,7 @@ import carom
 from carom.closed_forms import contact_free_kick, find_equilibria
 from carom.proofs import hypotheses_of
 from carom.proofs.balls import at_precision
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.steady_lines import steady_line_claims
 
 CASES = {
@@ -26,7 +26,7 @@ def case(request):
     path, name, start, stop, unit = CASES[request.param]
     options = {"along": name, "from": start, "to": stop}
     with at_precision(64):
-        claims = steady_line_claims(Rotor(hypotheses_of(path)), options)
+        claims = steady_line_claims(ProvenRotor(hypotheses_of(path)), options)
     low, high = (float(value.partition(" ")[0]) * (1e-3 if value.endswith(" mm") else 1.0) for value in (start, stop))
     drawn = np.random.default_rng(2).uniform(low, high, sized(200, 30, 2000)).tolist()
     values = [low, *drawn, high]

@@ -17,7 +17,7 @@ from carom.proofs import check, prove
 from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.proving import proof_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
 
@@ -27,13 +27,13 @@ LONG = 400.0
 
 def claims_of(machine):
     with at_precision(128):
-        return {claim.kind: claim for claim in whirl_claims(Rotor(hypotheses_of(machine)))}
+        return {claim.kind: claim for claim in whirl_claims(ProvenRotor(hypotheses_of(machine)))}
 
 
 def along(machine, name, low, high):
     with at_precision(128):
         options = {"along": name, "from": low, "to": high}
-        claims = steady_line_claims(Rotor(hypotheses_of(machine)), options)
+        claims = steady_line_claims(ProvenRotor(hypotheses_of(machine)), options)
         return {claim.kind: claim for claim in claims if claim.about == "whirl"}
 
 

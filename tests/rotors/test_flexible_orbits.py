@@ -17,7 +17,7 @@ from carom.rotors import (
     MagneticBearing,
     Material,
     ProportionalDamping,
-    Section,
+    ShaftSection,
     TouchdownPlane,
     Unbalance,
 )
@@ -30,7 +30,7 @@ SPEED, GAIN, CLEARANCE = 605.3, 9000.0, 0.2e-3
 def machine(gain):
     """A stiff shaft that turns with the speed, damping and unbalance of the source text, in one touchdown bearing in its middle."""
     steel = Material(2.1e11, 7800.0)
-    shaft = [Section(length, 0.03, 0.0, steel) for length in (0.1, 0.2, 0.2, 0.1)]
+    shaft = [ShaftSection(length, 0.03, 0.0, steel) for length in (0.1, 0.2, 0.2, 0.1)]
     mass = 0.6 * math.pi * 0.015**2 * 7800.0
     return FlexibleMachine(
         rotor=FlexibleRotor(shaft, [], ProportionalDamping(0.1 * SPEED, 0.0)),

@@ -10,19 +10,23 @@ from exact_shafts import frequencies
 from scipy.linalg import eigh
 
 from carom.base.outcome import InputError
-from carom.rotors import Disc, FlexibleRotor, Material, ModalDamping, Section
+from carom.rotors import Disc, FlexibleRotor, Material, ModalDamping, ShaftSection
 
 STEEL = Material("210 GPa", 7800.0, 0.3)
 UNDAMPED = ModalDamping(0.0)
 
 
 def plain(length=1.0, diameter=0.1, inner=0.0, elements=32, discs=()):
-    return FlexibleRotor([Section(length, diameter, inner, STEEL)], discs, UNDAMPED, length / elements)
+    return FlexibleRotor([ShaftSection(length, diameter, inner, STEEL)], discs, UNDAMPED, length / elements)
 
 
 def stepped(elements=60):
     """Three sections, one of them hollow, and two discs."""
-    sections = [Section(0.3, 0.04, 0.0, STEEL), Section(0.5, 0.06, 0.02, STEEL), Section(0.2, 0.03, 0.0, STEEL)]
+    sections = [
+        ShaftSection(0.3, 0.04, 0.0, STEEL),
+        ShaftSection(0.5, 0.06, 0.02, STEEL),
+        ShaftSection(0.2, 0.03, 0.0, STEEL),
+    ]
     return FlexibleRotor(sections, [Disc(1, 5.0, 0.02, 0.03), Disc(3, 2.0, 0.01, 0.018)], UNDAMPED, 1.0 / elements)
 
 
@@ -52,7 +56,7 @@ def test_mass_and_inertias_are_those_of_the_cylinders():
 
 
 def test_a_disc_of_dimensions_is_a_short_shaft():
-    body = Section("20 mm", "200 mm", "40 mm", STEEL)
+    body = ShaftSection("20 mm", "200 mm", "40 mm", STEEL)
     disc = Disc.of_body(0, body)
     shaft = FlexibleRotor([body], [], UNDAMPED)
     assert disc.mass == pytest.approx(shaft.mass)
@@ -81,7 +85,7 @@ def test_a_slender_shaft_bends_as_by_euler_and_bernoulli():
 
 def test_simply_supported_frequencies_of_a_thick_shaft_are_those_of_timoshenko():
     """``EIk⁴ − ρAω² − ρI(1 + E/κG)k²ω² + ρ²Iω⁴/κG = 0`` with ``k = jπ/L``; the error falls with the square of the element: its shear is constant."""
-    section, errors = Section(1.0, 0.2, 0.1, STEEL), []
+    section, errors = ShaftSection(1.0, 0.2, 0.1, STEEL), []
     young, density, inertia = STEEL.elastic_modulus, STEEL.density, section.second_moment
     shear = section.shear_coefficient * STEEL.shear_modulus
     k = 2.0 * math.pi
@@ -116,7 +120,7 @@ def test_whirls_of_a_stepped_shaft_are_those_of_its_transfer_matrix(ends, speed)
 def test_an_overhung_disc_on_a_light_shaft():
     """Cantilever with displacement ``L³/3EI + L/κGA``, ``L²/2EI`` and tilt ``L/EI`` by force and moment at its end."""
     length, speed = 0.4, 600.0
-    light = Section(length, 0.02, 0.0, Material(2e11, 1.0, 0.3))
+    light = ShaftSection(length, 0.02, 0.0, Material(2e11, 1.0, 0.3))
     disc = Disc(1, 20.0, 0.2, 0.35)
     rotor = FlexibleRotor([light], [disc], UNDAMPED)
     bending = 2e11 * light.second_moment
@@ -163,10 +167,10 @@ def test_long_sections_are_divided_and_nodes_stay_where_they_are():
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: Section("94", "8 kg"), r"^outer_diameter = 8 kg: must be a length"),
-        (lambda: Section(0.1, 0.01, 0.01), r"^inner_diameter = 0.01: a length below the outer diameter, 0.01 m$"),
-        (lambda: Section(math.nan, 0.01), r"^length = nan: must be a length"),
-        (lambda: Section(0.1, 0.01, 0.0, "steel"), r"^material = steel: carom.rotors.Material$"),
+        (lambda: ShaftSection("94", "8 kg"), r"^outer_diameter = 8 kg: must be a length"),
+        (lambda: ShaftSection(0.1, 0.01, 0.01), r"^inner_diameter = 0.01: a length below the outer diameter, 0.01 m$"),
+        (lambda: ShaftSection(math.nan, 0.01), r"^length = nan: must be a length"),
+        (lambda: ShaftSection(0.1, 0.01, 0.0, "steel"), r"^material = steel: carom.rotors.Material$"),
         (lambda: Material(density=-1.0), r"^density = -1.0: must be a density"),
         (lambda: Disc(1.5, 1.0, 1.0, 1.0), r"^disc node = 1.5: the number of a node"),
         (lambda: Disc(-1, 1.0, 1.0, 1.0), r"^disc node = -1: the number of a node"),
@@ -176,12 +180,15 @@ def test_long_sections_are_divided_and_nodes_stay_where_they_are():
             lambda: plain(discs=[Disc(2, 1.0, 1.0, 1.0)]),
             r"^disc node = 2: a node of the shaft: 0 to 1, its end at 1000 mm$",
         ),
-        (lambda: FlexibleRotor([], [], UNDAMPED), r"^sections = \[\]: a sequence of carom.rotors.Section$"),
+        (lambda: FlexibleRotor([], [], UNDAMPED), r"^sections = \[\]: a sequence of carom.rotors.ShaftSection$"),
         (
-            lambda: FlexibleRotor([Section(1.0, 0.1)], None, UNDAMPED),
+            lambda: FlexibleRotor([ShaftSection(1.0, 0.1)], None, UNDAMPED),
             r"^discs = None: a sequence of carom.rotors.Disc$",
         ),
-        (lambda: FlexibleRotor([Section(1.0, 0.1)], [], None), r"^damping = None: carom.rotors.ModalDamping, such as"),
+        (
+            lambda: FlexibleRotor([ShaftSection(1.0, 0.1)], [], None),
+            r"^damping = None: carom.rotors.ModalDamping, such as",
+        ),
         (lambda: plain(elements=-3), r"^longest_element = -0.333"),
         (
             lambda: plain(elements=501),

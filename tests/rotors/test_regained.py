@@ -9,13 +9,13 @@ from scipy.linalg import expm
 import carom as cm
 from carom.base.outcome import InputError
 from carom.parameters import TouchdownBearing
-from carom.rotors import PID, FlexibleRotor, MagneticBearing, Material, ProportionalDamping, Section, Unbalance
+from carom.rotors import PID, FlexibleRotor, MagneticBearing, Material, ProportionalDamping, ShaftSection, Unbalance
 from tests.flexible_machines import symmetric
 
 pytestmark = pytest.mark.jit_only
 
 LOST, END, GRAVITY = 3e-3, 5e-3, 9.81
-SHAFT = [Section(length, 0.03, 0.0, Material(2.1e11, 7800.0)) for length in (0.1, 0.4, 0.1)]
+SHAFT = [ShaftSection(length, 0.03, 0.0, Material(2.1e11, 7800.0)) for length in (0.1, 0.4, 0.1)]
 
 
 def machine(at_regain, integral, speed=300.0):

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.parameters import TouchdownBearing
-from carom.rotors import Disc, FlexibleRotor, Material, ProportionalDamping, Section
+from carom.rotors import Disc, FlexibleRotor, Material, ProportionalDamping, ShaftSection
 from tests.flexible_machines import symmetric
 
 pytestmark = pytest.mark.jit_only
@@ -17,7 +17,7 @@ PEAK, LASTS, END = 400.0, 2e-3, 3e-3
 MODES = 8
 """All of the finite elements."""
 STIFFNESS, MOUNT = 2e7, {"mount_mass": 0.2, "mount_stiffness": 2e6, "mount_damping": 100.0}
-SHAFT = [Section(length, 0.03, 0.0, Material(2.1e11, 7800.0)) for length in (0.1, 0.4, 0.1)]
+SHAFT = [ShaftSection(length, 0.03, 0.0, Material(2.1e11, 7800.0)) for length in (0.1, 0.4, 0.1)]
 MACHINE = symmetric(
     touchdown=TouchdownBearing("kelvin-voigt", stiffness=STIFFNESS, damping=0.0, **MOUNT),
     rotor=FlexibleRotor(SHAFT, [Disc(1, 1.0, 1e-4, 1e-4)], ProportionalDamping(0.0, 1e-7), 0.5),

@@ -14,7 +14,7 @@ from carom.rotors import (
     MagneticBearing,
     Material,
     ProportionalDamping,
-    Section,
+    ShaftSection,
     TouchdownPlane,
     Unbalance,
 )
@@ -26,7 +26,7 @@ UNTIL = "50 ms"
 
 def flexible(stiffer, gravity):
     """Two bearings of each kind at the same distance from the middle, where the unbalance is; proportional controllers."""
-    shaft = [Section(length, 0.03, 0.0, Material(2.1e11 * stiffer, 7800.0)) for length in (0.1, 0.2, 0.2, 0.1)]
+    shaft = [ShaftSection(length, 0.03, 0.0, Material(2.1e11 * stiffer, 7800.0)) for length in (0.1, 0.2, 0.2, 0.1)]
     wall = TouchdownBearing("kelvin-voigt", stiffness=2e7, damping=200.0)
     return FlexibleMachine(
         rotor=FlexibleRotor(shaft, [], ProportionalDamping(RATE, 0.0)),

@@ -43,41 +43,44 @@ _MOST = 10**15
 """Largest number of anything: far more than can be stored or awaited."""
 
 
-class Kind(NamedTuple):
+class ArgumentKind(NamedTuple):
     """A kind of argument: whether a value is of it, and what it is in words.  Annotated to a type, a range of it."""
 
     holds: Callable[[Any], bool]
     words: str
 
 
-def whole(least: int, most: int = _MOST) -> Kind:
+def whole(least: int, most: int = _MOST) -> ArgumentKind:
     """Whole numbers of a range."""
     words = f"of at least {least}" if most == _MOST else f"from {least} to {most}"
-    return Kind(lambda number: least <= number <= most, f"a whole number {words}")
+    return ArgumentKind(lambda number: least <= number <= most, f"a whole number {words}")
 
 
 Whole = Annotated[int, whole(0)]
 """A whole number of at least 0."""
 Count = Annotated[int, whole(1)]
 """A whole number of at least 1."""
-Seed = Annotated[int, Kind(lambda number: number >= 0, "a whole number of at least 0")]
+Seed = Annotated[int, ArgumentKind(lambda number: number >= 0, "a whole number of at least 0")]
 """Seed of a generator of random numbers."""
-Positive = Annotated[float, Kind(lambda number: number > 0.0, "a finite number above 0")]
-NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a finite number of at least 0")]
+Positive = Annotated[float, ArgumentKind(lambda number: number > 0.0, "a finite number above 0")]
+NotNegative = Annotated[float, ArgumentKind(lambda number: number >= 0.0, "a finite number of at least 0")]
 """A finite number above 0."""
-Infinity = Annotated[Any, Kind(lambda number: isinstance(number, float) and math.isinf(number), "infinity")]
+Infinity = Annotated[Any, ArgumentKind(lambda number: isinstance(number, float) and math.isinf(number), "infinity")]
 """Infinity, where a number may also be that: ``float | Infinity``."""
-Reals = Annotated["np.ndarray", Kind(lambda values: kind_of_numbers(values) in "iuf", "finite real numbers")]
+Reals = Annotated["np.ndarray", ArgumentKind(lambda values: kind_of_numbers(values) in "iuf", "finite real numbers")]
 """Array of finite real numbers."""
 Truths = Annotated[
-    Any, Kind(lambda values: getattr(getattr(values, "dtype", None), "kind", "") == "b", "an array of True and False")
+    Any,
+    ArgumentKind(
+        lambda values: getattr(getattr(values, "dtype", None), "kind", "") == "b", "an array of True and False"
+    ),
 ]
 """Array of ``True`` and ``False``."""
 
 
-def having(*names: str) -> Kind:
+def having(*names: str) -> ArgumentKind:
     """Mappings in which these names are."""
-    return Kind(lambda given: all(name in given for name in names), f"a mapping with {', '.join(names)}")
+    return ArgumentKind(lambda given: all(name in given for name in names), f"a mapping with {', '.join(names)}")
 
 
 @overload
@@ -118,7 +121,7 @@ class _Door(NamedTuple):
     places: tuple[str, ...]
     others: str
     further: str
-    kinds: Mapping[str, Kind]
+    kinds: Mapping[str, ArgumentKind]
 
     @classmethod
     def of(cls, function: Callable[..., Any]) -> _Door:
@@ -196,21 +199,21 @@ def kind_of_numbers(value: Any) -> str:
     return values.dtype.kind if values.dtype.kind in "iufc" and np.isfinite(values).all() else "-"
 
 
-_NUMBERS = Kind(lambda value: kind_of_numbers(value) != "-", "finite numbers")
-_ANYTHING = Kind(lambda value: True, "anything")
-_PLAIN: Mapping[Any, Kind] = {
+_NUMBERS = ArgumentKind(lambda value: kind_of_numbers(value) != "-", "finite numbers")
+_ANYTHING = ArgumentKind(lambda value: True, "anything")
+_PLAIN: Mapping[Any, ArgumentKind] = {
     Any: _ANYTHING,
     object: _ANYTHING,
-    type(None): Kind(lambda value: value is None, ""),
-    bool: Kind(lambda value: type(value).__name__ in ("bool", "bool_"), "True or False"),
-    int: Kind(_is_whole, "a whole number"),
-    float: Kind(_is_real, "a finite number"),
-    complex: Kind(is_number, "a finite number, real or complex"),
-    str: Kind(lambda value: isinstance(value, str), "text"),
+    type(None): ArgumentKind(lambda value: value is None, ""),
+    bool: ArgumentKind(lambda value: type(value).__name__ in ("bool", "bool_"), "True or False"),
+    int: ArgumentKind(_is_whole, "a whole number"),
+    float: ArgumentKind(_is_real, "a finite number"),
+    complex: ArgumentKind(is_number, "a finite number, real or complex"),
+    str: ArgumentKind(lambda value: isinstance(value, str), "text"),
 }
 
 
-def _kind_of(written: Any) -> Kind:
+def _kind_of(written: Any) -> ArgumentKind:
     """Kind of argument that an annotation stands for."""
     origin, parts = get_origin(written), get_args(written)
     if origin is Annotated:
@@ -219,7 +222,7 @@ def _kind_of(written: Any) -> Kind:
         return _any_of([_kind_of(part) for part in parts])
     if origin is Literal:
         options = f"one of: {', '.join(map(str, parts))}"
-        return Kind(lambda value: any(_is_same(value, one) for one in parts), options)
+        return ArgumentKind(lambda value: any(_is_same(value, one) for one in parts), options)
     if origin is tuple and parts[-1] is not ...:
         return _fixed([_kind_of(part) for part in parts])
     if origin in (tuple, list, Sequence, Iterable):
@@ -227,7 +230,7 @@ def _kind_of(written: Any) -> Kind:
     if origin is Mapping:
         return _mapping(*(_kind_of(part) for part in parts))
     if origin is Callable:
-        return Kind(callable, "a function")
+        return ArgumentKind(callable, "a function")
     if isinstance(written, ForwardRef) or getattr(origin or written, "__name__", "") == "ndarray":
         return _NUMBERS
     return _PLAIN.get(written) or _instances(origin or written)
@@ -237,34 +240,36 @@ def _is_same(value: object, option: object) -> bool:
     return isinstance(value, type(option)) and not isinstance(value, bool) and value == option
 
 
-def _ranged(whole: Kind, limits: Kind) -> Kind:
-    return Kind(lambda value: whole.holds(value) and limits.holds(value), limits.words)
+def _ranged(whole: ArgumentKind, limits: ArgumentKind) -> ArgumentKind:
+    return ArgumentKind(lambda value: whole.holds(value) and limits.holds(value), limits.words)
 
 
-def _any_of(kinds: Sequence[Kind]) -> Kind:
+def _any_of(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
     *words, last = dict.fromkeys(kind.words for kind in kinds if kind.words)
-    return Kind(
+    return ArgumentKind(
         lambda value: any(kind.holds(value) for kind in kinds), f"{', '.join(words)} or {last}" if words else last
     )
 
 
-def _fixed(kinds: Sequence[Kind]) -> Kind:
+def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
     def holds(value: Any) -> bool:
         fits = _is_sequence(value) and len(value) == len(kinds)
         return fits and all(kind.holds(part) for kind, part in zip(kinds, value, strict=True))
 
     words = list(dict.fromkeys(kind.words for kind in kinds))
-    return Kind(holds, f"{len(kinds)} values in brackets, {'each' if len(words) == 1 else 'namely'} {', '.join(words)}")
+    return ArgumentKind(
+        holds, f"{len(kinds)} values in brackets, {'each' if len(words) == 1 else 'namely'} {', '.join(words)}"
+    )
 
 
-def _several(one: Kind, container: Any) -> Kind:
+def _several(one: ArgumentKind, container: Any) -> ArgumentKind:
     def holds(value: Any) -> bool:
         several = _is_sequence(value)
         if container is Iterable:
             several = isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping)
         return several and (isinstance(value, Iterator) or all(map(one.holds, value)))  # an iterator would be used up
 
-    return Kind(holds, f"a sequence, each entry {one.words}")
+    return ArgumentKind(holds, f"a sequence, each entry {one.words}")
 
 
 def _is_sequence(value: Any) -> bool:
@@ -274,14 +279,14 @@ def _is_sequence(value: Any) -> bool:
     return several and not isinstance(value, str | bytes) and getattr(value, "ndim", 1) > 0
 
 
-def _mapping(key: Kind, entry: Kind) -> Kind:
+def _mapping(key: ArgumentKind, entry: ArgumentKind) -> ArgumentKind:
     def holds(value: Any) -> bool:
         return isinstance(value, Mapping) and all(key.holds(name) and entry.holds(one) for name, one in value.items())
 
-    return Kind(holds, f"a mapping from {key.words} to {entry.words}")
+    return ArgumentKind(holds, f"a mapping from {key.words} to {entry.words}")
 
 
-def _instances(kind: type) -> Kind:
+def _instances(kind: type) -> ArgumentKind:
     """Instances of a class, or what follows a protocol: to find that out takes long, so types are remembered."""
     known: set[type] = set()
 
@@ -293,4 +298,4 @@ def _instances(kind: type) -> Kind:
             known.add(type(value))
         return fits
 
-    return Kind(holds, f"{'an' if kind.__name__[0] in 'AEIO' else 'a'} {kind.__name__}")
+    return ArgumentKind(holds, f"{'an' if kind.__name__[0] in 'AEIO' else 'a'} {kind.__name__}")

@@ -126,7 +126,7 @@ def map_gains(
     names = names or usual_gains(rotor)
     limits = {"patience": patience, "max_events": max_events}
     measure, tell = (
-        Recovery(disturbances, {**limits, "threads": threads}),
+        RecoveryMeasure(disturbances, {**limits, "threads": threads}),
         Reporter.of(progress, "following starts of other gains"),
     )
     dataset, _ = map_over(rotor, measure, names, ranges, shape, tell)
@@ -196,7 +196,7 @@ _LEVITATES = Quantity("1", "1 where the rotor levitates without contact and no m
 
 
 @dataclass(frozen=True)
-class Recovery(Measure):
+class RecoveryMeasure(Measure):
     """Where disturbances of a plan end; each node draws its own sample."""
 
     plan: Plan

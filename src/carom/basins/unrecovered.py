@@ -123,7 +123,7 @@ def smallest_unrecovered(
         raise InputError("machine", grows, "stable levitation to come back to; this takes damping (gamma)")
     if type(model) is KickPlane:
         model = VelocityKick(model.fastest)
-    search = _Search(rotor, model, tolerance, threads, _effort(rotor, model))
+    search = _SizeSearch(rotor, model, tolerance, threads, _effort(rotor, model))
     chosen = directions or search.effort.directions, sizes or search.effort.sizes
     try:
         return _searched(search, *chosen, Reporter.of(progress, "looking for the smallest that does not come back"))
@@ -137,7 +137,7 @@ def _effort(rotor: Rotor, model: Disturbance) -> Effort:
     return FULL if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
 
 
-def _searched(search: _Search, directions: int, sizes: int, tell: Reporter) -> SmallestUnrecovered:
+def _searched(search: _SizeSearch, directions: int, sizes: int, tell: Reporter) -> SmallestUnrecovered:
     """The search to its end."""
     contact_free, largest = search.contact_free, search.largest
     if contact_free >= largest:
@@ -183,7 +183,7 @@ class Found(NamedTuple):
     instant: float | None = None
 
 
-class _Search:
+class _SizeSearch:
     """Search among the disturbances of a model by size and direction; ``best`` is the smallest unrecovered one so far."""
 
     def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None, effort: Effort) -> None:

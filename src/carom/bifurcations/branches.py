@@ -18,7 +18,7 @@ from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
-from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
+from carom.orbits.shooting import ShootingStart, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Word
 from carom.parameters import Numbers, Scales
 from carom.parameters.formats import format_range
@@ -184,7 +184,7 @@ class OrbitBranch(Result):
         return np.abs(self.multipliers).max(axis=1) < 1.0
 
     @checked
-    def starts_at(self, value: float, rotor: Rotor | None = None) -> list[Start]:
+    def starts_at(self, value: float, rotor: Rotor | None = None) -> list[ShootingStart]:
         """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there.
 
         A ``rotor`` with this value need not be made again.

@@ -15,7 +15,7 @@ from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.motions import NOT_EXAMINED, Motions, motions_at
 from carom.bifurcations.planes import Plane
 from carom.models import Rotor, rotor_of
-from carom.orbits.flow import Budget
+from carom.orbits.flow import FlowBudget
 from carom.parameters import Parameters
 
 THIN = 0.05
@@ -47,7 +47,7 @@ class Region(Result):
 
 
 def settled_cells(
-    model: Rotor, plane: Plane, grid: int, budget: Budget, tell: Reporter
+    model: Rotor, plane: Plane, grid: int, budget: FlowBudget, tell: Reporter
 ) -> tuple[list[list[PlanePoint]], int]:
     """Motions on which disturbances end in the middle of each cell of a grid, and the number of cells that were examined.
 

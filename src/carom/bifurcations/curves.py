@@ -28,7 +28,7 @@ from carom.bifurcations.simulated_curves import KINDS as SIMULATED_KINDS
 from carom.bifurcations.simulated_curves import SimulatedCurve
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
-from carom.orbits.flow import Budget
+from carom.orbits.flow import FlowBudget
 from carom.parameters import Numbers
 
 Function = Callable[[np.ndarray, float], np.ndarray]
@@ -89,7 +89,7 @@ def can_be_followed(point: Bifurcation) -> bool:
 
 @checked
 def continue_curve(
-    bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None, budget: Budget | None = None
+    bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None, budget: FlowBudget | None = None
 ) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 
@@ -104,7 +104,7 @@ def continue_curve(
     bifurcation : Bifurcation
         A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of
         :data:`KINDS`.
-    budget : Budget, optional
+    budget : FlowBudget, optional
         What simulated motions are paid from.
 
     Raises
@@ -156,7 +156,7 @@ class ClosedFormCurve:
 
     bend, steps = BEND, STEPS
 
-    def __init__(self, point: Bifurcation, plane: Plane, _: Budget | None = None) -> None:
+    def __init__(self, point: Bifurcation, plane: Plane, _: FlowBudget | None = None) -> None:
         self.kind, self.base, self.plane = point.kind, point.numbers, plane
         if self.base.mu < 0.0:
             raise InputError("bifurcation", f"{self.kind} of {point.name}", "one of an orbit with forward slip")

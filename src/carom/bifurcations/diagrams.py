@@ -25,7 +25,7 @@ from carom.bifurcations.steady import (
 from carom.bifurcations.words import continue_orbit
 from carom.models import Rotor, Subject, rotor_of
 from carom.models.axes import Axis, Ends, axis, read_interval
-from carom.orbits.flow import Budget
+from carom.orbits.flow import FlowBudget
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import Impacts
 from carom.orbits.searched import Searched
@@ -205,7 +205,7 @@ def find_bifurcations(
 
 
 def special_points(
-    model: Rotor, parameter: str, interval: tuple[float, float], budget: Budget, *, virtual: bool
+    model: Rotor, parameter: str, interval: tuple[float, float], budget: FlowBudget, *, virtual: bool
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter; what a search of simulated motions may take is limited."""
     along = axis(model, parameter)
@@ -227,7 +227,7 @@ def _branches(
     tell: Reporter,
     impacts: int = 1,
     *,
-    budget: Budget | None = None,
+    budget: FlowBudget | None = None,
     virtual: bool,
 ) -> tuple[tuple[Any, ...], tuple[Any, ...], Searched | None]:
     """Branches of orbits with one impact a period, those of others, and what was searched."""

@@ -18,10 +18,10 @@ from carom.bifurcations.simulated import MOST_NUMBERS, STEPS, SimulatedBranch, c
 from carom.bifurcations.words import continue_orbit, renamed, switch
 from carom.models import Rotor
 from carom.models.axes import Axis
-from carom.orbits.flow import Budget, Flow
+from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.search import Search
+from carom.orbits.search import OrbitSearch
 from carom.orbits.searched import Searched
 from carom.orbits.simulated import SimulatedOrbit, numbered
 from carom.orbits.simulated_search import search_simulated
@@ -29,7 +29,7 @@ from carom.orbits.simulated_search import search_simulated
 VALUES = 9
 """Number of values of the parameter at which words of impacts are searched."""
 GUESSES, SETTLED, FRESH = 300, 1000, 300
-"""Guesses at each value for each number of impacts, motions followed until they settle, and fresh ones (:class:`~carom.orbits.search.Search`)."""
+"""Guesses at each value for each number of impacts, motions followed until they settle, and fresh ones (:class:`~carom.orbits.search.OrbitSearch`)."""
 PLACES = (0.5, 0.15, 0.85)
 """Places of the range at which orbits of any machine are searched."""
 SHARE, FIRST_SHARE, EVENTS = 0.2, 0.05, 3e6
@@ -54,7 +54,7 @@ class Followed:
         Branches of the orbits that the closed form gives.
     virtual : bool
         Follow words among virtual orbits to any distance from a motion.
-    budget : Budget
+    budget : FlowBudget
         What simulated motions are paid from.
     """
 
@@ -63,7 +63,7 @@ class Followed:
     impacts: int
     singles: Sequence[OrbitBranch]
     virtual: bool
-    budget: Budget
+    budget: FlowBudget
     found: list[Any] = field(default_factory=list)
 
     @property
@@ -153,7 +153,7 @@ def followed_branches(
     singles: Sequence[OrbitBranch],
     *,
     virtual: bool,
-    budget: Budget | None,
+    budget: FlowBudget | None,
     tell: Reporter,
 ) -> tuple[tuple[Any, ...], Searched]:
     """Branches of orbits with at most a number of impacts a period beside those of the closed form, and what was searched.
@@ -161,7 +161,7 @@ def followed_branches(
     Orbits found at one value are followed to all others, those of rotors of very many states are not.  With a ``budget`` they are simulated
     at one value only.
     """
-    all_of = Followed(along, limits, impacts, singles, virtual, budget or Budget(EVENTS))
+    all_of = Followed(along, limits, impacts, singles, virtual, budget or FlowBudget(EVENTS))
     for single in singles:
         all_of.leave(single.special)
     exact, done = model.has_closed_forms, list[Searched]()
@@ -174,7 +174,7 @@ def followed_branches(
     for place, value in enumerate(values):
         rotor, part = along.move(model, value), tell.part(place / len(values), (place + 1) / len(values))
         if exact:
-            search = Search(rotor, impacts, all_of.known(rotor, value))
+            search = OrbitSearch(rotor, impacts, all_of.known(rotor, value))
             done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
             orbits = [
                 each for each in search.found if isinstance(each, Orbit) and each.admissible and each.impacts >= 2

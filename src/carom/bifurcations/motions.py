@@ -16,7 +16,7 @@ from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
 from carom.models import Rotor, Subject, exact_rotor_of, rotor_of
 from carom.motions.simulation import simulate
-from carom.orbits.flow import Budget
+from carom.orbits.flow import FlowBudget
 from carom.orbits.names import OrbitName, combined, in_order
 from carom.orbits.simulated_search import start_of
 
@@ -96,7 +96,7 @@ class Motions:
 
 
 @checked
-def motions_at(machine: Subject, budget: Budget | None = None) -> Motions:
+def motions_at(machine: Subject, budget: FlowBudget | None = None) -> Motions:
     """Count the simple motions of a machine.
 
     Only single-impact orbits with forward slip are counted.  Without damping, or with so little that there would be
@@ -105,7 +105,7 @@ def motions_at(machine: Subject, budget: Budget | None = None) -> Motions:
     """
     rotor = rotor_of(machine)
     if not rotor.has_closed_forms:
-        return _settled_motions(rotor, budget or Budget())
+        return _settled_motions(rotor, budget or FlowBudget())
     orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
     radii = spectral_radii([orbit[1:] for orbit in orbits])
     return Motions(
@@ -119,7 +119,7 @@ def motions_at(machine: Subject, budget: Budget | None = None) -> Motions:
     )
 
 
-def _settled_motions(rotor: Rotor, budget: Budget) -> Motions:
+def _settled_motions(rotor: Rotor, budget: FlowBudget) -> Motions:
     """Follow some disturbances of a machine until they settle."""
     random, found = np.random.default_rng(0), set()
     for _ in range(STARTS):

@@ -11,11 +11,11 @@ from carom.core.friction import friction_margin, slip_of
 from carom.core.margins import highest_point
 from carom.orbits.admissibility import departure
 from carom.orbits.orbit import Orbit
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import ShootingStart
 from carom.orbits.word import Kind, Word
 
 
-def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
+def _with_impact(orbit: Orbit) -> tuple[Word, ShootingStart]:
     """One impact more, where the highest maximum of the radius touches the wall."""
     system, best = orbit.rotor.system, (-np.inf, 0, 0.0)
     left = [
@@ -34,10 +34,10 @@ def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
     states = np.insert(orbit.nodes, i + 1, system.nodes.of(touching[None])[0], axis=0)
     durations = np.insert(orbit.durations, i + 1, orbit.durations[i] - top)
     durations[i] = top
-    return word, Start(states, durations)
+    return word, ShootingStart(states, durations)
 
 
-def _without_impact(orbit: Orbit) -> tuple[Word, Start]:
+def _without_impact(orbit: Orbit) -> tuple[Word, ShootingStart]:
     """One impact less: the slowest, which has no speed."""
     if len(orbit.word) == 1:
         raise InputError("orbit", str(orbit.word), "one with another flight than that after the impact that vanishes")
@@ -45,10 +45,10 @@ def _without_impact(orbit: Orbit) -> tuple[Word, Start]:
     first = (int(np.argmin(orbit.impact_speeds)) + 1) % len(orbit.word)
     nodes, durations = orbit.start.turned(first)
     durations[-2] += durations[-1]
-    return Word(orbit.word.turned(first)[:-1]), Start(nodes[:-1], durations[:-1])
+    return Word(orbit.word.turned(first)[:-1]), ShootingStart(nodes[:-1], durations[:-1])
 
 
-def _with_other_slip(orbit: Orbit) -> tuple[Word, Start]:
+def _with_other_slip(orbit: Orbit) -> tuple[Word, ShootingStart]:
     """The same impacts, one of which stops the slip or no longer does."""
     wall, gaps = orbit.rotor.system.contacts[0].wall, []
     for i, section in enumerate(orbit.sections):
@@ -60,7 +60,7 @@ def _with_other_slip(orbit: Orbit) -> tuple[Word, Start]:
     return Word((*orbit.word[:i], changed, *orbit.word[i + 1 :])), orbit.start
 
 
-BORDERS: dict[str, Callable[[Orbit], tuple[Word, Start]]] = {
+BORDERS: dict[str, Callable[[Orbit], tuple[Word, ShootingStart]]] = {
     "grazing": _with_impact,
     "vanishing-impact": _without_impact,
     "slip-stop": _with_other_slip,

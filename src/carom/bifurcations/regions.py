@@ -23,7 +23,7 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Rotor, Subject, rotor_of
-from carom.orbits.flow import Budget
+from carom.orbits.flow import FlowBudget
 from carom.orbits.names import OrbitName, combined
 
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
@@ -187,7 +187,7 @@ def map_regions(
     >>> sorted({curve.kind for curve in regions.curves})
     ['boundary-equilibrium', 'fold', 'non-smooth-hopf']
     """
-    model, budget = rotor_of(machine), Budget(EVENTS)
+    model, budget = rotor_of(machine), FlowBudget(EVENTS)
     model.system.refuse_non_stationary()
     exact = model.has_closed_forms
     # Of a rotor with closed forms its parameters, which are moved faster.
@@ -199,9 +199,11 @@ def map_regions(
     base = given if inside else plane.at(given, *np.mean([plane.first_range, plane.second_range], axis=1).tolist())
     curves: list[Curve] = []
     lost: list[str] = []
-    following = Budget(CURVE_EVENTS, binding=True)
+    following = FlowBudget(CURVE_EVENTS, binding=True)
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        points = special_points(rotor_of(base), name, interval, Budget(DIAGRAM_EVENTS, binding=True), virtual=virtual)
+        points = special_points(
+            rotor_of(base), name, interval, FlowBudget(DIAGRAM_EVENTS, binding=True), virtual=virtual
+        )
         curves = _through_points(plane, points, virtual, curves, lost, following)
         tell(share)
     present, later = motions_at(given), tell.part(0.3, 1.0)
@@ -241,7 +243,7 @@ def _remarks(grid: int, examined: int) -> list[str]:
 
 
 def _through_points(
-    plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str], budget: Budget
+    plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str], budget: FlowBudget
 ) -> list[Curve]:
     """Add to the known curves those through special points, simulated ones within a budget; failures are appended to ``lost``."""
     for point in points:

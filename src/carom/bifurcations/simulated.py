@@ -17,11 +17,11 @@ from carom.base.arguments import checked
 from carom.base.outcome import CaromError, InputError, Phase
 from carom.base.results import Result
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.simulated_family import Family
+from carom.bifurcations.simulated_family import SimulatedFamily
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.closing import multipliers_from, newton
-from carom.orbits.flow import Budget, Flow
+from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.happenings import happenings, word_of
 from carom.orbits.names import CountedName
 from carom.orbits.simulated import SimulatedOrbit
@@ -171,7 +171,7 @@ def continue_simulated(
     parameter: str,
     interval: Ends,
     steps: Steps | None = None,
-    budget: Budget | None = None,
+    budget: FlowBudget | None = None,
 ) -> SimulatedBranch:
     """Continue a periodic motion of any machine along a parameter, through events that join or leave its period.
 
@@ -182,7 +182,7 @@ def continue_simulated(
     orbit : SimulatedOrbit
     parameter : str
     interval : tuple of float or str
-    budget : Budget, optional
+    budget : FlowBudget, optional
         What the motions are paid from.
 
     Raises
@@ -197,7 +197,7 @@ def continue_simulated(
             "orbit", len(Flow.vector(orbit.start)), f"a rotor of at most {MOST_NUMBERS} numbers of a state"
         )
     begun = begun_at_least_radius(orbit) if orbit.repeats is None else orbit
-    family = Family(begun, along, limits, budget or Budget())
+    family = SimulatedFamily(begun, along, limits, budget or FlowBudget())
     vector = Flow.vector(begun.start)
     start = np.append(vector, begun.period) if family.free else vector
     scales = np.append(np.ones(len(start)), family.size)
@@ -230,7 +230,7 @@ def continue_simulated(
     )
 
 
-def _special(family: Family, point: SpecialPoint, name: Any) -> Bifurcation | None:
+def _special(family: SimulatedFamily, point: SpecialPoint, name: Any) -> Bifurcation | None:
     orbit = family.orbit_at(point.unknowns, point.parameter, name)
     if orbit is None:
         return None
@@ -241,7 +241,7 @@ def _special(family: Family, point: SpecialPoint, name: Any) -> Bifurcation | No
     return _point(family, point.kind, orbit, point.parameter, point.place)
 
 
-def _point(family: Family, kind: str, orbit: SimulatedOrbit, value: float, place: float) -> Bifurcation:
+def _point(family: SimulatedFamily, kind: str, orbit: SimulatedOrbit, value: float, place: float) -> Bifurcation:
     return Bifurcation(
         kind,
         None,
@@ -256,7 +256,7 @@ def _point(family: Family, kind: str, orbit: SimulatedOrbit, value: float, place
     )
 
 
-def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
+def _changes(family: SimulatedFamily, branch: Branch, name: Any) -> list[Bifurcation]:
     """Points between which something joins or leaves the period, by bisection on the chord."""
     found = []
     known = [_word_at(family, u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
@@ -280,7 +280,7 @@ def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
     return found
 
 
-def _word_at(family: Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
+def _word_at(family: SimulatedFamily, u: np.ndarray, p: float) -> tuple[str, int] | None:
     """What happens in a period, from its first impact on in the order of the alphabet, and the number of impacts."""
     motion = family.motion(u, p)
     if motion is None:
@@ -292,7 +292,7 @@ def _word_at(family: Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
     return min(turns), sum(each.begins_contact for each in found)
 
 
-def _corrected(family: Family, guess: np.ndarray) -> np.ndarray | None:
+def _corrected(family: SimulatedFamily, guess: np.ndarray) -> np.ndarray | None:
     """Point of the branch at the parameter of a guess."""
     u, p = guess[:-1], float(guess[-1])
     flow, (vector, period) = family.flow(p), family.split(u)
@@ -303,7 +303,7 @@ def _corrected(family: Family, guess: np.ndarray) -> np.ndarray | None:
 
 
 @checked
-def switch_simulated(point: Bifurcation, interval: Ends, budget: Budget | None = None) -> SimulatedBranch:
+def switch_simulated(point: Bifurcation, interval: Ends, budget: FlowBudget | None = None) -> SimulatedBranch:
     """Branch of twice the period at a period doubling of a periodic motion of any machine.
 
     Raises
@@ -312,7 +312,7 @@ def switch_simulated(point: Bifurcation, interval: Ends, budget: Budget | None =
         No such motion is found beside it.
     """
     orbit: Any = point.orbit
-    budget = budget or Budget()
+    budget = budget or FlowBudget()
     along = axis(orbit.rotor, point.parameter)
     vector = Flow.vector(orbit.start)
     free = orbit.repeats is None

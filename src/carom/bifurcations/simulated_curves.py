@@ -15,9 +15,9 @@ from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.simulated import MOST_NUMBERS, begun_at_least_radius
-from carom.bifurcations.simulated_family import Family, Place
+from carom.bifurcations.simulated_family import Place, SimulatedFamily
 from carom.continuation import Branch, Steps, Watch
-from carom.orbits.flow import Budget, Flow
+from carom.orbits.flow import Flow, FlowBudget
 
 STEPS = Steps(
     first=0.02, largest=0.2, smallest=1e-3, sharpest_turn=0.4, most_points=80, tolerance=1e-7, resolution=1e-8
@@ -32,7 +32,7 @@ class SimulatedCurve:
     steps = STEPS
     reach = None
 
-    def __init__(self, point: Bifurcation, plane: Plane, budget: Budget | None) -> None:
+    def __init__(self, point: Bifurcation, plane: Plane, budget: FlowBudget | None) -> None:
         if point.kind not in KINDS:
             raise InputError("kind", point.kind, f"one of: {', '.join(KINDS)}")
         orbit: Any = point.orbit
@@ -43,7 +43,7 @@ class SimulatedCurve:
             )
         self.kind, self.plane, self.name = point.kind, plane, orbit.name
         begun = begun_at_least_radius(orbit) if orbit.repeats is None else orbit
-        self.family = Family(begun, plane, plane.second_range, budget or Budget())
+        self.family = SimulatedFamily(begun, plane, plane.second_range, budget or FlowBudget())
         plane.axes(orbit.rotor)
         self.base, vector = orbit.rotor, Flow.vector(begun.start)
         self.guess = np.append(vector, begun.period) if self.family.free else vector

@@ -15,7 +15,7 @@ from carom.base.outcome import InputError
 from carom.continuation import Watch
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import multipliers_from
-from carom.orbits.flow import Budget, Flow
+from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.simulated import SimulatedOrbit
 
 DIFFERENCE = 1e-6
@@ -30,10 +30,10 @@ Place = float | tuple[float, float]
 """Value of the parameter, or of both parameters of a plane."""
 
 
-class Family:
+class SimulatedFamily:
     """The equations of a periodic motion in the numbers of its state and, where it is free, its period; ``along`` is an axis or a plane."""
 
-    def __init__(self, orbit: SimulatedOrbit, along: Any, limits: tuple[float, float], budget: Budget) -> None:
+    def __init__(self, orbit: SimulatedOrbit, along: Any, limits: tuple[float, float], budget: FlowBudget) -> None:
         self.budget = budget
         self.orbit, self.along, self.limits = orbit, along, limits
         self.free, self.plane = orbit.repeats is None, orbit.leading_plane

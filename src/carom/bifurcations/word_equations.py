@@ -131,7 +131,7 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
 """Functions that vanish at special points; not finite where they are not defined."""
 
 
-class Family:
+class WordFamily:
     """The equations of orbits of a word along a parameter; the last points, and the last rotors, are remembered."""
 
     def __init__(self, rotor: Rotor, along: Axis, word: Word, limits: tuple[float, float]) -> None:

@@ -20,7 +20,7 @@ from carom.bifurcations.neighbours import BORDERS
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET, Bifurcation
 from carom.bifurcations.simulated import SimulatedBranch, continue_simulated, switch_simulated
 from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import FAR_FROM_MOTION, Family
+from carom.bifurcations.word_equations import FAR_FROM_MOTION, WordFamily
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
@@ -119,7 +119,7 @@ def continue_orbit(
         each = f"{len(orbit.word)} segments with {len(start) // len(orbit.word)} unknowns each"
         allowed = f"at most {MOST_UNKNOWNS} unknowns: each step of a branch solves for all of them; follow a shorter orbit, or a rotor of fewer states"
         raise InputError("orbit", each, allowed)
-    family = Family(orbit.rotor, along, orbit.word, limits)
+    family = WordFamily(orbit.rotor, along, orbit.word, limits)
     return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 
 
@@ -159,12 +159,12 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
         return switch_simulated(point, ends)
     present, limits = interval_around(along, value, ends)
     if kind == "period-doubling":
-        family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
+        family = WordFamily(orbit.rotor, along, orbit.word.repeated(2), limits)
         doubled = np.tile(pack(orbit.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
     else:
         word, start = BORDERS[kind](orbit)
-        family, unknowns = Family(orbit.rotor, along, word, limits), pack(start)
+        family, unknowns = WordFamily(orbit.rotor, along, word, limits), pack(start)
     return _follow(family, unknowns, present, None, CountedName(len(family.word), 1), virtual=virtual)
 
 
@@ -184,7 +184,7 @@ def _alternating(word: Word, links: Links) -> np.ndarray:
 
 
 def _follow(
-    family: Family,
+    family: WordFamily,
     start: np.ndarray,
     present: float,
     steps: Steps | None,
@@ -221,7 +221,7 @@ def _follow(
 
 
 def _special_point(
-    family: Family, branch: Branch, point: SpecialPoint, name: OrbitName | CountedName
+    family: WordFamily, branch: Branch, point: SpecialPoint, name: OrbitName | CountedName
 ) -> Bifurcation | None:
     """Special point of orbits of a name, those of the closed form without certified orbit; ``None`` if it is none."""
     parameter, value = family.along.name, point.parameter
@@ -254,7 +254,7 @@ def _special_point(
     )
 
 
-def _halved(family: Family, unknowns: np.ndarray, value: float) -> tuple[float, np.ndarray]:
+def _halved(family: WordFamily, unknowns: np.ndarray, value: float) -> tuple[float, np.ndarray]:
     """Where both halves of a period are equal: the period doubling of the orbit of half the period, next to a point.
 
     Their difference vanishes like a root of the parameter, so that it tells the place to half of all digits only.
@@ -276,7 +276,7 @@ def _halved(family: Family, unknowns: np.ndarray, value: float) -> tuple[float, 
     return (value, unknowns) if links is None else (exact, np.tile(pack(links.start), 2))
 
 
-def _is_special(family: Family, branch: Branch, point: SpecialPoint) -> bool:
+def _is_special(family: WordFamily, branch: Branch, point: SpecialPoint) -> bool:
     """Whether a special point of the continuation is one of orbits.
 
     Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an

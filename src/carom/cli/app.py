@@ -110,12 +110,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     else:
         if code != INTERRUPTED:  # caught by typer, which prints nothing
             return code if isinstance(code, int) else 0
-        failure = Failure(INTERRUPTED, "interrupted")
+        failure = CommandFailure(INTERRUPTED, "interrupted")
     return failure.tell(as_json="--json" in words)
 
 
 @dataclass(frozen=True)
-class Failure:
+class CommandFailure:
     """Why a command did not succeed, its exit code, and the errors of the input if it was refused."""
 
     code: int
@@ -147,28 +147,28 @@ def _entry(error: InputError) -> dict[str, Any]:
     return {"field": shown(error.field), "value": value, "allowed": printable(error.allowed), "message": str(error)}
 
 
-def _failure_of(problem: BaseException) -> Failure:
+def _failure_of(problem: BaseException) -> CommandFailure:
     """What an exception means for the user; raise it again if ``CAROM_DEBUG=1`` asks for the traceback of an unexpected one."""
     if isinstance(problem, InputError):
-        return Failure(BAD_INPUT, str(problem), problem.errors)
+        return CommandFailure(BAD_INPUT, str(problem), problem.errors)
     if isinstance(problem, CaromError):
-        return Failure(BAD_INPUT, str(problem))
+        return CommandFailure(BAD_INPUT, str(problem))
     if isinstance(problem, InterruptionError):
-        return Failure(INTERRUPTED, str(problem))
+        return CommandFailure(INTERRUPTED, str(problem))
     if isinstance(problem, UsageError):
         message = getattr(problem, "format_message", problem.__str__)()
-        return Failure(BAD_INPUT, f"{message} (see carom --help)")
+        return CommandFailure(BAD_INPUT, f"{message} (see carom --help)")
     if isinstance(problem, KeyboardInterrupt | typer.Abort) and not isinstance(problem.__cause__, EOFError):
-        return Failure(INTERRUPTED, "interrupted")
+        return CommandFailure(INTERRUPTED, "interrupted")
     if isinstance(problem, OSError):
         _discard_unwritten_output()
         where = f" ({problem.filename})" if problem.filename else ""
-        return Failure(FAILURE, f"cannot read or write{where}: {problem.strerror or problem}")
+        return CommandFailure(FAILURE, f"cannot read or write{where}: {problem.strerror or problem}")
     cause = problem.__cause__ if isinstance(problem, typer.Abort) else problem  # typer takes the end of data for Ctrl-D
     if os.environ.get("CAROM_DEBUG") == "1" or not isinstance(cause, Exception):
         raise cause or problem
     name = type(cause).__name__
-    return Failure(FAILURE, f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {cause}")
+    return CommandFailure(FAILURE, f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {cause}")
 
 
 @contextmanager

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Beginning:
+class StatedBeginning:
     """One start or disturbance by its option, and the angle by which the shaft has turned then; or a release, when levitation is lost."""
 
     option: str = ""
@@ -55,14 +55,14 @@ class Beginning:
         return reduction_error(reduced, loads, lambda finer: self.apply(replace(case, parameters=finer.limited))[:2])
 
 
-def one_of(ways: dict[str, str | None], instant: str | None) -> Beginning:
+def one_of(ways: dict[str, str | None], instant: str | None) -> StatedBeginning:
     """The one start or disturbance that is given."""
     chosen = {option: text for option, text in ways.items() if text is not None}
     if len(chosen) != 1:
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
         raise InputError("--start", given, f"give one of {', '.join(ways)} and --drop")
     ((option, text),) = chosen.items()
-    return Beginning(option, text, instant)
+    return StatedBeginning(option, text, instant)
 
 
 def released(
@@ -72,7 +72,7 @@ def released(
     phase: str | None = None,
     race_speed: str | None = None,
     called: str = "--drop",
-) -> Beginning:
+) -> StatedBeginning:
     """How levitation is lost, at the state that one of some ways gives; wrong input is refused before kernels are loaded."""
     from carom.cli.starts import read_angle, read_one, read_positive, read_speed
     from carom.disturbances import Drop
@@ -88,4 +88,4 @@ def released(
     turned = None if phase is None else read_angle("--phase", phase, scales)
     turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
     at = next((read_one(option, text, scales) for option, text in chosen.items()), None)
-    return Beginning(release=Drop(at, turned, regained, turning))
+    return StatedBeginning(release=Drop(at, turned, regained, turning))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from carom.basins import DropMap
-    from carom.cli.beginnings import Beginning
+    from carom.cli.beginnings import StatedBeginning
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
@@ -81,7 +81,7 @@ def drop(
         _drop_once(case, begins, end, out, as_json)
 
 
-def _drop_once(case: Case, begins: Beginning, end: float | None, out: str | None, as_json: bool) -> None:
+def _drop_once(case: Case, begins: StatedBeginning, end: float | None, out: str | None, as_json: bool) -> None:
     """Follow one drop, write its report, and tell what the bearing bears."""
     page = None
     with progress("simulating (the kernels are compiled on first use)") as tell:
@@ -126,7 +126,7 @@ def _print_drop(screen: Console, found: DropStudy) -> None:
     screen.print()
 
 
-def _map(case: Case, begins: Beginning, asked: dict[str, Any], out: str | None, as_json: bool) -> None:
+def _map(case: Case, begins: StatedBeginning, asked: dict[str, Any], out: str | None, as_json: bool) -> None:
     """Drop the machine over the plane, write figure, dataset and document, and tell how the drops end."""
     from carom.basins import map_drops
     from carom.basins.document import drop_map_document

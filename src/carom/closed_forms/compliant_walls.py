@@ -42,12 +42,12 @@ from typing import Annotated
 import numpy as np
 from scipy.linalg import eigvals  # type: ignore[import-untyped]
 
-from carom.base.arguments import Kind, Positive, Whole, checked
+from carom.base.arguments import ArgumentKind, Positive, Whole, checked
 from carom.base.outcome import InputError
 from carom.closed_forms.power_sums import positive_roots
 from carom.models import Subject, System, rotor_of
 
-Exponent = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
+Exponent = Annotated[float, ArgumentKind(lambda number: number >= 1.0, "a number of at least 1")]
 REAL = 1e-6
 """Imaginary part, relative to the fastest mode, up to which a zero is tried as a real one: rounding splits double ones by its root."""
 EXACT = 1e-10

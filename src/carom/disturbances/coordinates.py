@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from carom.base.arguments import Infinity, Kind, Truths, checked
+from carom.base.arguments import ArgumentKind, Infinity, Truths, checked
 from carom.base.outcome import InputError, Outcome
 from carom.parameters import UNITS, Scales
 from carom.parameters.formats import number, shown_in
@@ -148,7 +148,8 @@ class Starts(NamedTuple):
     @classmethod
     @checked
     def joined(
-        cls, parts: Annotated[Sequence[Starts], Kind(lambda sets: len(sets) > 0, "sets of starts, one at least")]
+        cls,
+        parts: Annotated[Sequence[Starts], ArgumentKind(lambda sets: len(sets) > 0, "sets of starts, one at least")],
     ) -> Starts:
         """All starts of several sets, one-dimensional."""
         flat = [part.some(np.ones(part.exists.shape, bool)) for part in parts]

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from carom.base.arguments import Kind, NotNegative, Positive, checked
+from carom.base.arguments import ArgumentKind, NotNegative, Positive, checked
 from carom.base.outcome import InputError, shown
 from carom.core.laws.law import Law
 from carom.core.wall import Wall
@@ -21,7 +21,7 @@ FARTHEST = 2.0
 The wall is a spring however deep the rotor is in it, and a magnet is linear however near the rotor comes; neither holds far beyond the
 clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out reaches the magnet.
 """
-_Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
+_Forward = Annotated[float, ArgumentKind(lambda number: number >= 1.0, "a number of at least 1")]
 
 
 @checked

@@ -16,7 +16,7 @@ from carom.base.outcome import Phase
 from carom.core.friction import rebound
 from carom.core.wall_work import DAMPED, DEPTH, DRIVEN, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL
 from carom.motions.kinematics import PRESSING, is_compliant, polar, shaft_speed, slip_velocity
-from carom.motions.tables import NUMBERED, Table, column
+from carom.motions.tables import NUMBERED, LogTable, column
 from carom.motions.wall_works import ContactWorks, contact_works, lost_on_parting
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ below that are too small to tell."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ContactLog(Table):
+class ContactLog(LogTable):
     """Contacts of a motion in chronological order, one entry each; all arrays have shape (n,).
 
     On a rigid touchdown bearing a contact is an impact: it has an impulse, and no force (``peak_force`` is not a number).  Alone, its normal

@@ -15,7 +15,7 @@ from carom.core.processors import available_cores
 from carom.models import Rotor, Stage, Subject, rotor_of
 from carom.models.stages import stages_of
 from carom.motions.budget import NOT_FOLLOWED, present_question
-from carom.motions.portions import Limits, motions_from, parts_of, settle_parts
+from carom.motions.portions import EventLimits, motions_from, parts_of, settle_parts
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -177,7 +177,7 @@ def settle(
         own_time("until", until, rotor.scales)
     positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
     tell = Reporter.of(progress, "following starts")
-    limits = Limits(until, patience, max_events, threads or available_cores(), tell)
+    limits = EventLimits(until, patience, max_events, threads or available_cores(), tell)
     starts = positions, velocities, started, np.zeros(len(which))
     endings = _followed([stages_of(rotor) for rotor in rotors], which, starts, limits)
     present_question().count(endings.outcomes)
@@ -188,7 +188,7 @@ _Begun = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 """Positions and velocities at the beginning of a stage, the times at which the starts were taken, and those elapsed since."""
 
 
-def _followed(courses: Sequence[Sequence[Stage]], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
+def _followed(courses: Sequence[Sequence[Stage]], which: np.ndarray, starts: _Begun, limits: EventLimits) -> Endings:
     """Endings of starts in one dimension, through all stages of their machines."""
     endings = _in_stage([stages[0] for stages in courses], which, starts, limits)
     for number in range(1, max(map(len, courses), default=1)):
@@ -217,7 +217,7 @@ def _followed(courses: Sequence[Sequence[Stage]], which: np.ndarray, starts: _Be
     return endings
 
 
-def _in_stage(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
+def _in_stage(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: EventLimits) -> Endings:
     """Endings in one stage of each machine, with times that count from its beginning, and low bounces distinguished from others.
 
     Motions that do not repeat are followed further to see whether they stay at the wall in low bounces.
@@ -235,7 +235,7 @@ def _in_stage(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits
     return endings
 
 
-def _settled(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: Limits) -> Endings:
+def _settled(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits: EventLimits) -> Endings:
     """Endings in one stage, in which the starts of each machine are followed together, in portions."""
     order, question = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable"), present_question()
     if len(stages) == 1 and question.left < np.inf:

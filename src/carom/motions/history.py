@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.base.outcome import Phase
 from carom.motions.kinematics import presses, shaft_speed, slip_velocity
-from carom.motions.tables import Table, column
+from carom.motions.tables import LogTable, column
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
@@ -39,7 +39,7 @@ class LastingContact:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ContactHistory(Table):
+class ContactHistory(LogTable):
     """Course of a motion at its plane, with the forces and the slip of lasting contact, at chosen times; all arrays have shape (n,).
 
     In flight, and where a plane has parted from its wall, forces, slip and powers are zero.  Phases are those of

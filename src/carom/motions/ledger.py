@@ -15,7 +15,7 @@ from carom.models import Matrices, Rotor
 from carom.models.anisotropic import TURN
 from carom.models.saturation import saturation_accelerations, saturation_of
 from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_speed
-from carom.motions.tables import Table, column
+from carom.motions.tables import LogTable, column
 from carom.motions.trajectories import Trajectory
 from carom.motions.wall_works import contact_works, lost_on_parting, stored
 from carom.parameters import Scales
@@ -29,7 +29,7 @@ HERMITIAN = 1e-12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EnergyLedger(Table):
+class EnergyLedger(LogTable):
     """Energies of a motion over time in the fixed frame.
 
     All arrays have shape (k,): values at ``times``, which begin at zero and contain the ends of all segments.  Works

@@ -20,7 +20,7 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.core.settling import reset
 from carom.models import Stage
 from carom.motions.budget import START, Purse
-from carom.motions.settling import PER_SLICE, Progress, begin_limits, fresh_memory, settled, time_limit
+from carom.motions.settling import PER_SLICE, SettlingProgress, begin_limits, fresh_memory, settled, time_limit
 from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of
 from carom.parameters import own_time
@@ -41,7 +41,7 @@ LOGGED = 256
 """Events per kernel call for motions that are followed one after another."""
 
 
-class Limits(NamedTuple):
+class EventLimits(NamedTuple):
     """Until when, or after how many impacts and events, motions are given up, and how: see :func:`~carom.motions.ensembles.settle`."""
 
     until: float | str | None
@@ -62,7 +62,7 @@ def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarra
     return motions
 
 
-class Part(NamedTuple):
+class Portion(NamedTuple):
     """Motions of one machine; all threads that hold the same part take motions from it by its shared counter.
 
     ``elapsed`` are the times, shape (M,), that earlier stages have taken; ``first`` is the number of its first motion among all that the
@@ -79,20 +79,20 @@ class Part(NamedTuple):
 
 def parts_of(
     stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, elapsed: np.ndarray, purse: Purse, threads: int
-) -> list[Part]:
+) -> list[Portion]:
     """Parts for threads to take up: each as often as threads may follow it; motions are sorted by the number of their stage."""
-    parts: list[Part] = []
+    parts: list[Portion] = []
     ends = np.searchsorted(which, np.arange(len(stages) + 1)).tolist()
     for stage, first, last in zip(stages, ends, ends[1:], strict=False):
         for begins in range(first, last, PORTION):
             chosen = slice(begins, min(begins + PORTION, last))
-            part = Part(stage, motions[chosen], fresh_counter(), elapsed[chosen], purse, begins)
+            part = Portion(stage, motions[chosen], fresh_counter(), elapsed[chosen], purse, begins)
             few = FEW if stage.rotor.system.is_planar else FEW_SINGLY
             parts += [part] * min(threads, 1 + len(part.motions) // few)
     return parts
 
 
-def settle_parts(parts: list[Part], limits: Limits) -> Iterator[int]:
+def settle_parts(parts: list[Portion], limits: EventLimits) -> Iterator[int]:
     """Follow all parts, in this thread if one suffices; yield now and then the number of motions followed since.
 
     When the caller stops iterating or is interrupted, no thread takes up another motion.
@@ -113,7 +113,7 @@ def settle_parts(parts: list[Part], limits: Limits) -> Iterator[int]:
             raise
 
 
-def _settle_part(part: Part, limits: Limits) -> int:
+def _settle_part(part: Portion, limits: EventLimits) -> int:
     """Follow motions of a part until none is left; return how many this call has followed."""
     rotor, trigger = part.stage.rotor, part.stage.trigger
     until = time_limit(rotor, trigger) if limits.until is None else own_time("until", limits.until, rotor.scales)
@@ -130,7 +130,7 @@ def _settle_part(part: Part, limits: Limits) -> int:
         return int(follow_each(task, part.motions, part.counter, _scratch.tools(memory)))
 
 
-def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) -> int:
+def _follow_singly(part: Portion, until: float, limits: EventLimits, memory: np.record) -> int:
     """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
     rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
     compliant = rotor.system.arrays["stiffness"] > 0.0
@@ -148,7 +148,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         reset(memory)
         memory.resting = not rubs_known
         begin_limits(rotor.system, amplitudes, start.time, memory)
-        motion.time, motion.impacts, outcome, progress = 0.0, 0, Outcome.EVENT_LIMIT, Progress()
+        motion.time, motion.impacts, outcome, progress = 0.0, 0, Outcome.EVENT_LIMIT, SettlingProgress()
         events, cost = 0, START
         while outcome is Outcome.EVENT_LIMIT and events < most_events:
             log = room.first(min(LOGGED, most_events - events))

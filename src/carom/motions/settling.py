@@ -93,7 +93,7 @@ def fresh_memory(
 
 
 @dataclass
-class Progress:
+class SettlingProgress:
     """Whether a motion gets on: the steps, and the time that they took, since it was last asked."""
 
     steps: int = 0

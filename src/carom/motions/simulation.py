@@ -22,7 +22,7 @@ from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
     REPEATING,
-    Progress,
+    SettlingProgress,
     begin_limits,
     fresh_memory,
     low_interval,
@@ -150,7 +150,7 @@ def _follow_stage(
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     limited = begin_limits(rotor.system, amplitudes, begins, recollection)
     first = np.where(contact == AWAY, FLIGHT, contact), amplitudes.copy(), limited
-    reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, Progress()
+    reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, SettlingProgress()
     begun, impact_times, ended = 0.0, np.zeros(0), False
     room = EventLog.empty(min(CHUNK, max_events), len(amplitudes), len(contact), rotor.system.limits)
     while not ended:

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from carom.base.arguments import Kind, checked, kind_of_numbers
+from carom.base.arguments import ArgumentKind, checked, kind_of_numbers
 from carom.base.outcome import InputError
 from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
@@ -35,7 +35,7 @@ _REALS, _NUMBERS = "iuf", "iufc"
 WALL_TOLERANCE = 1e-12
 """Distance from ``|U| = 1`` within which a start counts as on the wall."""
 _TIME = "a finite time above 0, in 1/Omega or with a unit, such as '2 s'"
-Until = Annotated[float | str, Kind(lambda until: isinstance(until, str) or until > 0.0, _TIME)]
+Until = Annotated[float | str, ArgumentKind(lambda until: isinstance(until, str) or until > 0.0, _TIME)]
 """Time to follow a motion: a number above 0, or text with a unit."""
 
 

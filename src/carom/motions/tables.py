@@ -37,7 +37,7 @@ def in_units(
     return dimension, values, {"units": unit, "long_name": words}
 
 
-class Table(Result):
+class LogTable(Result):
     """Table of columns with units, all along one dimension.
 
     A column is a field made by :func:`column`, which docstring and dataset are made from.  Arrays are in

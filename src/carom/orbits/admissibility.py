@@ -11,7 +11,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import lift_off, wall_push
 from carom.core.variation import apply_impact
 from carom.models import Rotor
-from carom.orbits.shooting import TOLERANCE, Start
+from carom.orbits.shooting import TOLERANCE, ShootingStart
 from carom.orbits.word import Kind, Word
 
 ARRIVAL_TOLERANCE = 1e-7
@@ -49,7 +49,7 @@ def departure(rotor: Rotor, kind: Kind, node: np.ndarray) -> np.ndarray:
     return after
 
 
-def why_virtual(rotor: Rotor, word: Word, start: Start) -> str:
+def why_virtual(rotor: Rotor, word: Word, start: ShootingStart) -> str:
     """Reason why an orbit of this word, nodes and durations is not admissible; empty if it is."""
     nodes = rotor.system.nodes.amplitudes(start.nodes)
     for i, (kind, node, duration) in enumerate(zip(word, nodes, start.durations.tolist(), strict=True)):

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.base.outcome import Phase
 from carom.motions.trajectories import Trajectory
-from carom.orbits.flow import Budget, Flow, krylov, repeats_after
+from carom.orbits.flow import Flow, FlowBudget, krylov, repeats_after
 from carom.orbits.happenings import happenings
 from carom.orbits.names import CountedName, RubbingName
 from carom.orbits.simulated import SimulatedOrbit
@@ -35,7 +35,7 @@ MOST_PARTS = 64
 """Most shorter periods of which a period may consist."""
 
 
-def close(motion: Trajectory, begin: float, period: float, budget: Budget | None = None) -> SimulatedOrbit | None:
+def close(motion: Trajectory, begin: float, period: float, budget: FlowBudget | None = None) -> SimulatedOrbit | None:
     """Close the periodic orbit next to a stretch of a motion.
 
     Parameters
@@ -43,7 +43,7 @@ def close(motion: Trajectory, begin: float, period: float, budget: Budget | None
     motion : Trajectory
     begin, period : float
         Where the stretch begins, in the time of the motion, and how long it is.
-    budget : Budget, optional
+    budget : FlowBudget, optional
         What the motions are paid from.
 
     Returns
@@ -51,7 +51,7 @@ def close(motion: Trajectory, begin: float, period: float, budget: Budget | None
     SimulatedOrbit or None
         ``None`` if Newton's method does not converge, or to levitation.
     """
-    budget = budget or Budget()
+    budget = budget or FlowBudget()
     flow, vector = Flow.at(motion, begin, budget)
     whole = flow.follow(vector, period) if period > SHORTEST else None
     if whole is None:

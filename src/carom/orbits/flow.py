@@ -36,7 +36,7 @@ BEGINNING, MODES = 250, 16
 
 
 @dataclass(eq=False)
-class Budget:
+class FlowBudget:
     """Events that motions may take: what a search finds must not depend on how fast a computer is.
 
     Attributes
@@ -72,23 +72,25 @@ class Flow:
         Time at which motions begin, in ``1/Ω``.
     rests : tuple of (int, bool)
         Contact planes that lie on rigid walls at the beginning, and whether they roll: states are put there before they are followed.
-    budget : Budget
+    budget : FlowBudget
         What the motions are paid from; unlimited by default.
     """
 
     rotor: Rotor
     begins: float = 0.0
     rests: tuple[tuple[int, bool], ...] = ()
-    budget: Budget = field(default_factory=Budget, compare=False, repr=False)
+    budget: FlowBudget = field(default_factory=FlowBudget, compare=False, repr=False)
 
     @classmethod
-    def at(cls, motion: Trajectory, time: float, budget: Budget | None = None) -> tuple[Flow, np.ndarray]:
+    def at(cls, motion: Trajectory, time: float, budget: FlowBudget | None = None) -> tuple[Flow, np.ndarray]:
         """The flow from an instant of a motion, and the state there."""
         system = motion.rotor.system
         amplitudes, phases = (found[0] for found in motion.amplitudes_at(np.array([time])))
         rigid = (phases != Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0)
         rests = tuple((int(plane), bool(phases[plane] == Phase.ROLLING)) for plane in np.flatnonzero(rigid))
-        flow = cls(motion.rotor, motion.begins + time if system.is_time_dependent else 0.0, rests, budget or Budget())
+        flow = cls(
+            motion.rotor, motion.begins + time if system.is_time_dependent else 0.0, rests, budget or FlowBudget()
+        )
         position, velocity = system.state(amplitudes)
         return flow, flow.vector(State.of(position, velocity, system.race_speeds(amplitudes)))
 

@@ -11,7 +11,7 @@ from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.flow import Budget, Flow
+from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.happenings import happenings
 
 STRETCH = 2.0
@@ -19,7 +19,7 @@ STRETCH = 2.0
 NOTHING = 1e-7
 """Factor in a stretch below which a direction is taken away: it is the error of the derivatives."""
 EVENTS = 7e6
-"""Events (:class:`~carom.orbits.flow.Budget`) after which no further stretch is measured."""
+"""Events (:class:`~carom.orbits.flow.FlowBudget`) after which no further stretch is measured."""
 MOST = 100_000
 WALL_DISTANCE, CUTS = 1e-3, 41
 """Distance from a rigid wall, in clearances, that is next to it, and times tried at which a stretch may end."""
@@ -38,7 +38,7 @@ class Grown:
     """
 
     def __init__(self, rotor: Rotor, state: State, impacts: int, transient: int) -> None:
-        self.rotor, self.budget = rotor, Budget(EVENTS / 4)
+        self.rotor, self.budget = rotor, FlowBudget(EVENTS / 4)
         motion = simulate(rotor, state, 0.5 * STRETCH, settle=False)
         self.flow, self.vector = Flow.at(motion, _cut(motion), self.budget)
         self.directions = np.linalg.qr(np.random.default_rng(0).normal(size=(len(self.vector),) * 2))[0]

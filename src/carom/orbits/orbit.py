@@ -21,7 +21,7 @@ from carom.orbits.admissibility import departure, why_virtual
 from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName
-from carom.orbits.shooting import Links, Start, converged, links_of
+from carom.orbits.shooting import Links, ShootingStart, converged, links_of
 from carom.orbits.simulated import SimulatedOrbit, same_simulated
 from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
@@ -115,9 +115,9 @@ class Orbit(Result):
     """Turns of the shaft in a period where these must be whole: any period is possible here."""
 
     @property
-    def start(self) -> Start:
+    def start(self) -> ShootingStart:
         """Nodes and durations."""
-        return Start(self.nodes, self.durations)
+        return ShootingStart(self.nodes, self.durations)
 
     @property
     def period(self) -> float:
@@ -267,7 +267,9 @@ def margins_of(links: Links, rotor: Rotor, word: Word) -> Margins:
 
 
 @checked
-def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:
+def orbit_near(
+    machine: Subject, word: Word, start: ShootingStart, name: OrbitName | CountedName | None = None
+) -> Orbit | None:
     """Orbit of a word next to a start, by Newton's method; ``None`` if it does not converge.
 
     An orbit that repeats a shorter word becomes the shorter one, and it begins at its fastest impact.
@@ -276,7 +278,7 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     ----------
     machine : Machine, Case, Parameters or model
     word : Word
-    start : Start
+    start : ShootingStart
         Coordinates and rates at the beginning of each segment, and the durations.
     name : OrbitName or CountedName, optional
         By default that of the first orbit with as many impacts.
@@ -296,7 +298,7 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     return orbit_of_links(rotor, word, links, name)
 
 
-def lasts(solution: Start) -> bool:
+def lasts(solution: ShootingStart) -> bool:
     """Whether each flight of a solution lasts."""
     return bool((solution.durations >= SHORTEST).all())
 
@@ -307,7 +309,7 @@ def orbit_of_links(rotor: Rotor, word: Word, links: Links, name: OrbitName | Cou
     count = shortest(word, nodes)
     once = Word(word[:count])
     first = beginning(rotor, once, nodes[:count])
-    kept, start = once.turned(first), Start(nodes[:count], durations[:count]).turned(first)
+    kept, start = once.turned(first), ShootingStart(nodes[:count], durations[:count]).turned(first)
     return Orbit.from_links(rotor, kept, links_of(rotor, kept, start), name or CountedName(len(kept), 1))
 
 

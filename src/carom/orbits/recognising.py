@@ -10,7 +10,7 @@ from carom.models import Rotor
 from carom.motions.trajectories import Trajectory
 from carom.orbits.happenings import begins_contact, first_of_period, impact_kinds
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import ShootingStart
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.simulated_search import periodic_of
 from carom.orbits.word import Kind, Word
@@ -58,7 +58,7 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | SimulatedOrbit | None:
     return periodic_of(motion)
 
 
-def _near(rotor: Rotor, word: Word, start: Start) -> Orbit | None:
+def _near(rotor: Rotor, word: Word, start: ShootingStart) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > RECOGNITION_RTOL * (1.0 + np.abs(begun).max()):
@@ -66,16 +66,16 @@ def _near(rotor: Rotor, word: Word, start: Start) -> Orbit | None:
     return orbit
 
 
-def impacts_between(motion: Trajectory, first: int, last: int) -> tuple[Word, Start]:
+def impacts_between(motion: Trajectory, first: int, last: int) -> tuple[Word, ShootingStart]:
     """Word, nodes and durations of a motion from one impact up to another, with nothing but impacts in between."""
     kinds = impact_kinds(motion)[first:last].tolist()
     times = np.append(motion.segment_starts[1:], motion.time)
-    return Word(tuple(map(Kind, kinds))), Start(
+    return Word(tuple(map(Kind, kinds))), ShootingStart(
         motion.rotor.system.nodes.of(motion.event_amplitudes[first:last]), np.diff(times[first : last + 1])
     )
 
 
-def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:
+def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, ShootingStart] | None:
     """Word and start of some impacts in a row, from that of given number; ``None`` where the motion does else."""
     impacts = np.flatnonzero(motion.is_impact)
     if first + count >= len(impacts) or impacts[first + count] - impacts[first] != count:

@@ -23,7 +23,7 @@ from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
 from carom.orbits.recognising import orbit_of_motion, with_impacts
 from carom.orbits.searched import KIND, Searched, random_starts
-from carom.orbits.shooting import Start, closed_flights, links_of, pack
+from carom.orbits.shooting import ShootingStart, closed_flights, links_of, pack
 from carom.orbits.simulated import SimulatedOrbit, numbered
 from carom.orbits.word import Word
 
@@ -69,7 +69,7 @@ def search_orbits(
     known : sequence of Orbit
         Orbits that are known to exist.
     """
-    search = Search(rotor, impacts, known)
+    search = OrbitSearch(rotor, impacts, known)
     done = search.run(SETTLED, guesses or GUESSES, FRESH, [seed], tell)
     return search.named(), done
 
@@ -90,7 +90,7 @@ def _orbits_of_ends(
             yield orbit, number
 
 
-class Search:
+class OrbitSearch:
     """What a search has found so far.
 
     Parameters
@@ -173,7 +173,7 @@ class Search:
         )
         return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
 
-    def _stretches(self, start: State) -> Iterator[tuple[int, Word, Start]]:
+    def _stretches(self, start: State) -> Iterator[tuple[int, Word, ShootingStart]]:
         """Stretches of a motion that come back closest, with their number of impacts."""
         motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=True, max_events=IMPACTS * (self.impacts + 1))
         marks = np.flatnonzero(motion.is_impact)
@@ -189,7 +189,7 @@ class Search:
                 if stretch is not None:
                     yield count, *stretch
 
-    def _correct(self, word: Word, guess: Start) -> None:
+    def _correct(self, word: Word, guess: ShootingStart) -> None:
         """Correct one stretch of a motion."""
         self.guesses += 1
         solved = closed_flights(self.rotor, word, guess)
@@ -204,7 +204,7 @@ class Search:
         else:
             self.repeats += 1
 
-    def _is_known(self, word: Word, solution: Start, within: float) -> bool:
+    def _is_known(self, word: Word, solution: ShootingStart, within: float) -> bool:
         """Whether a solution is a known one, to within a relative distance."""
         known = self.solutions.get(word)
         if known is None:
@@ -223,7 +223,7 @@ class Search:
         for place in range(len(orbit.word)):
             turned = orbit.start.turned(place)
             for times in range(1, most + 1):
-                several = Start(np.tile(turned.nodes, (times, 1)), np.tile(turned.durations, times))
+                several = ShootingStart(np.tile(turned.nodes, (times, 1)), np.tile(turned.durations, times))
                 word = orbit.word.turned(place).repeated(times)
                 solution = pack(several)[None]
                 known = self.solutions.get(word, solution[:0])

@@ -31,7 +31,7 @@ LONGEST_STEP = 0.5
 """Largest change of a duration in one step of Newton's method, relative to it."""
 
 
-class Start(NamedTuple):
+class ShootingStart(NamedTuple):
     """Coordinates and rates at the beginning of each segment, complex (m, N), and the durations (m,).
 
     Unlike the amplitudes of modes they mean the same for rotors with other parameters.
@@ -40,9 +40,9 @@ class Start(NamedTuple):
     nodes: np.ndarray
     durations: np.ndarray
 
-    def turned(self, places: int) -> Start:
+    def turned(self, places: int) -> ShootingStart:
         """The same period, beginning with another segment."""
-        return Start(np.roll(self.nodes, -places, axis=0), np.roll(self.durations, -places))
+        return ShootingStart(np.roll(self.nodes, -places, axis=0), np.roll(self.durations, -places))
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ class Links:
 
     Attributes
     ----------
-    start : Start
+    start : ShootingStart
     ends : ndarray of complex, shape (m, N)
         Coordinates and rates at the end of each segment.
     values : ndarray, shape (m,)
@@ -61,7 +61,7 @@ class Links:
         duration.
     """
 
-    start: Start
+    start: ShootingStart
     ends: np.ndarray
     values: np.ndarray
     slopes: np.ndarray
@@ -101,7 +101,7 @@ class Links:
         return self._carried[1]
 
 
-def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
+def links_of(rotor: Rotor, word: Word, start: ShootingStart) -> Links:
     """Follow each segment of a word from its node."""
     system, (nodes, durations) = rotor.system, start
     room = _room(*nodes.shape)
@@ -110,7 +110,7 @@ def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
     return Links(start, *room)
 
 
-def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray:
+def by_parameter(rotor: Rotor, word: Word, start: ShootingStart, name: str) -> np.ndarray:
     """Exact derivative of the left sides of the equations by a parameter of the planar rotor, shape (m (2N + 1),)."""
     system, present = rotor.system, rotor.parameters
     gamma, omega, rho, phi, *of_wall = Numbers.of(present).rates(name)
@@ -128,7 +128,7 @@ def _room(m: int, numbers: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.empty((m, numbers), complex), np.empty(m), np.empty((m, 2 * numbers + 1, 2 * numbers + 1))
 
 
-def closed_flights(rotor: Rotor, word: Word, start: Start) -> Start | None:
+def closed_flights(rotor: Rotor, word: Word, start: ShootingStart) -> ShootingStart | None:
     """Solve the equations of an orbit by plain Newton steps from a start next to it.
 
     ``None`` if the iteration does not converge; it takes no shorter steps (:func:`converged`).
@@ -138,31 +138,31 @@ def closed_flights(rotor: Rotor, word: Word, start: Start) -> Start | None:
     at = word.kinds, word.planes, word.planes, nodes, durations
     room = _room(*nodes.shape)
     closes = close_flights(system.arrays, *system.nodes, *at, *room, TOLERANCE, ITERATIONS)
-    return Start(nodes, durations) if closes else None
+    return ShootingStart(nodes, durations) if closes else None
 
 
-def pack(start: Start) -> np.ndarray:
+def pack(start: ShootingStart) -> np.ndarray:
     """Real and imaginary parts of each node and its duration, one segment after the other, shape (m (2N + 1),)."""
     return np.concatenate([start.nodes.real, start.nodes.imag, start.durations[:, None]], axis=1).ravel()
 
 
-def unpack(unknowns: np.ndarray, segments: int) -> Start:
+def unpack(unknowns: np.ndarray, segments: int) -> ShootingStart:
     """Nodes and durations from the unknowns of :func:`pack`."""
     rows = unknowns.reshape(segments, -1)
     numbers = rows.shape[1] // 2
     nodes = np.empty((segments, numbers), complex)
     nodes.real, nodes.imag = rows[:, :numbers], rows[:, numbers:-1]
-    return Start(nodes, rows[:, -1].copy())
+    return ShootingStart(nodes, rows[:, -1].copy())
 
 
-def converged(rotor: Rotor, word: Word, start: Start) -> Links | None:
+def converged(rotor: Rotor, word: Word, start: ShootingStart) -> Links | None:
     """Solve the equations of an orbit by Newton's method from a start nearby.
 
     Parameters
     ----------
     rotor : Rotor
     word : Word
-    start : Start
+    start : ShootingStart
 
     Returns
     -------

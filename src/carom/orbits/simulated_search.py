@@ -16,7 +16,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State, levitating
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import OFF_PERIOD, close, quietest
-from carom.orbits.flow import Budget, repeats_after
+from carom.orbits.flow import FlowBudget, repeats_after
 from carom.orbits.happenings import begins_contact, first_of_period
 from carom.orbits.searched import FASTEST, KIND, Searched, random_starts
 from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
@@ -26,7 +26,7 @@ SETTLED, FRESH, GUESSES = 120, 60, 150
 GIVEN_UP = 2000
 """Events after which a motion that does not settle is given up."""
 EVENTS = 4e6
-"""Events of a search (:class:`~carom.orbits.flow.Budget`), some 20 s of a processor; motions followed until they settle may take a quarter."""
+"""Events of a search (:class:`~carom.orbits.flow.FlowBudget`), some 20 s of a processor; motions followed until they settle may take a quarter."""
 SLOWEST = 0.01
 """Least speed of the starts, relative to the largest, evenly spread over its logarithm."""
 FEW = 2
@@ -72,7 +72,7 @@ class _Search:
     """What a search has found and tried so far."""
 
     def __init__(self, rotor: Rotor, impacts: int, share: float = 1.0) -> None:
-        self.rotor, self.impacts, self.share, self.budget = rotor, impacts, share, Budget(share * EVENTS)
+        self.rotor, self.impacts, self.share, self.budget = rotor, impacts, share, FlowBudget(share * EVENTS)
         self.barren = math.ceil(share * BARREN)
         self.found: list[SimulatedOrbit] = []
         self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
@@ -170,7 +170,7 @@ def start_of(rotor: Rotor, random: np.random.Generator) -> State:
     return State.of(positions[0], velocities[0] * (speed / FASTEST) + whirl)
 
 
-def periodic_of(motion: Trajectory, budget: Budget | None = None) -> SimulatedOrbit | None:
+def periodic_of(motion: Trajectory, budget: FlowBudget | None = None) -> SimulatedOrbit | None:
     """Close the periodic motion on which a motion of any machine has settled; ``None`` if it has not, or repeats nothing."""
     if motion.outcome in REPEATING and motion.multiplicity:
         times = motion.segment_starts[1:][begins_contact(motion)]

@@ -23,7 +23,7 @@ from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import Impacts, search_orbits
 from carom.orbits.searched import Searched
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import ShootingStart
 from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
@@ -281,7 +281,7 @@ def orbit_at(rotor: Rotor, name: OrbitName, period: float, section: Section, non
     """Orbit of known period, in ``1/Ω``, and state just before the impact, with its admissibility checked."""
     before = section.state
     word = FORWARD if name.slip > 0 else BACKWARD
-    start = Start(np.array([[before.position, before.velocity]]), np.array([period]))
+    start = ShootingStart(np.array([[before.position, before.velocity]]), np.array([period]))
     return Orbit(rotor, name, word, *start, nontrivial, why_virtual(rotor, word, start))
 
 

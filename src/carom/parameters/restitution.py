@@ -42,10 +42,10 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from carom.base.arguments import Kind, Positive, checked
+from carom.base.arguments import ArgumentKind, Positive, checked
 from carom.base.roots import bracketed_root
 
-Restitution = Annotated[float, Kind(lambda number: 0.0 < number <= 1.0, "a number above 0, at most 1")]
+Restitution = Annotated[float, ArgumentKind(lambda number: 0.0 < number <= 1.0, "a number above 0, at most 1")]
 
 SMALL = 2.0
 """Sum ``s`` below which the series are summed; above it the closed forms lose no more than a digit."""

@@ -18,7 +18,7 @@ from carom.plots.words import number
 
 if TYPE_CHECKING:
     import carom.rotors
-    from carom.rotors import FlexibleMachine, Whirl
+    from carom.rotors import FlexibleMachine, WhirlMode
 
 _COLUMNS, _ROW = 2, 0.165
 """Columns of panels, and height of a row, in widths of the figure."""
@@ -38,7 +38,7 @@ _PARTS = (
 
 @checked
 @styled
-def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.Whirl]) -> Figure:
+def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.WhirlMode]) -> Figure:
     """Draw the shapes of free whirls along the shaft, one panel each, with the shaft, its discs, magnets, sensors and touchdown bearings.
 
     Lines are the displacement in the plane in which the whirl is widest, and, dotted, across it; the largest displacement is 1.  Whirls are
@@ -64,7 +64,7 @@ def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.Whirl])
     return figure
 
 
-def _shape(axes: Axes, places: Floats, whirl: Whirl) -> None:
+def _shape(axes: Axes, places: Floats, whirl: WhirlMode) -> None:
     # The square of a rotating number tells the plane in which the shape is widest, whatever its sign.
     turned = whirl.widest * cmath.exp(-0.5j * cmath.phase(complex((whirl.widest**2).sum())))
     turned *= 1.0 if turned.real[np.abs(turned.real).argmax()] > 0.0 else -1.0

@@ -22,19 +22,19 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.mean_values import NOTHING, Form, Pair
+from carom.proofs.mean_values import NOTHING, MeanValueForm, Pair
 from carom.proofs.moments import cross, dot
-from carom.proofs.patches import Departure, Held
+from carom.proofs.patches import Held, PatchDeparture
 
 Jet = list[Any]
 """A function of time with its derivatives."""
-Squares = dict[tuple[int, int], Form]
+Squares = dict[tuple[int, int], MeanValueForm]
 """Second derivatives by pairs of coordinates, the first index the smaller."""
 _REFINEMENTS = 2
 """How often what is known of the crossing times is made sharper."""
 
 
-def second_derivatives(departure: Departure, time: Any, window: Any) -> tuple[Squares, Squares, Squares]:
+def second_derivatives(departure: PatchDeparture, time: Any, window: Any) -> tuple[Squares, Squares, Squares]:
     """Those of ``a``, ``b`` and ``ψ⁺`` for all flights, from the time at which the centre crosses and times in which all do.
 
     The unknowns of the forms are those of the two spans of the cell, one for each coordinate that holds all other columns, and one for what
@@ -44,7 +44,7 @@ def second_derivatives(departure: Departure, time: Any, window: Any) -> tuple[Sq
     slopes: list[Any] = [arb(0)] * len(columns)
     apart = arb((window - time).abs_upper())
     for _ in range(_REFINEMENTS):
-        late = _Bends(departure, columns, Form(time, [*slopes, apart], window), 2).late()
+        late = _Bends(departure, columns, MeanValueForm(time, [*slopes, apart], window), 2).late()
         slopes, apart = [], arb(0)
         for column in columns:
             slope: Any = arb(0)
@@ -52,7 +52,7 @@ def second_derivatives(departure: Departure, time: Any, window: Any) -> tuple[Sq
                 slope = slope + x.every * y
             slopes.append(arb(slope.mid()))
             apart = apart + arb(slope.rad())
-    return _Bends(departure, columns, Form(time, [*slopes, apart], window), 4).totals()
+    return _Bends(departure, columns, MeanValueForm(time, [*slopes, apart], window), 4).totals()
 
 
 def bent(columns: list[list[Any]], squares: Squares) -> list[Any]:
@@ -109,18 +109,18 @@ class _Bends:
 
     Parameters
     ----------
-    departure : Departure
+    departure : PatchDeparture
     columns : list of list of arb
         The coordinates of the state differentiated by the unknowns, but the last one.
-    time : Form
+    time : MeanValueForm
     orders : int
         How many derivatives by time are taken, the function itself counted.
     """
 
-    def __init__(self, departure: Departure, columns: list[list[Any]], time: Form, orders: int) -> None:
+    def __init__(self, departure: PatchDeparture, columns: list[list[Any]], time: MeanValueForm, orders: int) -> None:
         held, patch = departure.held, departure.patch
         self.size, self.ell = len(patch.centre), held.radius_squared
-        state = [Form(x, [*(column[m] for column in columns), arb(0)]) for m, x in enumerate(patch.centre)]
+        state = [MeanValueForm(x, [*(column[m] for column in columns), arb(0)]) for m, x in enumerate(patch.centre)]
         velocity = Pair(state[0], state[1] if departure.from_wall else NOTHING)
         levitation, turn = _turning(state[-1]) * held.radius, _turning(time)
         still, moving = _responses(departure, time, orders)
@@ -142,12 +142,12 @@ class _Bends:
         """``z`` differentiated by a coordinate, and what it is multiplied with."""
         return (self.moved[i], self.z) if i < self.size - 1 else (self.turned, self.p)
 
-    def late(self) -> list[Form]:
+    def late(self) -> list[MeanValueForm]:
         """``t_i``."""
         rate = self._height(1)
         return [-_product(dot, *self._by(i), 0) / rate for i in range(self.size)]
 
-    def _height(self, order: int) -> Form:
+    def _height(self, order: int) -> MeanValueForm:
         """A derivative of ``h``."""
         own = (_product(dot, self.p, self.p, order) + _product(dot, self.k, self.k, order) * self.ell) / 2
         return own + _product(dot, self.p, self.q, order)
@@ -163,7 +163,7 @@ class _Bends:
         one, other = self._by(i)
         return [cross(one[0], other[m + 1]) + cross(other[0], one[m + 1]) for m in range(2)]
 
-    def _twist_by_both(self, i: int, j: int) -> Form:
+    def _twist_by_both(self, i: int, j: int) -> MeanValueForm:
         """The same by two coordinates, ``i ≤ j``."""
         if i == self.size - 1:
             return -cross(self.p[0], self.q[1]) - cross(self.q[0], self.p[1])
@@ -194,7 +194,7 @@ class _Bends:
         return found
 
 
-def _turning(angle: Form) -> Pair:
+def _turning(angle: MeanValueForm) -> Pair:
     """``e^{iα}``."""
     (sine, cosine), (every_sine, every_cosine) = angle.at.sin_cos(), angle.every.sin_cos()
     return Pair(
@@ -203,7 +203,7 @@ def _turning(angle: Form) -> Pair:
     )
 
 
-def _responses(departure: Departure, time: Form, orders: int) -> tuple[list[Pair], list[Pair]]:
+def _responses(departure: PatchDeparture, time: MeanValueForm, orders: int) -> tuple[list[Pair], list[Pair]]:
     """``c`` and ``h₁``, or what stands for it, with their derivatives."""
     held = departure.held
 
@@ -227,14 +227,14 @@ def _freely(held: Held, jet: Iterable[Any], orders: int) -> list[Any]:
     return found
 
 
-def _through(time: Form, at: Any, every: Any, slope: Any) -> Pair:
+def _through(time: MeanValueForm, at: Any, every: Any, slope: Any) -> Pair:
     """A real or complex function of time."""
     if isinstance(at, arb):
         return Pair(time.through(at, every, slope), NOTHING)
     return Pair(time.through(at.real, every.real, slope.real), time.through(at.imag, every.imag, slope.imag))
 
 
-def _product(product: Any, one: Jet, other: Jet, order: int) -> Form:
+def _product(product: Any, one: Jet, other: Jet, order: int) -> MeanValueForm:
     """A derivative of a bilinear product."""
     total: Any = product(one[0], other[order])
     for m in range(1, order + 1):

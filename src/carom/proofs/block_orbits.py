@@ -24,14 +24,14 @@ from typing import Any
 from flint import arb, arb_series
 
 from carom.proofs.balls import decided
-from carom.proofs.blocks import Block, Branch, OpenError, OrbitBranch, slopes_on
-from carom.proofs.courses import Course, period_condition
+from carom.proofs.blocks import Block, BlockBranch, BlockOrbitBranch, OpenError, slopes_on
+from carom.proofs.courses import OrbitCourse, period_condition
 from carom.proofs.flights import NARROWEST, stays_inside
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.periods import none_beyond, slowest_decay
 from carom.proofs.series import hull, terms
 
-Along = Callable[[Callable[[Course], Any]], Any]
+Along = Callable[[Callable[[OrbitCourse], Any]], Any]
 Cell = tuple[float, float]
 _ORDER = 4
 """Order of Taylor's formula on a cell of periods."""
@@ -97,7 +97,7 @@ def first_cells(block: Block) -> list[Cell]:
     return list(itertools.pairwise(edges))
 
 
-def _longest(n: Numbers) -> float:
+def _longest(n: LineNumbers) -> float:
     """Period beyond which ``F₁ > 0``."""
     rate = arb(slowest_decay(n).lower())
     if not rate > 0:
@@ -110,7 +110,7 @@ def _longest(n: Numbers) -> float:
     return end
 
 
-def _start(n: Numbers) -> tuple[float, int]:
+def _start(n: LineNumbers) -> tuple[float, int]:
     """Period up to which ``F₁`` keeps the sign that it has next to zero, and this sign.
 
     ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + …``, and by the series of :func:`~carom.proofs.series.short_return` the terms from
@@ -176,7 +176,7 @@ def remaining(block: Block, cells: Sequence[Cell]) -> list[tuple[float, float, i
     return left
 
 
-def branches_on(block: Block, cells: Sequence[Cell]) -> list[Branch]:
+def branches_on(block: Block, cells: Sequence[Cell]) -> list[BlockBranch]:
     """All roots of ``F₁`` in the cells, the period as a function of the parameter.
 
     Raises :class:`OpenError` if their number is not decided on this block.
@@ -195,7 +195,7 @@ def branches_on(block: Block, cells: Sequence[Cell]) -> list[Branch]:
         if len(slopes) > 1 or 0 in slopes or not (before and after):
             raise OpenError(f"the number of periods next to {0.5 * (low + high):.4g} is open")
         if before != after:
-            found.append(Branch(block, low, high, after > 0))
+            found.append(BlockBranch(block, low, high, after > 0))
     for count, branch in enumerate(found, before_all):
         if branch.rising is not bool(count % 2):
             raise OpenError("the slopes at the periods do not alternate")
@@ -216,18 +216,18 @@ def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
             raise OpenError("two radial speeds of one period may meet")
         for faster in (False, True):
             name = f"B{count // 2 + 1},{'abcd'[branch.rising + 2 * faster]}"
-            found.append(_fact(name, OrbitBranch(branch, faster), branch.rising is faster))
+            found.append(_fact(name, BlockOrbitBranch(branch, faster), branch.rising is faster))
     return found
 
 
-def _fact(name: str, orbit: OrbitBranch, positive: bool) -> OrbitFact:
+def _fact(name: str, orbit: BlockOrbitBranch, positive: bool) -> OrbitFact:
     """What holds for an orbit; ``positive`` says whether ``det(1 − J)`` is."""
     instability, reason = instability_of(orbit, positive), why_virtual(orbit)
     admissible, stable = (None if why is None else not why for why in (reason, instability))
     return OrbitFact(name, admissible, stable, reason or "", instability or "", orbit.branch.period, orbit.speed)
 
 
-def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:
+def instability_of(orbit: BlockOrbitBranch, positive: bool) -> str | None:
     """Why an orbit is unstable; empty if it is stable, ``None`` if this is open.
 
     ``positive`` says whether ``det(1 − J)`` is positive.
@@ -247,7 +247,7 @@ def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:
     return None
 
 
-def why_virtual(orbit: OrbitBranch) -> str | None:
+def why_virtual(orbit: BlockOrbitBranch) -> str | None:
     """Why an orbit is not a motion of the machine; empty if it is one, ``None`` if this is open."""
     if orbit.speed < 0:
         return "it would meet the wall from outside"
@@ -265,7 +265,7 @@ def why_virtual(orbit: OrbitBranch) -> str | None:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def inside(plain: Course, along: Along, touch: Any = None, narrowest: float = NARROWEST) -> bool | None:
+def inside(plain: OrbitCourse, along: Along, touch: Any = None, narrowest: float = NARROWEST) -> bool | None:
     """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
 
     ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.  The function

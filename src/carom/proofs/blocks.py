@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 from flint import arb, arb_series
 
 from carom.base.outcome import CaromError
-from carom.proofs.courses import Course, Return, period_condition
-from carom.proofs.lines import Line, Numbers
+from carom.proofs.courses import OrbitCourse, Return, period_condition
+from carom.proofs.lines import Line, LineNumbers
 from carom.proofs.series import hull, narrower, terms
 
 
@@ -55,16 +55,16 @@ class Block:
         return self.ball - self.middle
 
     @cached_property
-    def whole(self) -> Numbers:
+    def whole(self) -> LineNumbers:
         """Numbers on all of it."""
         return self.line.at(self.ball)
 
     @cached_property
-    def centre(self) -> Numbers:
+    def centre(self) -> LineNumbers:
         """Numbers in its middle."""
         return self.line.at(self.middle)
 
-    def moving(self, about: Any) -> Numbers:
+    def moving(self, about: Any) -> LineNumbers:
         """Numbers as power series of the parameter about a ball."""
         return self.line.at(arb_series([about, 1]))
 
@@ -133,7 +133,7 @@ def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) 
     return value, narrower(everywhere[1], about[1] + 2 * bend * block.off), bend
 
 
-class Branch:
+class BlockBranch:
     """A simple root of ``F₁`` on a block.
 
     Parameters
@@ -233,12 +233,12 @@ def value_on(block: Block, period: Any) -> Any:
     return enclosed(block, near, far, lambda numbers: condition(numbers, period))[0]
 
 
-class OrbitBranch:
+class BlockOrbitBranch:
     """An orbit on a block.
 
     Parameters
     ----------
-    branch : Branch
+    branch : BlockBranch
         Branch of its period, with a positive discriminant.
     faster : bool
         Whether it has the higher of both radial speeds.
@@ -247,20 +247,20 @@ class OrbitBranch:
     ----------
     speed : arb
         ``ṙ`` before the impact.
-    plain : Course
+    plain : OrbitCourse
         On all of the block, as balls.
     """
 
-    def __init__(self, branch: Branch, faster: bool) -> None:
+    def __init__(self, branch: BlockBranch, faster: bool) -> None:
         self.branch, block = branch, branch.block
         found = enclosed(block, branch.near, branch.far, lambda back: back.speeds()[faster])
         self.speed = found[0]
         with terms(2):
-            self.near = Course(branch.near, branch.near.speeds()[faster])
+            self.near = OrbitCourse(branch.near, branch.near.speeds()[faster])
         with terms(3):
-            self.far = Course(branch.far, arb_series(list(found)))
-        self.plain = Course(branch.plain, self.speed)
+            self.far = OrbitCourse(branch.far, arb_series(list(found)))
+        self.plain = OrbitCourse(branch.plain, self.speed)
 
-    def along(self, function: Callable[[Course], Any]) -> Any:
+    def along(self, function: Callable[[OrbitCourse], Any]) -> Any:
         """Enclosure of a function of the orbit on the block."""
         return enclosed(self.branch.block, self.near, self.far, function)[0]

@@ -26,7 +26,7 @@ POSITIVE, NEGATIVE, RISING, FALLING, OPEN = "+", "-", "r", "f", "?"
 
 
 @dataclass(frozen=True)
-class Cells:
+class CellTree:
     """Consecutive cells, and what is shown of a function on each.
 
     Attributes
@@ -45,7 +45,7 @@ class Cells:
         return {"cuts": [str(cut) for cut in self.cuts], "kinds": self.kinds}
 
     @classmethod
-    def from_document(cls, document: dict[str, Any]) -> Cells:
+    def from_document(cls, document: dict[str, Any]) -> CellTree:
         """Read what :meth:`document` gives."""
         cells = cls(tuple(rational_of(text) for text in document["cuts"]), str(document["kinds"]))
         if len(cells.cuts) != len(cells.kinds) + 1 or any(
@@ -107,7 +107,7 @@ def _leads(terms: list[Any], order: int, width: Any) -> bool:
 
 def cells_of(
     function: Analytic, low: Fraction, high: Fraction, *, width: Fraction, least: Fraction, most: int
-) -> Cells:
+) -> CellTree:
     """Cells from one place to another, on each of which something is shown.
 
     Cells have at first the given width; one that is narrower than ``least`` is left open, and the search ends after ``most`` cells
@@ -127,10 +127,10 @@ def cells_of(
             break
         if found[-2:-1] == kind or kind == OPEN:
             width *= 2
-    return Cells(tuple(cuts), found)
+    return CellTree(tuple(cuts), found)
 
 
-def show(function: Analytic, cells: Cells) -> None:
+def show(function: Analytic, cells: CellTree) -> None:
     """Show what is said of each cell; :class:`NotShownError` if it is not so."""
     for low, high, kind in zip(cells.cuts, cells.cuts[1:], cells.kinds, strict=False):
         sign, slope = (0, 0) if kind == OPEN else function.on(low, high)

@@ -1,6 +1,6 @@
 """Single-impact orbits for balls and power series of balls: closing conditions, course, derivative of the impact map.
 
-The frame is turned such that the impact is at ``U = 1``; :class:`~carom.proofs.lines.Numbers` has the flight.  The levers ``a₁₂`` and ``a₂₂`` of the return after a period are computed from whichever form loses least on wide balls: by
+The frame is turned such that the impact is at ``U = 1``; :class:`~carom.proofs.lines.LineNumbers` has the flight.  The levers ``a₁₂`` and ``a₂₂`` of the return after a period are computed from whichever form loses least on wide balls: by
 Bernoulli numbers at short periods, by the exponents ``λ± = S/2 ± √D`` where these are well apart, by ``e`` and ``o`` otherwise.
 """
 
@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import acb, arb
 
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants
 from carom.proofs.series import I, first, imaginary, real, short_return, squared
 
@@ -20,7 +20,7 @@ _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
 
 
-def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], Any]:
+def period_condition(whole: LineNumbers, period: Any) -> Callable[[LineNumbers, Any], Any]:
     """A function of numbers and period that has the zeros of ``F₁`` and its signs, suited to a range of periods.
 
     At short periods it is ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
@@ -29,19 +29,19 @@ def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], An
     return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else entire_condition
 
 
-def _short_condition(n: Numbers, period: Any) -> Any:
+def _short_condition(n: LineNumbers, period: Any) -> Any:
     found = short_return(n.half, n.split, period)
     return period * arb.nan() if found is None else 1 + real(n.q * found[1])
 
 
-def entire_condition(n: Numbers, period: Any) -> Any:
+def entire_condition(n: LineNumbers, period: Any) -> Any:
     """``|det(1 − e^{MT})|²F₁``."""
     numerator, gap = numerator_and_gap(n, period)
     other = gap + n.q * numerator
     return real(other) * real(gap) + imaginary(other) * imaginary(gap)
 
 
-def numerator_and_gap(n: Numbers, period: Any) -> tuple[Any, Any]:
+def numerator_and_gap(n: LineNumbers, period: Any) -> tuple[Any, Any]:
     """``a₂₂ det(1 − e^{MT})`` and ``det(1 − e^{MT})``."""
     even, odd, growth = n.flight(period)
     decay = growth * growth
@@ -53,7 +53,7 @@ class Return:
 
     Parameters
     ----------
-    numbers : Numbers
+    numbers : LineNumbers
     period : arb or arb_series
 
     Attributes
@@ -68,7 +68,7 @@ class Return:
         ``|U*|²``.
     """
 
-    def __init__(self, numbers: Numbers, period: Any) -> None:
+    def __init__(self, numbers: LineNumbers, period: Any) -> None:
         n = self.numbers = numbers
         self.period = period
         self.half, self.split, self.product, self.q = n.half, n.split, n.product, n.q
@@ -129,7 +129,7 @@ class Return:
         return -(half + root) / self.lever_squared, (root - half) / self.lever_squared
 
 
-class Course:
+class OrbitCourse:
     """A single-impact orbit.
 
     Parameters

@@ -18,10 +18,10 @@ from carom.parameters import Field
 from carom.parameters.exact import ExactNumber
 from carom.proofs.balls import ball_of
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.patches import KICK_START
 from carom.proofs.sizes import read_size, unit_of
-from carom.proofs.starts import Pulse, Start, Step
+from carom.proofs.starts import DisturbedStart, Pulse, Step
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,12 @@ class Scale:
 
     largest: ExactNumber
     one: Callable[[], Any]
-    gain: Callable[[Numbers], Any]
-    start: Callable[[], Start]
+    gain: Callable[[LineNumbers], Any]
+    start: Callable[[], DisturbedStart]
 
 
 @dataclass(frozen=True)
-class Family:
+class DisturbanceFamily:
     """Disturbances out of levitation by size and direction.
 
     Attributes
@@ -116,7 +116,7 @@ def _steps(text: str, hypotheses: Hypotheses) -> Scale:
     return Scale(largest, lambda: 1 / unit_of(hypotheses, *sizes), lambda n: 1 / abs(n.product), Step)
 
 
-KICKS = Family(
+KICKS = DisturbanceFamily(
     "kicks",
     "kicks_up_to",
     "speed",
@@ -124,7 +124,7 @@ KICKS = Family(
     "kick slower than the lower end of speed",
     _kicks,
 )
-SHOCKS = Family(
+SHOCKS = DisturbanceFamily(
     "shocks",
     "shocks_up_to",
     "peak",
@@ -132,7 +132,7 @@ SHOCKS = Family(
     "shock with a peak below the lower end of peak",
     _shocks,
 )
-STEPS = Family(
+STEPS = DisturbanceFamily(
     "unbalance steps",
     "unbalance_up_to",
     "change",

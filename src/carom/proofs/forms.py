@@ -34,7 +34,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import arb
 
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 
 PARTS, FEW = 1024, 512
 """Parts of a turn on which something is shown of all angles, and where it need not be sharp."""
@@ -70,7 +70,7 @@ class Surface(NamedTuple):
     hold: Any
 
     @classmethod
-    def of(cls, n: Numbers) -> Surface:
+    def of(cls, n: LineNumbers) -> Surface:
         """The wall of a rotor whose numbers are balls."""
         friction = n.mu.max(arb(_SLIPPERY))
         e = 1 - (1 + n.d) * (1 + n.mu * n.mu) / 2

@@ -22,7 +22,7 @@ from flint import arb
 from carom.proofs.bends import bent, remainder, second_derivatives
 from carom.proofs.moments import FORM, UNIT, Moment, cross, dot, spread
 from carom.proofs.passages import GRAZE, Brush, Impact, LeftOpenError
-from carom.proofs.patches import Departure, Patch
+from carom.proofs.patches import Patch, PatchDeparture
 from carom.proofs.series import hull
 
 Columns = list[list[Any]]
@@ -30,7 +30,7 @@ MOST_SPANS = 14
 """Spans that a patch keeps at most."""
 
 
-def after_impact(departure: Departure, impact: Impact) -> Patch:
+def after_impact(departure: PatchDeparture, impact: Impact) -> Patch:
     """Patch after the impact; :class:`LeftOpenError` where the radial speed is not known to be positive."""
     window = hull(impact.begin, impact.end)
     moment = departure.at(window)
@@ -43,7 +43,7 @@ def after_impact(departure: Departure, impact: Impact) -> Patch:
         if not centre[0] + spread([column[0] for column in columns]) > 0:
             raise LeftOpenError(GRAZE, departure.weights(impact.end))
         return _reset(departure, centre, columns, [arb(0)] * 3)
-    middle = Departure(departure.held, departure.patch, alone=True).at(time)
+    middle = PatchDeparture(departure.held, departure.patch, alone=True).at(time)
     columns, drift = _columns(middle), []
     for j, squares in enumerate(second_derivatives(departure, time, window)):
         for column, term in zip(columns[2:FORM], bent(directions, squares), strict=True):
@@ -67,7 +67,7 @@ def _columns(moment: Moment) -> Columns:
     return columns
 
 
-def after_brush(departure: Departure, brush: Brush) -> Patch:
+def after_brush(departure: PatchDeparture, brush: Brush) -> Patch:
     """Patch after a touch."""
     window = hull(brush.begin, brush.last)
     moment, middle = departure.at(window), window.mid()
@@ -81,7 +81,7 @@ def after_brush(departure: Departure, brush: Brush) -> Patch:
     return _reset(departure, [brush.fastest / 2, *centre[1:]], columns, drift)
 
 
-def _crossing(departure: Departure, window: Any) -> Any:
+def _crossing(departure: PatchDeparture, window: Any) -> Any:
     """Time at which the flight of the centre crosses, by one step of Newton's method on an interval."""
     guess = float(window.mid())
     for _ in range(8):
@@ -95,7 +95,7 @@ def _crossing(departure: Departure, window: Any) -> Any:
     return (arb(guess) - (dot(z, z) - 1) / slope).intersection(window)
 
 
-def _at_wall(departure: Departure, moment: Moment, time: Any) -> list[Any]:
+def _at_wall(departure: PatchDeparture, moment: Moment, time: Any) -> list[Any]:
     """``a``, ``b`` and ``ψ`` of the flight of the centre."""
     z, dz = moment.centre(0), moment.centre(1)
     # Away from the cut of the argument on the negative axis.
@@ -103,7 +103,7 @@ def _at_wall(departure: Departure, moment: Moment, time: Any) -> list[Any]:
     return [dot(z, dz), cross(z, dz), departure.patch.centre[-1] + time - angle]
 
 
-def _reset(departure: Departure, centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
+def _reset(departure: PatchDeparture, centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
     """Patch after the impact of states ``a, b, ψ`` before it."""
     held = departure.held
     wide = [x + spread([column[j] for column in columns]) + drift[j] for j, x in enumerate(centre)]

@@ -13,11 +13,11 @@ from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
 from carom.proofs.boxes import MOST_PARAMETERS
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.families import Family
+from carom.proofs.families import DisturbanceFamily
 from carom.proofs.kick_cells import IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
-from carom.proofs.kick_discs import Disc
+from carom.proofs.kick_discs import KickDisc
 from carom.proofs.kick_search import BITS, show_all
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.runs import in_brackets, written
 
 BOX_THEOREM = "kicks of a box of machines"
@@ -34,12 +34,12 @@ _STRETCHES = 16
 """Stretches of the interval of a parameter on each of which a speed is stated."""
 
 
-def options_of(family: Family) -> tuple[str, str]:
+def options_of(family: DisturbanceFamily) -> tuple[str, str]:
     """Names of the options of the theorem about a family."""
     return family.option, "most_impacts"
 
 
-def _disc_from(family: Family, rotor: Rotor, options: Mapping[str, Any]) -> Disc:
+def _disc_from(family: DisturbanceFamily, rotor: ProvenRotor, options: Mapping[str, Any]) -> KickDisc:
     """The disc that options of a theorem describe, and with an option ``box`` the box."""
     largest, most = (options[name] for name in options_of(family))
     if not isinstance(largest, str) or type(most) is not int or not 0 <= most < len(IMPACTS):
@@ -49,10 +49,12 @@ def _disc_from(family: Family, rotor: Rotor, options: Mapping[str, Any]) -> Disc
         raise NotShownError("the certificate has no box of machines")
     if not all(isinstance(entry, list) and [type(text) for text in entry] == [str] * 3 for entry in box):
         raise NotShownError("the certificate has no box of machines")
-    return Disc(family, rotor.hypotheses, largest, most, tuple(tuple(entry) for entry in box))
+    return KickDisc(family, rotor.hypotheses, largest, most, tuple(tuple(entry) for entry in box))
 
 
-def kick_claims(family: Family, rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
+def kick_claims(
+    family: DisturbanceFamily, rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, Any]
+) -> list[Claim]:
     """Claims of a certificate, all of whose proven cells are shown again; nothing is searched."""
     if rotor.bits != BITS:
         raise NotShownError(f"cells are shown with {BITS} bits")
@@ -80,7 +82,7 @@ def _reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
     return "; ".join([*refuted, *(f"{share}: {OPEN[letter]}" for letter, share in shown if letter in OPEN)])
 
 
-def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
+def claims_of(disc: KickDisc, tree: Tree) -> list[Claim]:
     """Claims about a disc, and a box of machines if it has one, whose cells are known."""
     known = list(leaves(tree))
     proven = [(cell, IMPACTS.index(letter)) for cell, letter in known if letter in IMPACTS]
@@ -125,7 +127,7 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
     return claims + (_stretch_claims(disc, proven, rest) if rest and len(disc.along) == 1 else [])
 
 
-def _stretch_claims(disc: Disc, proven: list[tuple[Cell, int]], rest: list[Cell]) -> list[Claim]:
+def _stretch_claims(disc: KickDisc, proven: list[tuple[Cell, int]], rest: list[Cell]) -> list[Claim]:
     """On stretches of a parameter the speed below which all kicks return."""
     line = disc.box.lines[0]
     start, stop = line.ends
@@ -164,7 +166,7 @@ def _meets(cell: Cell, low: Fraction, high: Fraction) -> bool:
     return start < high and low < stop
 
 
-def _sizes(disc: Disc, share: Fraction) -> dict[str, Enclosure]:
+def _sizes(disc: KickDisc, share: Fraction) -> dict[str, Enclosure]:
     """A share of the largest size: in the SI unit for machines, dimensionless where its unit is the same for all of them."""
     name = disc.family.size
     found = enclosures_of(**{name: disc.size(share)}) if disc.shares_unit else {}

@@ -19,10 +19,10 @@ from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
 from carom.proofs.boxes import Box, box_of
-from carom.proofs.families import FAMILIES, KICKS, Family, Scale
+from carom.proofs.families import FAMILIES, KICKS, DisturbanceFamily, Scale
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, Part, whole
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.passages import GRAZE, OUTSIDE, LeftOpenError
 from carom.proofs.patches import Held, Patch
 from carom.proofs.recoveries import disturbed, disturbed_in_box, impacts_of, show_in_rub
@@ -35,7 +35,7 @@ _KEPT = 4096
 _Result = TypeVar("_Result")
 
 
-class Found(NamedTuple):
+class DiscResult(NamedTuple):
     """What was found of a cell.
 
     Attributes
@@ -51,12 +51,12 @@ class Found(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Disc:
+class KickDisc:
     """A disc of disturbances out of levitation by size and direction, in the fixed frame.
 
     Attributes
     ----------
-    family : Family
+    family : DisturbanceFamily
         What they are.
     hypotheses : Hypotheses
     largest : str
@@ -72,7 +72,7 @@ class Disc:
         The largest size is none, or a parameter is not.
     """
 
-    family: Family
+    family: DisturbanceFamily
     hypotheses: Hypotheses
     largest: str
     most_impacts: int
@@ -134,7 +134,7 @@ class Disc:
     def _known(self) -> dict[tuple[Part, ...], BoxPart]:
         return {}
 
-    def reach(self, numbers: Numbers, moved: Mapping[str, Any]) -> Any:
+    def reach(self, numbers: LineNumbers, moved: Mapping[str, Any]) -> Any:
         """``v`` of the largest size, for numbers of a rotor at values of the parameters: a ball or a power series."""
         size: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
         if not self.along:
@@ -168,19 +168,21 @@ class Disc:
             # Balls of a wide cell that hold everything: numbers in double precision fail then.
             raise LeftOpenError(GRAZE, self._sizes(cell)) from None
 
-    def try_(self, cell: Cell, returns: bool) -> Found:
+    def try_(self, cell: Cell, returns: bool) -> DiscResult:
         """What can be proven of a cell, the disturbance in the middle of which returns or does not."""
         sizes = self._sizes(cell)
         try:
             if returns:
-                return Found(IMPACTS[self.show(cell, self.most_impacts)])
+                return DiscResult(IMPACTS[self.show(cell, self.most_impacts)])
             if not self.part(cell.parts).held.rub.exists:
-                return Found(LOST, CUTS[int(np.argmax(sizes))])
+                return DiscResult(LOST, CUTS[int(np.argmax(sizes))])
             self.refute(cell)
-            return Found(REFUTED)
+            return DiscResult(REFUTED)
         except LeftOpenError as problem:
             weights = problem.weights if len(problem.weights) == len(sizes) else sizes
-            return Found(problem.reason[0] if returns else LOST, CUTS[max(range(len(sizes)), key=weights.__getitem__)])
+            return DiscResult(
+                problem.reason[0] if returns else LOST, CUTS[max(range(len(sizes)), key=weights.__getitem__)]
+            )
 
     def come_back(self, cells: list[Cell]) -> list[bool]:
         """Whether the disturbance in the middle of each cell returns, in double precision: it decides what is tried."""
@@ -190,7 +192,7 @@ class Disc:
             returned |= zip(alike, self.part(parts).come_back(alike), strict=True)
         return [returned[cell] for cell in cells]
 
-    def tried(self, cells: list[Cell]) -> list[Found]:
+    def tried(self, cells: list[Cell]) -> list[DiscResult]:
         """What is found of some cells."""
         return [self.try_(cell, returns) for cell, returns in zip(cells, self.come_back(cells), strict=True)]
 
@@ -212,10 +214,10 @@ class Disc:
 
 
 @lru_cache(maxsize=2)
-def disc_of(data: DiscData) -> Disc:
+def disc_of(data: DiscData) -> KickDisc:
     """A disc from plain data, once for all cells that a process looks at."""
     about, document, largest, most, along = data
-    return Disc(FAMILIES[about], Hypotheses.from_document(json.loads(document)), largest, most, along)
+    return KickDisc(FAMILIES[about], Hypotheses.from_document(json.loads(document)), largest, most, along)
 
 
 def _levitates(held: Held) -> bool:
@@ -267,7 +269,7 @@ class BoxPart:
         return returned
 
     @classmethod
-    def of(cls, disc: Disc, parts: tuple[Part, ...]) -> BoxPart:
+    def of(cls, disc: KickDisc, parts: tuple[Part, ...]) -> BoxPart:
         """From a part of the box of a disc."""
         box = disc.box
         values = box.middles(parts), box.values(parts)

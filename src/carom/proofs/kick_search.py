@@ -15,7 +15,7 @@ from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
 from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves
-from carom.proofs.kick_discs import Disc, DiscData, Found, disc_of
+from carom.proofs.kick_discs import DiscData, DiscResult, KickDisc, disc_of
 from carom.proofs.passages import LeftOpenError
 
 BITS = 64
@@ -32,7 +32,7 @@ _LOST_COUNTS = 1 / 4
 _Result = TypeVar("_Result")
 
 
-def search(disc: Disc, limit: float, workers: int, tell: Reporter) -> Tree:
+def search(disc: KickDisc, limit: float, workers: int, tell: Reporter) -> Tree:
     """Halve and prove cells of a disc until none is open, or for so many seconds."""
     tree = {disc.whole: AHEAD}
     heap: list[tuple[float, Cell]] = []
@@ -59,7 +59,7 @@ def search(disc: Disc, limit: float, workers: int, tell: Reporter) -> Tree:
     return tree
 
 
-def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
+def show_all(disc: KickDisc, tree: Tree, workers: int, tell: Reporter) -> None:
     """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
     shown = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
     ahead, done = iter([shown[first : first + BATCH] for first in range(0, len(shown), BATCH)]), 0
@@ -76,7 +76,7 @@ def _push(heap: list[tuple[float, Cell]], cell: Cell, letter: str) -> None:
         heapq.heappush(heap, (-float(cell.share) * (_LOST_COUNTS if letter == LOST else 1.0), cell))
 
 
-def _tried(data: DiscData, cells: list[Cell]) -> list[Found]:
+def _tried(data: DiscData, cells: list[Cell]) -> list[DiscResult]:
     with at_precision(BITS):
         return disc_of(data).tried(cells)
 
@@ -99,7 +99,7 @@ def _shown(data: DiscData, cells: list[tuple[Cell, str]]) -> str:
 
 
 def _each(
-    disc: Disc,
+    disc: KickDisc,
     function: Callable[[Any, Any], _Result],
     batches: Callable[[], Iterator[Any]],
     workers: int,

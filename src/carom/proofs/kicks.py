@@ -15,11 +15,11 @@ from carom.models import Subject
 from carom.parameters import read_quantity
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
-from carom.proofs.families import KICKS, Family
+from carom.proofs.families import KICKS, DisturbanceFamily
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.kick_cells import IMPACTS, written
 from carom.proofs.kick_claims import BOX_NOT_CLAIMED, BOX_THEOREM, NOT_CLAIMED, claims_of, options_of
-from carom.proofs.kick_discs import Disc
+from carom.proofs.kick_discs import KickDisc
 from carom.proofs.kick_search import BITS, search
 from carom.proofs.proving import TIME, prove_levitation, without_closed_forms
 
@@ -104,7 +104,7 @@ class Limits(NamedTuple):
 
 
 def prove_disc(
-    family: Family,
+    family: DisturbanceFamily,
     hypotheses: Hypotheses,
     largest: Given,
     limits: Limits,
@@ -113,7 +113,7 @@ def prove_disc(
 ) -> Proof:
     """Prove which disturbances of a family return, as :func:`prove_kicks` does for kicks."""
     box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
-    disc = Disc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts, box)
+    disc = KickDisc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts, box)
     seconds = math.inf if limits.time_limit is None else read_quantity(TIME, limits.time_limit)
     with at_precision(BITS):
         if not disc.levitates:

@@ -20,7 +20,7 @@ from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
 from carom.proofs.series import I, hyperbolic
 
 
-class Numbers(NamedTuple):
+class LineNumbers(NamedTuple):
     """The numbers of the equations; balls or power series of balls.
 
     With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real ``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity
@@ -85,7 +85,7 @@ class Machines:
     def __init__(self, hypotheses: Hypotheses) -> None:
         self.hypotheses = hypotheses
 
-    def at(self, moved: Mapping[str, Any]) -> Numbers:
+    def at(self, moved: Mapping[str, Any]) -> LineNumbers:
         """Numbers at values of some parameters, by their names: balls or power series."""
         found = dict(self._balls)
         machine = {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
@@ -98,7 +98,7 @@ class Machines:
             if isinstance(value, arb_series):
                 # What does not depend on the parameter is a power series too.
                 found["gamma"] = found["gamma"] + value * 0
-        return Numbers(*(found[name] for name in NUMBERS))
+        return LineNumbers(*(found[name] for name in NUMBERS))
 
     def table(self, moved: Mapping[str, Any]) -> dict[str, Any]:
         """The machine's table in SI units with other values of some entries: fields, or terms that set them."""
@@ -166,7 +166,7 @@ class Line:
         """The interval in words."""
         return f"{self.start} <= {self.name} <= {self.stop}"
 
-    def at(self, value: Any) -> Numbers:
+    def at(self, value: Any) -> LineNumbers:
         """Numbers at a value of the parameter: a ball or a power series."""
         return self._machines.at({self.name: value})
 

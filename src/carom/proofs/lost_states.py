@@ -9,7 +9,7 @@ from flint import arb
 
 from carom.proofs.evidence import Evidence
 from carom.proofs.periods import all_periods
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.steady import steady_claims
 from carom.proofs.whirl import attracting_speed, whirl_claims
@@ -33,7 +33,7 @@ class Lost(NamedTuple):
     speed: Any
 
 
-def steadily_lost(rotor: Rotor) -> Iterator[Lost]:
+def steadily_lost(rotor: ProvenRotor) -> Iterator[Lost]:
     """Synchronous rubs and whirl in lasting contact that are proven."""
     n = rotor.numbers
     proven = {claim.name for claim in (*steady_claims(rotor), *whirl_claims(rotor)) if claim.status == "proven"}
@@ -48,7 +48,7 @@ def steadily_lost(rotor: Rotor) -> Iterator[Lost]:
         yield Lost("the rotor can roll on the wall for ever", n.radius_ratio)
 
 
-def lost_on_orbits(rotor: Rotor, evidence: Evidence) -> Iterator[Lost]:
+def lost_on_orbits(rotor: ProvenRotor, evidence: Evidence) -> Iterator[Lost]:
     """Orbits with one impact a period that are proven, each by the slower of its states before and after the impact."""
     n = rotor.numbers
     for _, found in candidates(rotor, all_periods(rotor, evidence, None, MOST_CELLS)):

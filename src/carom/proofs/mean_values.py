@@ -16,7 +16,7 @@ NOTHING = 0
 _UNIT = arb(0, 1)
 
 
-class Form:
+class MeanValueForm:
     """A real number that depends on unknowns.
 
     Parameters
@@ -39,42 +39,42 @@ class Form:
         near = at + size * _UNIT
         self.every = near if every is None or not near.overlaps(every) else near.intersection(every)
 
-    def __add__(self, other: Any) -> Form:
+    def __add__(self, other: Any) -> MeanValueForm:
         if other is NOTHING:
             return self
-        if isinstance(other, Form):
+        if isinstance(other, MeanValueForm):
             by = [one + two for one, two in zip(self.by, other.by, strict=True)]
-            return Form(self.at + other.at, by, self.every + other.every)
-        return Form(self.at + other, self.by, self.every + other)
+            return MeanValueForm(self.at + other.at, by, self.every + other.every)
+        return MeanValueForm(self.at + other, self.by, self.every + other)
 
-    def __neg__(self) -> Form:
-        return Form(-self.at, [-slope for slope in self.by], -self.every)
+    def __neg__(self) -> MeanValueForm:
+        return MeanValueForm(-self.at, [-slope for slope in self.by], -self.every)
 
-    def __sub__(self, other: Any) -> Form:
+    def __sub__(self, other: Any) -> MeanValueForm:
         return self + (-other)
 
-    def __rsub__(self, other: Any) -> Form:
+    def __rsub__(self, other: Any) -> MeanValueForm:
         return -self + other
 
     def __mul__(self, other: Any) -> Any:
         if other is NOTHING:
             return NOTHING
-        if isinstance(other, Form):
+        if isinstance(other, MeanValueForm):
             one, two = self.every, other.every
             by = [a * two + b * one for a, b in zip(self.by, other.by, strict=True)]
-            return Form(self.at * other.at, by, one * two)
-        return Form(self.at * other, [slope * other for slope in self.by], self.every * other)
+            return MeanValueForm(self.at * other.at, by, one * two)
+        return MeanValueForm(self.at * other, [slope * other for slope in self.by], self.every * other)
 
-    def __truediv__(self, other: Any) -> Form:
-        if isinstance(other, Form):
+    def __truediv__(self, other: Any) -> MeanValueForm:
+        if isinstance(other, MeanValueForm):
             return self * other.through(1 / other.at, 1 / other.every, -1 / (other.every * other.every))
         return self * (1 / arb(other))
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def through(self, at: Any, every: Any, slope: Any) -> Form:
+    def through(self, at: Any, every: Any, slope: Any) -> MeanValueForm:
         """A function of it, by its value at the centre, its values and its slopes."""
-        return Form(at, [x * slope for x in self.by], every)
+        return MeanValueForm(at, [x * slope for x in self.by], every)
 
 
 class Pair:

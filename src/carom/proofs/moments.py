@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from flint import arb
 
 if TYPE_CHECKING:
-    from carom.proofs.patches import Departure
+    from carom.proofs.patches import PatchDeparture
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
@@ -33,7 +33,7 @@ class Moment:
     ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
     """
 
-    def __init__(self, departure: Departure, time: Any) -> None:
+    def __init__(self, departure: PatchDeparture, time: Any) -> None:
         self.departure, self.time = departure, time
         self.waves = departure.held.waves(time, departure.from_wall)
 

@@ -28,7 +28,7 @@ from flint import arb
 
 from carom.base.outcome import CaromError
 from carom.proofs.moments import UNIT, dot
-from carom.proofs.patches import Departure
+from carom.proofs.patches import PatchDeparture
 from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64
@@ -70,7 +70,7 @@ REASONS = {
 
 
 @dataclass(frozen=True)
-class Return:
+class PatchReturn:
     """No flight reaches the wall again."""
 
 
@@ -105,10 +105,10 @@ class Brush:
     misses: bool
 
 
-Event = Return | Impact | Brush
+Event = PatchReturn | Impact | Brush
 
 
-def begin(departure: Departure) -> float:
+def begin(departure: PatchDeparture) -> float:
     """A time at which flights that leave the wall with ``g' ≤ 0`` are inside, as they were until then; zero for those from levitation."""
     if not departure.from_wall:
         if departure.at(arb(0)).height < 1:
@@ -125,7 +125,7 @@ def begin(departure: Departure) -> float:
     raise LeftOpenError(SLOW, departure.weights(width))
 
 
-def bounce(departure: Departure) -> Impact | None:
+def bounce(departure: PatchDeparture) -> Impact | None:
     """An impact before which the wall pushes all flights all the time; none if that is not shown, or they do not leave the wall."""
     if not departure.from_wall:
         return None
@@ -146,12 +146,12 @@ def bounce(departure: Departure) -> Impact | None:
     return None
 
 
-def _bends(departure: Departure, low: float, high: float) -> bool:
+def _bends(departure: PatchDeparture, low: float, high: float) -> bool:
     """Whether ``g'' > 0`` between two times."""
     return bool(departure.at(hull(low, high)).curve > 0)
 
 
-def next_event(departure: Departure, time: float) -> Event:
+def next_event(departure: PatchDeparture, time: float) -> Event:
     """The next event after a time at which all flights are inside."""
     end, width, shortest = _end(departure), LONGEST, _shortest(departure, time)
     while time < end:
@@ -161,10 +161,10 @@ def next_event(departure: Departure, time: float) -> Event:
             width /= 2
         else:
             return _joined(departure, time)
-    return Return()
+    return PatchReturn()
 
 
-def _inside(departure: Departure, time: float, width: float) -> bool:
+def _inside(departure: PatchDeparture, time: float, width: float) -> bool:
     """Whether flights that are inside at a time remain so for a while."""
     span, at = hull(time, time + width), arb(time + width / 2)
     middle, curve = departure.at(at), departure.at(span).curve
@@ -175,13 +175,13 @@ def _inside(departure: Departure, time: float, width: float) -> bool:
     return bool(middle.height + middle.rise * UNIT * reach + curve * hull(0, reach * reach / 2) < 1)
 
 
-def _shortest(departure: Departure, time: float) -> float:
+def _shortest(departure: PatchDeparture, time: float) -> float:
     """The step at which the wall is looked for: a disturbance that lasts changes within a part of its time."""
     lasts = float(departure.busy.mid())
     return min(SHORTEST, lasts / 16) if time < lasts else SHORTEST
 
 
-def _end(departure: Departure) -> float:
+def _end(departure: PatchDeparture) -> float:
     """A time after which no flight reaches the wall any more."""
     held = departure.held
     n = held.numbers
@@ -207,7 +207,7 @@ def _end(departure: Departure) -> float:
 # ------------------------------------------------------------------------------------------------ at the wall
 
 
-def _joined(departure: Departure, time: float) -> Event:
+def _joined(departure: PatchDeparture, time: float) -> Event:
     """An impact or a brush after a time at which all flights are inside."""
     crossing, peak = _centre_meets(departure, time)
     if crossing is not None:
@@ -220,12 +220,12 @@ def _joined(departure: Departure, time: float) -> Event:
     return brush
 
 
-def brush_of(departure: Departure, impact: Impact) -> Brush | None:
+def brush_of(departure: PatchDeparture, impact: Impact) -> Brush | None:
     """An impact as a brush: next to a graze less is known of the impact by it, but that little may be known where the impact's is not."""
     return _brush(departure, impact.inside, impact.peak)
 
 
-def _centre_meets(departure: Departure, time: float) -> tuple[float | None, float]:
+def _centre_meets(departure: PatchDeparture, time: float) -> tuple[float | None, float]:
     """When the flight of the centre crosses and reaches its next maximum, in doubles."""
     crossing, now = None, time
     height, rise, _ = departure.plain(now)
@@ -252,7 +252,7 @@ def _root(function: Any, low: float, high: float) -> float:
     return high
 
 
-def _impact(departure: Departure, time: float, crossing: float, peak: float) -> Impact | None:
+def _impact(departure: PatchDeparture, time: float, crossing: float, peak: float) -> Impact | None:
     rate = departure.plain(crossing)[1]
     half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate if rate > 0 else math.inf
     if not half < LONGEST:
@@ -264,7 +264,7 @@ def _impact(departure: Departure, time: float, crossing: float, peak: float) -> 
     return None
 
 
-def _brush(departure: Departure, time: float, peak: float) -> Brush | None:
+def _brush(departure: PatchDeparture, time: float, peak: float) -> Brush | None:
     height, _, curve = departure.plain(peak)
     if not curve < 0:
         return None
@@ -286,7 +286,7 @@ def _brush(departure: Departure, time: float, peak: float) -> Brush | None:
     return Brush(first, last, end, fastest, touches=bool(above > 0), misses=not top.height > 1)
 
 
-def _latest_inside(departure: Departure, time: float, peak: float, half: float) -> float:
+def _latest_inside(departure: PatchDeparture, time: float, peak: float, half: float) -> float:
     """A late time up to which flights that are inside at a time are still inside, as they rise."""
     for factor in (1.05, 1.3, 2.0):
         first = peak - factor * half
@@ -297,19 +297,19 @@ def _latest_inside(departure: Departure, time: float, peak: float, half: float) 
     return time
 
 
-def _first_falling(departure: Departure, peak: float, half: float) -> float | None:
+def _first_falling(departure: PatchDeparture, peak: float, half: float) -> float | None:
     """An early time at which all flights have passed their maximum."""
     times = (peak + factor * half + _ROUNDING for factor in (1.2, 2.0, 4.0))
     return next((last for last in times if departure.at(arb(last)).rise < 0), None)
 
 
-def _first_inside(departure: Departure, last: float, peak: float, half: float) -> float | None:
+def _first_inside(departure: PatchDeparture, last: float, peak: float, half: float) -> float | None:
     """An early time after the last maximum at which all flights are inside."""
     times = (max(last, peak + factor * half) for factor in (1.05, 1.3, 2.0, 3.0))
     return next((end for end in times if departure.at(arb(end)).height < 1), None)
 
 
-def _curves(departure: Departure, begin: float, end: float) -> Iterator[Any]:
+def _curves(departure: PatchDeparture, begin: float, end: float) -> Iterator[Any]:
     """Second derivatives of ``g`` on steps that fill an interval."""
     count = max(1, math.ceil((end - begin) / 0.25))
     cuts = [begin + (end - begin) * k / count for k in range(count)] + [end]
@@ -317,7 +317,7 @@ def _curves(departure: Departure, begin: float, end: float) -> Iterator[Any]:
         yield departure.at(hull(low, high)).curve
 
 
-def _rises(departure: Departure, low: float, high: float) -> bool:
+def _rises(departure: PatchDeparture, low: float, high: float) -> bool:
     """Whether ``g' > 0`` between two times."""
     middle = 0.5 * (low + high)
     span = hull(low, high)
@@ -325,7 +325,7 @@ def _rises(departure: Departure, low: float, high: float) -> bool:
     return bool(departure.at(arb(middle)).rise + late > 0)
 
 
-def _holds(departure: Departure, low: float, high: float, shown: Any, depth: int = 6) -> bool:
+def _holds(departure: PatchDeparture, low: float, high: float, shown: Any, depth: int = 6) -> bool:
     """Whether something is shown on all parts of an interval of times."""
     if low >= high or shown(departure, low, high):
         return True

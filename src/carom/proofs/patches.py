@@ -26,13 +26,13 @@ from typing import Any
 
 from flint import acb, arb
 
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.moments import FORM, UNIT, Moment, Wave, Waves
 from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rubs import Rub
 from carom.proofs.series import I, hyperbolic
 from carom.proofs.sides import Side, responses_by
-from carom.proofs.starts import KickStart, Plain, Response, Start
+from carom.proofs.starts import DisturbedStart, KickStart, Plain, Response
 
 KICK_START = KickStart()
 
@@ -42,11 +42,11 @@ class Held:
 
     Parameters
     ----------
-    numbers : Numbers
+    numbers : LineNumbers
         Of all rotors.
-    start : Start
+    start : DisturbedStart
         The disturbance that takes the rotor out of levitation; of a box of rotors a kick.
-    middle : Numbers, optional
+    middle : LineNumbers, optional
         Of the rotor in the middle of the box.
     sides : sequence of Side
         By how much each parameter of the box moves them.
@@ -64,7 +64,11 @@ class Held:
     """
 
     def __init__(
-        self, numbers: Numbers, start: Start = KICK_START, middle: Numbers | None = None, sides: Sequence[Side] = ()
+        self,
+        numbers: LineNumbers,
+        start: DisturbedStart = KICK_START,
+        middle: LineNumbers | None = None,
+        sides: Sequence[Side] = (),
     ) -> None:
         self.numbers, self.start, self.sides = numbers, start, sides
         self.middle = self if middle is None else Held(middle)
@@ -184,7 +188,7 @@ class Patch:
         return [*self.spans, *straight, *rests]
 
 
-class Departure:
+class PatchDeparture:
     """The flights of a patch.
 
     Parameters

@@ -28,15 +28,15 @@ from carom.proofs.cells import (
     OPEN,
     POSITIVE,
     Analytic,
-    Cells,
+    CellTree,
     cells_of,
     power_of_two_below,
     show,
 )
 from carom.proofs.courses import entire_condition, numerator_and_gap
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor
+from carom.proofs.lines import LineNumbers
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.series import I, terms
 
 SHORTEST_CELL = 200
@@ -69,7 +69,7 @@ class Root:
 
 
 @dataclass(frozen=True)
-class Periods:
+class PeriodProof:
     """What is known of the roots of ``F₁``.
 
     Attributes
@@ -95,7 +95,7 @@ class Periods:
         return self.none_beyond and not self.open
 
 
-def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most: int) -> Periods:
+def all_periods(rotor: ProvenRotor, evidence: Evidence, longest: Fraction | None, most: int) -> PeriodProof:
     """All roots of ``F₁`` with periods up to ``longest``, or those that could be shown.
 
     The search ends after ``most`` cells.
@@ -119,7 +119,7 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     lead = _first_coefficient(rotor)
     first = evidence.take("first cell", lambda: _text(_first_cell(condition, lead, min(width, end))))
     if first is None:
-        return Periods((), Fraction(0), False, ((Fraction(0), end),))
+        return PeriodProof((), Fraction(0), False, ((Fraction(0), end),))
     start = rational_of(first)
     sign = condition.sign_next_to_zero(start, lead)
     if not sign:
@@ -127,7 +127,7 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     least = width / 2 ** max(rotor.bits // 2, 20)
     limits = {"width": width, "least": least, "most": most}
     found = evidence.take("cells of F1", lambda: cells_of(condition, start, end, **limits).document())
-    cells = Cells.from_document(found)
+    cells = CellTree.from_document(found)
     if cells.cuts[0] != start or cells.cuts[-1] > end:
         raise NotShownError("the cells of a certificate do not begin where the first one ends")
     show(condition, cells)
@@ -142,7 +142,7 @@ def _text(number: Fraction | None) -> str | None:
 # ------------------------------------------------------------------------------------------------ beyond
 
 
-def slowest_decay(n: Numbers) -> Any:
+def slowest_decay(n: LineNumbers) -> Any:
     """Rate at which the slower mode of free motion decays."""
     split, half = n.split, n.gamma / 2
     root = split.nonnegative_part().sqrt()
@@ -150,7 +150,7 @@ def slowest_decay(n: Numbers) -> Any:
     return half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
 
 
-def none_beyond(n: Numbers, time: Any) -> bool:
+def none_beyond(n: LineNumbers, time: Any) -> bool:
     """Whether the decay keeps ``F₁`` above zero from a period on."""
     split, rate = n.split, slowest_decay(n)
     if not (n.gamma > 0 and rate * time >= 1):
@@ -164,7 +164,7 @@ def none_beyond(n: Numbers, time: Any) -> bool:
     return any(abs(n.q) * (slow * swing + slow * slow) < (1 - slow) * (1 - slow) for swing in swings)
 
 
-def _longest_period(n: Numbers) -> Fraction | None:
+def _longest_period(n: LineNumbers) -> Fraction | None:
     """A period beyond which there is no root; ``None`` if none is shown."""
     if not (n.gamma > 0 and slowest_decay(n) > 0):
         return None
@@ -182,7 +182,7 @@ def _longest_period(n: Numbers) -> Fraction | None:
 # ------------------------------------------------------------------------------------------------ next to zero
 
 
-def _first_coefficient(rotor: Rotor) -> int:
+def _first_coefficient(rotor: ProvenRotor) -> int:
     """Order of the first coefficient of ``P`` about zero that is not known to vanish."""
     given = rotor.hypotheses.rational("gamma", "mu", "d")
     if rotor.hypotheses.rational("d") != (Fraction(1),):
@@ -202,7 +202,7 @@ def _first_cell(condition: Analytic, lead: int, width: Fraction) -> Fraction | N
 # ------------------------------------------------------------------------------------------------ roots
 
 
-def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evidence: Evidence) -> Periods:
+def _roots_on(rotor: ProvenRotor, condition: Analytic, cells: CellTree, start: int, evidence: Evidence) -> PeriodProof:
     """Roots on the cells; ``start`` is the sign of ``F₁`` before the first one."""
     roots: list[Root] = []
     unclear: list[tuple[Fraction, Fraction]] = []
@@ -228,10 +228,10 @@ def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evide
         else:
             roots.append(Root(near, far, count // 2 + 1, bool(count % 2)))
         count += 1
-    return Periods(tuple(roots), cells.cuts[-1], False, tuple(unclear))
+    return PeriodProof(tuple(roots), cells.cuts[-1], False, tuple(unclear))
 
 
-def _runs(condition: Analytic, cells: Cells) -> Iterator[tuple[Fraction, Fraction, str, int, int]]:
+def _runs(condition: Analytic, cells: CellTree) -> Iterator[tuple[Fraction, Fraction, str, int, int]]:
     """Both ends, kind and signs at the ends of runs of monotone cells, and of open ones."""
     shown = {POSITIVE: 1, NEGATIVE: -1}
     first = 0

@@ -19,17 +19,17 @@ from flint import arb, arb_series
 from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.courses import Course, Return
+from carom.proofs.courses import OrbitCourse, Return
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.krawczyk import System, box_of, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import point_seeds
 from carom.proofs.series import first, real, terms
 from carom.proofs.steady import rub_balance, rub_discriminant, wall_condition
 
 
-class Kind(NamedTuple):
+class PointKind(NamedTuple):
     """A kind of point.
 
     Attributes
@@ -48,26 +48,26 @@ class Kind(NamedTuple):
 
 
 _STEADY, _PERIOD, _ORBIT = ("value",), ("period", "value"), ("period", "radial_speed", "value")
-KINDS: Mapping[str, Kind] = {
-    "fold": Kind(_PERIOD, "two periods of orbits meet: F1 = 0 and dF1/dT = 0", lambda back: back.closing_rate),
-    "speed-fold": Kind(_PERIOD, "the two radial speeds of a period meet", lambda back: back.discriminant),
-    "period-doubling": Kind(_ORBIT, "an orbit has a multiplier -1", lambda course: course.invariants.at_minus_one),
-    "neimark-sacker": Kind(
+KINDS: Mapping[str, PointKind] = {
+    "fold": PointKind(_PERIOD, "two periods of orbits meet: F1 = 0 and dF1/dT = 0", lambda back: back.closing_rate),
+    "speed-fold": PointKind(_PERIOD, "the two radial speeds of a period meet", lambda back: back.discriminant),
+    "period-doubling": PointKind(_ORBIT, "an orbit has a multiplier -1", lambda course: course.invariants.at_minus_one),
+    "neimark-sacker": PointKind(
         _ORBIT, "the product of two multipliers of an orbit is 1", lambda course: course.invariants.of_pairs
     ),
-    "slip-stop": Kind(
+    "slip-stop": PointKind(
         _ORBIT, "friction just stops the slip in the impact of an orbit", lambda course: course.slip_after
     ),
-    "grazing": Kind(
+    "grazing": PointKind(
         ("touch", *_ORBIT),
         "an orbit touches the wall between its impacts without radial speed",
         lambda course: course.height,
     ),
-    "non-smooth-hopf": Kind(
+    "non-smooth-hopf": PointKind(
         _PERIOD, "an orbit shrinks into the equilibrium on the wall, |U*| = 1", lambda back: 1 - back.levitation
     ),
-    "boundary-equilibrium": Kind(_STEADY, "the contact-free equilibrium is on the wall, |U*| = 1", wall_condition),
-    "rub-fold": Kind(_STEADY, "the two synchronous rubs meet", rub_discriminant),
+    "boundary-equilibrium": PointKind(_STEADY, "the contact-free equilibrium is on the wall, |U*| = 1", wall_condition),
+    "rub-fold": PointKind(_STEADY, "the two synchronous rubs meet", rub_discriminant),
 }
 """Kinds of points that can be proven."""
 _LABEL, _MOST_POINTS = re.compile(r"B[0-9]{1,4},[abcd]|contact-free|rub"), 1000
@@ -76,7 +76,7 @@ _ENTRIES = ({"kind", "label", "near"}, {"kind", "label", "centre", "width"})
 """Entries of a point that is open, and of one that is shown."""
 
 
-def equations_of(line: Line, kind: Kind, *unknowns: Any) -> tuple[Any, ...]:
+def equations_of(line: Line, kind: PointKind, *unknowns: Any) -> tuple[Any, ...]:
     """Left sides of the extended system of a kind, from the unknowns in their order."""
     at = dict(zip(kind.unknowns, unknowns, strict=True))
     numbers = line.at(at["value"])
@@ -85,12 +85,12 @@ def equations_of(line: Line, kind: Kind, *unknowns: Any) -> tuple[Any, ...]:
     back = Return(numbers, at["period"])
     if "radial_speed" not in at:
         return back.closing, kind.vanishes(back)
-    course = Course(back, at["radial_speed"])
+    course = OrbitCourse(back, at["radial_speed"])
     found = kind.vanishes(course)
     return back.closing, course.balance, *(found(at["touch"]) if "touch" in at else (found,))
 
 
-def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
+def point_claims(rotor: ProvenRotor, evidence: Evidence, options: Any) -> list[Claim]:
     """Claims about bifurcation points along a parameter: the options ``along``, ``from`` and ``to``, as texts.
 
     The rotor's own value of the parameter does not matter.
@@ -99,7 +99,7 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     found = evidence.take("points", lambda: _all_searched(line))
     claims: list[Claim] = []
     given: set[tuple[str, str]] = set()
-    shown: dict[tuple[str, str], list[Point]] = {}
+    shown: dict[tuple[str, str], list[ProofPoint]] = {}
     if len(found) > _MOST_POINTS:
         raise NotShownError(f"the certificate has more than {_MOST_POINTS} points")
     for entry in found:
@@ -115,7 +115,7 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
         if "centre" not in entry:
             near = f"{float(entry['near'][-1]):.9g}"
             reason = f"the search in double precision found one near {near}, which could not be shown"
-            unknown = Point(line, entry["kind"], label, {})
+            unknown = ProofPoint(line, entry["kind"], label, {})
             claims.append(unknown.claim("", _statement(line, entry["kind"]), 0, reason))
             continue
         point = _shown(line, label, entry)
@@ -129,7 +129,7 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
 
 def _all_searched(line: Line) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
-    shown: dict[tuple[str, str], list[Point]] = {}
+    shown: dict[tuple[str, str], list[ProofPoint]] = {}
     for kind, label, at in point_seeds(line):
         if kind not in KINDS:
             continue
@@ -159,18 +159,18 @@ def _statement(line: Line, kind: str) -> str:
     return f"Along {line.name}, {KINDS[kind].words}, at exactly one point of the box that is given, and there at these values."
 
 
-def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> Point:
+def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> ProofPoint:
     """The point of an entry, if it shows one."""
     found = shown_zero(_system(line, entry["kind"]), entry)
     if found is None:
         raise NotShownError(f"the certificate does not show the {entry['kind']} of {label}")
-    point = Point(line, entry["kind"], label, dict(zip(KINDS[entry["kind"]].unknowns, found, strict=True)))
+    point = ProofPoint(line, entry["kind"], label, dict(zip(KINDS[entry["kind"]].unknowns, found, strict=True)))
     if not _in_range(line, point.at):
         raise NotShownError(f"the {entry['kind']} of {label} is not at a value and at times that are looked at")
     return point
 
 
-def _claims_of(point: Point, entry: Mapping[str, Any]) -> list[Claim]:
+def _claims_of(point: ProofPoint, entry: Mapping[str, Any]) -> list[Claim]:
     boxes = {f"{name} box": ball for name, ball in zip(point.at, box_of(entry), strict=True)}
     claims = [point.claim("", _statement(point.line, point.kind), 1, **point.at, **boxes)]
     try:
@@ -192,7 +192,7 @@ def _in_range(line: Line, at: Mapping[str, Any]) -> bool:
 
 
 @dataclass(frozen=True)
-class Point:
+class ProofPoint:
     """A point that is shown.
 
     Attributes
@@ -216,7 +216,7 @@ class Point:
         about = f"of {self.label} {what}".rstrip()
         return claim_of(self.kind, about, statement, sign, reason=reason, enclosures=values, limited=False)
 
-    def may_be(self, other: Point) -> bool:
+    def may_be(self, other: ProofPoint) -> bool:
         """Whether both may be one zero: nothing tells them apart."""
         return all(ball.overlaps(other.at[name]) for name, ball in self.at.items())
 
@@ -226,22 +226,22 @@ class Point:
         return Return(self.line.at(value), arb_series([self.at["period"], period_rate]))
 
     @cached_property
-    def course(self) -> Course:
+    def course(self) -> OrbitCourse:
         """The orbit there."""
         back = Return(self.line.at(self.at["value"]), self.at["period"])
         if self.kind == "non-smooth-hopf":
-            return Course(back, arb(0))
+            return OrbitCourse(back, arb(0))
         if self.kind == "speed-fold":
-            return Course(back, -real(back.lever) / back.lever_squared)
+            return OrbitCourse(back, -real(back.lever) / back.lever_squared)
         faster = self.label.split()[0][-1] in "cd"
-        return Course(back, self.at["radial_speed"] if "radial_speed" in self.at else back.speeds()[faster])
+        return OrbitCourse(back, self.at["radial_speed"] if "radial_speed" in self.at else back.speeds()[faster])
 
     @cached_property
     def rates(self) -> tuple[Any, Any]:
         """``T'`` and ``ṙ'`` along the branch; not finite at a fold."""
 
         def closing(period: Any, speed: Any, value: Any) -> tuple[Any, Any]:
-            moved = Course(Return(self.line.at(value), period), speed)
+            moved = OrbitCourse(Return(self.line.at(value), period), speed)
             return moved.back.closing, moved.balance
 
         _, slopes = derivatives(closing, (self.course.back.period, self.course.speed, self.at["value"]))
@@ -249,7 +249,7 @@ class Point:
         return period_rate, -(slopes[1, 2] + slopes[1, 0] * period_rate) / slopes[1, 1]
 
 
-def _nature(point: Point) -> list[Claim]:
+def _nature(point: ProofPoint) -> list[Claim]:
     """Claims about transversality and the motion at a point."""
     if "period" not in point.at:
         return _steady_claims(point)
@@ -274,7 +274,7 @@ _BALANCES = {
 }
 
 
-def _steady_claims(point: Point) -> list[Claim]:
+def _steady_claims(point: ProofPoint) -> list[Claim]:
     """Claims about transversality and about the motions on both sides of a point of levitation or rubs."""
     with terms(2):
         slope = KINDS[point.kind].vanishes(point.line.at(arb_series([point.at["value"], 1])))[1]
@@ -287,11 +287,11 @@ def _steady_claims(point: Point) -> list[Claim]:
     return claims
 
 
-def _crossing_claims(point: Point) -> list[Claim]:
+def _crossing_claims(point: ProofPoint) -> list[Claim]:
     """Claim that the test function of a point changes its sign along the branch."""
     period_rate, speed_rate = point.rates
     with terms(2):
-        moved = Course(point.moved(period_rate), arb_series([point.course.speed, speed_rate]))
+        moved = OrbitCourse(point.moved(period_rate), arb_series([point.course.speed, speed_rate]))
         found = KINDS[point.kind].vanishes(moved)
         slope = (found(arb_series([point.at["touch"]]))[0] if point.kind == "grazing" else found)[1]
     sign, reason = decided(slope), "the sign of the slope is open"
@@ -304,7 +304,7 @@ def _crossing_claims(point: Point) -> list[Claim]:
     return [point.claim("transversal", words, abs(sign), reason, slope=slope)]
 
 
-def _speed_fold_claims(point: Point) -> list[Claim]:
+def _speed_fold_claims(point: ProofPoint) -> list[Claim]:
     with terms(2):
         slope = -point.moved().closing[1] / point.course.back.closing_rate
         shift = point.moved(slope).discriminant[1]
@@ -314,7 +314,7 @@ def _speed_fold_claims(point: Point) -> list[Claim]:
     return [point.claim("transversal", words, abs(decided(shift)), slope=shift)]
 
 
-def _fold_claims(point: Point) -> list[Claim]:
+def _fold_claims(point: ProofPoint) -> list[Claim]:
     with terms(3):
         curve = point.moved(1, by=0).closing[2] * 2
     with terms(2):
@@ -326,7 +326,7 @@ def _fold_claims(point: Point) -> list[Claim]:
     return [point.claim("transversal", words, abs(side), "a derivative may vanish", curvature=curve, slope=push)]
 
 
-def _torus_claim(point: Point) -> Claim:
+def _torus_claim(point: ProofPoint) -> Claim:
     trace, _, determinant = point.course.invariants
     total = trace - determinant
     strong = [decided(total - k) for k in (-2, -1, 0, 1, 2)]
@@ -342,7 +342,7 @@ def _torus_claim(point: Point) -> Claim:
     )
 
 
-def _shrinking_claims(point: Point) -> list[Claim]:
+def _shrinking_claims(point: ProofPoint) -> list[Claim]:
     slope, reach = point.rates[1], real(point.course.back.lever)
     side = decided(reach)
     words, where = ("subcritical", "inside") if side < 0 else ("supercritical", "outside")
@@ -358,7 +358,7 @@ def _shrinking_claims(point: Point) -> list[Claim]:
     ]
 
 
-def _motion_claim(point: Point) -> Claim:
+def _motion_claim(point: ProofPoint) -> Claim:
     """Claim that the orbit there is a motion of the machine, but for what the point itself is about."""
     kind, course = point.kind, point.course
     small = kind == "non-smooth-hopf"

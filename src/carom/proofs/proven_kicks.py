@@ -19,7 +19,7 @@ from carom.proofs.claims import Proof
 from carom.proofs.families import KICKS
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
-from carom.proofs.kick_discs import Disc
+from carom.proofs.kick_discs import KickDisc
 from carom.proofs.seeds import doubles_of
 
 _ROUNDING = 1e-12
@@ -134,7 +134,7 @@ class ProvenKicks(Result):
             rotor = exact_rotor_of(machine)
             _check_machine(proof.hypotheses, rotor)
         numbers = proof["kicks recover"].enclosures
-        disc = Disc(KICKS, proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])
+        disc = KickDisc(KICKS, proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])
         return cls(
             rotor=rotor,
             largest=float(disc.size(DISC.speeds[1]).mid()),

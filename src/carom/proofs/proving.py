@@ -19,7 +19,7 @@ from carom.proofs.claims import Proof
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.lines import line_of
-from carom.proofs.rotor import Rotor as RotorInBalls
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.several_impacts import MOST_IMPACTS
 from carom.proofs.stated_equations import StatedEquations
 from carom.proofs.theorems import THEOREMS, Options
@@ -179,7 +179,7 @@ def proof_at(
 ) -> Proof:
     """Claims of a theorem at one precision, from evidence that is searched for or read."""
     with at_precision(bits):
-        stated: Any = hypotheses if isinstance(hypotheses, StatedEquations) else RotorInBalls(hypotheses)
+        stated: Any = hypotheses if isinstance(hypotheses, StatedEquations) else ProvenRotor(hypotheses)
         claims = THEOREMS[theorem].claims(stated, evidence, options)
     not_claimed = THEOREMS[theorem].not_claimed
     return Proof(theorem, hypotheses, options, tuple(claims), bits, not_claimed, evidence.document())

@@ -22,7 +22,7 @@ from carom.proofs.blocks import Block, OpenError
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Line, line_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.runs import claim_of_runs, in_brackets, written
 from carom.proofs.series import hull
 from carom.proofs.slip import slip_claim
@@ -69,7 +69,7 @@ class Stretch:
         return next((fact for fact in self.facts or () if fact.name == name), None)
 
 
-def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
+def range_claims(rotor: ProvenRotor, evidence: Evidence, options: Any) -> list[Claim]:
     """Claims for all values of a parameter between two: the options ``along``, ``from`` and ``to``, as texts.
 
     The option ``blocks`` is the largest number of blocks, ``narrowest`` the share of the interval at which a block is left open, as

@@ -18,13 +18,13 @@ from carom.proofs.passages import (
     Brush,
     Impact,
     LeftOpenError,
-    Return,
+    PatchReturn,
     begin,
     bounce,
     brush_of,
     next_event,
 )
-from carom.proofs.patches import Departure, Held, Patch
+from carom.proofs.patches import Held, Patch, PatchDeparture
 from carom.proofs.rub_traps import ends_in_rub
 from carom.proofs.series import hull
 
@@ -111,7 +111,7 @@ def _after_impacts(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tup
 
     After a brush with how much each span had to do with it.
     """
-    departure = Departure(held, patch)
+    departure = PatchDeparture(held, patch)
     impact = bounce(departure)
     if impact is not None:
         yield after_impact(departure, impact), None
@@ -119,7 +119,7 @@ def _after_impacts(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tup
     time = begin(departure)
     while True:
         event = next_event(departure, time)
-        if isinstance(event, Return):
+        if isinstance(event, PatchReturn):
             yield None, None
             return
         _check_free(departure, event)
@@ -134,7 +134,7 @@ def _after_impacts(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tup
         time = brush.end
 
 
-def _impact_or_brush(departure: Departure, impact: Impact) -> Patch | Brush:
+def _impact_or_brush(departure: PatchDeparture, impact: Impact) -> Patch | Brush:
     """The patch after an impact; where that is not known the impact as a brush."""
     try:
         return after_impact(departure, impact)
@@ -146,7 +146,7 @@ def _impact_or_brush(departure: Departure, impact: Impact) -> Patch | Brush:
         return brush
 
 
-def _check_free(departure: Departure, event: Impact | Brush) -> None:
+def _check_free(departure: PatchDeparture, event: Impact | Brush) -> None:
     """Refuse an impact before motion is free."""
     if not departure.busy <= event.begin:
         raise LeftOpenError(EARLY, departure.weights(event.begin))

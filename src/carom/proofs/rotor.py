@@ -23,7 +23,7 @@ from flint import arb, ctx
 from carom.proofs.balls import ball_of, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 
 TOO_LARGE = "the product of its multipliers is 1 or more in modulus"
 
@@ -74,7 +74,7 @@ class Invariants(NamedTuple):
         }
 
 
-class Rotor:
+class ProvenRotor:
     """Planar rotor whose numbers are balls at the precision at hand.
 
     Parameters
@@ -85,13 +85,13 @@ class Rotor:
     ----------
     bits : int
         Precision.
-    numbers : Numbers
+    numbers : LineNumbers
         The numbers of the equations.
     """
 
     def __init__(self, hypotheses: Hypotheses) -> None:
         self.hypotheses, self.bits = hypotheses, ctx.prec
-        self.numbers = Numbers(*(ball_of(hypotheses.numbers[name]) for name in NUMBERS))
+        self.numbers = LineNumbers(*(ball_of(hypotheses.numbers[name]) for name in NUMBERS))
 
     @cached_property
     def on_the_wall(self) -> bool:

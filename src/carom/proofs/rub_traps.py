@@ -35,7 +35,7 @@ _FASTER, _HIGHER = Fraction(11, 10), Fraction(3, 2)
 """Room for the speed at which a bounce lands, and for its height beside that under the force of the rub."""
 
 
-class Box(NamedTuple):
+class TrapBox(NamedTuple):
     """All states of bounces: ``δ``, ``q``, ``y``, ``r'`` and ``g``, and with them ``r``, ``ρ cos x``, ``ρ sin x`` and ``r''``."""
 
     off: Any
@@ -72,7 +72,7 @@ class Bounces:
         return self.rub.potential(self.reach).min(self.rub.potential(-self.reach))
 
     @cached_property
-    def box(self) -> Box:
+    def box(self) -> TrapBox:
         """The states that are allowed."""
         n, rub = self.rub.numbers, self.rub
         slide = (2 * self.level).sqrt() * (n.mu * self.reach).exp()
@@ -84,7 +84,7 @@ class Bounces:
         along, across = rub.place
         here, there = along * cosine - across * sine, across * cosine + along * sine
         push = radius * ((1 + turning) ** 2 - n.omega_squared) - n.gamma * rate + here
-        return Box(off, UNIT * slide, turning, rate, gap, radius, here, there, push)
+        return TrapBox(off, UNIT * slide, turning, rate, gap, radius, here, there, push)
 
     @property
     def _least(self) -> Any:

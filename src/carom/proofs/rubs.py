@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.steady import rub_balance, rub_discriminant
 
 
@@ -21,12 +21,12 @@ from carom.proofs.steady import rub_balance, rub_discriminant
 class Rub:
     """The stable rub: numbers of the machine, its normal force ``N*`` and its stiffness ``K`` along the wall."""
 
-    numbers: Numbers
+    numbers: LineNumbers
     force: Any
     stiffness: Any
 
     @classmethod
-    def of(cls, n: Numbers) -> Rub:
+    def of(cls, n: LineNumbers) -> Rub:
         """That of the larger normal force."""
         root = rub_discriminant(n).sqrt()
         return cls(n, (rub_balance(n) + root) / (1 + n.mu * n.mu), root)

@@ -9,7 +9,7 @@ from math import ceil, floor
 
 from carom.proofs.balls import Enclosure, interval
 from carom.proofs.claims import Claim, Status
-from carom.proofs.lines import Line, Numbers
+from carom.proofs.lines import Line, LineNumbers
 
 Runs = Mapping[bool | None, Sequence[tuple[Fraction, Fraction]]]
 """Parts on which something holds, on which the contrary does, and on which it is open (``None``)."""
@@ -18,7 +18,7 @@ _HALVINGS = 12
 """How often a part is halved before it is left open."""
 
 
-def runs_along(line: Line, holds: Callable[[Numbers], bool | None]) -> Runs:
+def runs_along(line: Line, holds: Callable[[LineNumbers], bool | None]) -> Runs:
     """Parts of a line by what holds on them, neighbours put together: it is halved until that is decided for all values of a part."""
     runs: dict[bool | None, list[tuple[Fraction, Fraction]]] = {True: [], False: [], None: []}
     for value, group in groupby(_parts(line, holds, *line.ends, _HALVINGS), key=lambda part: part[0]):
@@ -28,7 +28,7 @@ def runs_along(line: Line, holds: Callable[[Numbers], bool | None]) -> Runs:
 
 
 def _parts(
-    line: Line, holds: Callable[[Numbers], bool | None], low: Fraction, high: Fraction, halvings: int
+    line: Line, holds: Callable[[LineNumbers], bool | None], low: Fraction, high: Fraction, halvings: int
 ) -> Iterator[tuple[bool | None, Fraction, Fraction]]:
     value = holds(line.at(interval(low, high)))
     if value is not None or not halvings or low == high:

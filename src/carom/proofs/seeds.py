@@ -16,9 +16,9 @@ from carom.orbits import Kind, find_orbits
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERMS, Machine, Parameters
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of
-from carom.proofs.courses import Course, Return
+from carom.proofs.courses import OrbitCourse, Return
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.lines import Line, Numbers
+from carom.proofs.lines import Line, LineNumbers
 
 _SAMPLES = 400
 
@@ -37,7 +37,7 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
     return numbers.replace(**changes)
 
 
-def doubles_at(numbers: Numbers, phase: float) -> Parameters:
+def doubles_at(numbers: LineNumbers, phase: float) -> Parameters:
     """Parameters next to numbers of the equations."""
     values: dict[str, Any] = {name: float(ball.mid()) for name, ball in numbers._asdict().items()}
     return Parameters(omega=math.sqrt(values.pop("omega_squared")), phi=phase, **values)
@@ -65,7 +65,7 @@ def point_seeds(line: Line) -> list[tuple[str, str, dict[str, float]]]:
 
 def _touch(line: Line, period: float, radial_speed: float, value: float) -> float:
     """Time of the highest point between the impacts, away from both."""
-    course = Course(Return(line.at(arb(value)), arb(period)), arb(radial_speed))
+    course = OrbitCourse(Return(line.at(arb(value)), arb(period)), arb(radial_speed))
     heights = [float(course.height(arb(period * k / _SAMPLES))[0].mid()) for k in range(_SAMPLES + 1)]
     tops = [k for k in range(1, _SAMPLES) if heights[k - 1] <= heights[k] >= heights[k + 1]]
     return period * max(tops, key=lambda k: heights[k], default=_SAMPLES // 2) / _SAMPLES

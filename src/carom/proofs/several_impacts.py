@@ -10,8 +10,8 @@ from carom.proofs.balls import decided, enclosure_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.krawczyk import found_zero, shown_zero
-from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor
+from carom.proofs.lines import LineNumbers
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import shooting_seeds
 from carom.proofs.words import UNKNOWNS, ShootingOrbit, equations_of
 
@@ -19,7 +19,7 @@ MOST_IMPACTS = 24
 """Impacts a period up to which orbits can be proven."""
 
 
-def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
+def several_impact_claims(rotor: ProvenRotor, evidence: Evidence, options: Any) -> list[Claim]:
     """Claims about periodic motions with 2 to ``impacts`` impacts a period, an option."""
     found = evidence.take("orbits", lambda: list(_searched(rotor, int(options["impacts"]))))
     if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):
@@ -35,7 +35,7 @@ def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> lis
     return claims
 
 
-def _searched(rotor: Rotor, impacts: int) -> Iterator[dict[str, Any]]:
+def _searched(rotor: ProvenRotor, impacts: int) -> Iterator[dict[str, Any]]:
     """Centres and widths of boxes with exactly one solution, each orbit once."""
     known: list[ShootingOrbit] = []
     system = partial(equations_of, rotor.numbers)
@@ -50,7 +50,7 @@ def _searched(rotor: Rotor, impacts: int) -> Iterator[dict[str, Any]]:
         yield found[0]
 
 
-def _orbit_of(numbers: Numbers, balls: Sequence[Any]) -> ShootingOrbit:
+def _orbit_of(numbers: LineNumbers, balls: Sequence[Any]) -> ShootingOrbit:
     return ShootingOrbit(numbers, tuple(tuple(balls[k : k + 4]) for k in range(0, len(balls), 4)))
 
 
@@ -70,7 +70,7 @@ def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
     return False
 
 
-def _shown(numbers: Numbers, name: str, entry: Mapping[str, Any]) -> ShootingOrbit:
+def _shown(numbers: LineNumbers, name: str, entry: Mapping[str, Any]) -> ShootingOrbit:
     """Enclosure of the orbit of an entry of the evidence."""
     if set(entry) != {"centre", "width"}:
         raise NotShownError(f"the certificate must give a centre and a width of {name}")

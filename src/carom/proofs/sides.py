@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_series
 
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.series import hyperbolic
 
 _NEAR = 0.25
@@ -42,7 +42,7 @@ class Side(NamedTuple):
     rim: Any
 
     @classmethod
-    def of(cls, numbers: Numbers) -> Side:
+    def of(cls, numbers: LineNumbers) -> Side:
         """From numbers that are power series of two terms, the second one by half the width of the parameter."""
         n = numbers
         apart = ((n.omega_squared - 1) * (n.omega_squared - 1) + n.gamma * n.gamma).sqrt()
@@ -59,7 +59,7 @@ class Responses(NamedTuple):
     push_rate: Any
 
 
-def responses_by(numbers: Numbers, sides: Sequence[Side], time: Any) -> list[Responses]:
+def responses_by(numbers: LineNumbers, sides: Sequence[Side], time: Any) -> list[Responses]:
     """The derivatives by each parameter at a time, or on an interval of times."""
     half, split, gamma, stiff = numbers.gamma / 2, numbers.split, numbers.gamma, numbers.omega_squared
     even, odd = hyperbolic(split, time)

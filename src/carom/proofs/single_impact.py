@@ -26,14 +26,14 @@ from flint import arb, arb_series
 from carom.proofs.balls import decided
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, Status
-from carom.proofs.courses import Course, Return
+from carom.proofs.courses import OrbitCourse, Return
 from carom.proofs.flights import FINEST
-from carom.proofs.periods import Periods
-from carom.proofs.rotor import TOO_LARGE, Rotor
+from carom.proofs.periods import PeriodProof
+from carom.proofs.rotor import TOO_LARGE, ProvenRotor
 from carom.proofs.series import first, terms
 
 
-def candidates(rotor: Rotor, periods: Periods) -> Iterator[tuple[str, dict[str, Course] | None]]:
+def candidates(rotor: ProvenRotor, periods: PeriodProof) -> Iterator[tuple[str, dict[str, OrbitCourse] | None]]:
     """Both solutions of the closing conditions at each root, or none, or ``None`` where this is undecided, with the names they would have."""
     for root in periods.roots:
         back = Return(rotor.numbers, root.ball)
@@ -41,11 +41,11 @@ def candidates(rotor: Rotor, periods: Periods) -> Iterator[tuple[str, dict[str, 
         names = [f"B{root.pair},{letter}" for letter in letters]
         found, speeds = None, _radial_speeds(rotor, back)
         if speeds is not None:
-            found = {name: Course(back, speed) for name, speed in zip(names, speeds, strict=False)}
+            found = {name: OrbitCourse(back, speed) for name, speed in zip(names, speeds, strict=False)}
         yield f"B{root.pair},{'/'.join(letters)}", found
 
 
-def _radial_speeds(rotor: Rotor, back: Return) -> list[Any] | None:
+def _radial_speeds(rotor: ProvenRotor, back: Return) -> list[Any] | None:
     """Both radial speeds, the lower first; empty if there is none, ``None`` if that is undecided."""
     if back.discriminant < 0:
         return []
@@ -57,7 +57,7 @@ def _radial_speeds(rotor: Rotor, back: Return) -> list[Any] | None:
     return list(back.speeds())
 
 
-def orbit_claims(rotor: Rotor, name: str, course: Course) -> tuple[list[Claim], Status]:
+def orbit_claims(rotor: ProvenRotor, name: str, course: OrbitCourse) -> tuple[list[Claim], Status]:
     """Claims about one orbit, and whether it is a motion of the machine."""
     solution = rotor.claim(
         name,
@@ -95,7 +95,7 @@ def orbit_claims(rotor: Rotor, name: str, course: Course) -> tuple[list[Claim], 
     return [*claims, _stability_claim(rotor, name, course)], status
 
 
-def _slip_claim(rotor: Rotor, name: str, course: Course) -> Claim:
+def _slip_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
     """Claim that the slip stays forward throughout the impact."""
     after = course.slip_after
     free = rotor.hypotheses.rational("mu") == (Fraction(0),)
@@ -113,7 +113,7 @@ def _slip_claim(rotor: Rotor, name: str, course: Course) -> Claim:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def _inside_claim(rotor: Rotor, name: str, course: Course) -> Claim:
+def _inside_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
     """Claim that the orbit stays inside the wall strictly between its impacts."""
     claim = partial(rotor.claim, name, "inside", "It stays inside the wall, |U| < 1, strictly between its impacts.")
     if rotor.hypotheses.rational("d") == (Fraction(0),):
@@ -132,7 +132,7 @@ def _inside_claim(rotor: Rotor, name: str, course: Course) -> Claim:
 # ------------------------------------------------------------------------------------------------ stability
 
 
-def _stability_claim(rotor: Rotor, name: str, course: Course) -> Claim:
+def _stability_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
     """Claim that all multipliers lie inside the unit circle."""
     found = course.invariants
     conserved = rotor.hypotheses.rational("d", "gamma") == (Fraction(1), Fraction(0))

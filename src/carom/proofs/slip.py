@@ -19,7 +19,7 @@ from flint import arb
 
 from carom.proofs.balls import exact_ends, rational
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 
 STEPS = 64
 """Times of half a turn at which it is looked."""
@@ -29,7 +29,7 @@ STATEMENT = (
 )
 
 
-def slip_claim(n: Numbers, statement: str = STATEMENT) -> Claim:
+def slip_claim(n: LineNumbers, statement: str = STATEMENT) -> Claim:
     """Claim that no orbit with one impact a period stops its slip or slips backward; of one machine, or all that balls hold."""
     if n.mu.is_zero():
         return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
@@ -40,7 +40,7 @@ def slip_claim(n: Numbers, statement: str = STATEMENT) -> Claim:
     return claim_of("machine", "slip", statement, int(shown), reason=reason, limited=False)
 
 
-def out_of_clearance(n: Numbers, time: Fraction) -> bool:
+def out_of_clearance(n: LineNumbers, time: Fraction) -> bool:
     """Whether ``b > 1`` at a time of at most half a turn."""
     moment = rational(time)
     if not (time > 0 and moment <= arb.pi() and n.gamma >= 0):

@@ -35,7 +35,7 @@ Response = tuple[Any, Any, Any]
 Plain = tuple[complex, complex, complex]
 
 
-class Start:
+class DisturbedStart:
     """A disturbance of the unit size; by default one that changes the state at once."""
 
     @property
@@ -56,7 +56,7 @@ class Start:
         raise NotImplementedError
 
 
-class KickStart(Start):
+class KickStart(DisturbedStart):
     """A kick, which changes the velocity at once."""
 
     def response(self, held: Held, time: Any) -> Response:
@@ -68,7 +68,7 @@ class KickStart(Start):
         return held.plain_responses(time)[1]
 
 
-class Step(Start):
+class Step(DisturbedStart):
     """A step of the unbalance, which changes the levitation about which the rotor moves."""
 
     def response(self, held: Held, time: Any) -> Response:
@@ -82,7 +82,7 @@ class Step(Start):
         return c[0] + 1j * h[0], c[1] + 1j * h[1], c[2] + 1j * h[2]
 
 
-class Pulse(Start):
+class Pulse(DisturbedStart):
     """A half-sine pulse of the acceleration of the base.
 
     Parameters

@@ -13,7 +13,7 @@ from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.form_search import search, shown
 from carom.proofs.forms import Surface
 from carom.proofs.lost_states import Lost, lost_on_orbits, steadily_lost
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.sizes import LargestSpeed
 
 THEOREM = "states"
@@ -27,7 +27,7 @@ SPEED = Field("states_up_to", "V", "largest speed of a state", "a speed", "m/s",
 _WHERE = "inside the clearance or on its wall"
 
 
-def state_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
+def state_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
     """Claims from forms that are searched for or read."""
     limit = LargestSpeed(rotor.hypotheses, options["states_up_to"], SPEED)
     share = _share(rotor, evidence, limit)
@@ -39,7 +39,7 @@ def state_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -
     return [_recover_claim(limit, share), _lost_claim(limit, slowest), _all_claim(rotor, limit, share, lost)]
 
 
-def _share(rotor: Rotor, evidence: Evidence, limit: LargestSpeed) -> Fraction | None:
+def _share(rotor: ProvenRotor, evidence: Evidence, limit: LargestSpeed) -> Fraction | None:
     """The share of the largest speed up to which all states are shown to return; ``None`` if none is."""
     n = rotor.numbers
     if not (n.gamma > 0 and n.omega_squared > 0 and n.levitation < 1):
@@ -92,7 +92,7 @@ def _lost_claim(limit: LargestSpeed, slowest: Lost | None) -> Claim:
     )
 
 
-def _all_claim(rotor: Rotor, limit: LargestSpeed, share: Fraction | None, lost: list[Lost]) -> Claim:
+def _all_claim(rotor: ProvenRotor, limit: LargestSpeed, share: Fraction | None, lost: list[Lost]) -> Claim:
     n, slow = rotor.numbers, _slowest_below(lost, limit.share(Fraction(1)))
     sign, reason = 0, "whether states return that are faster than those of the first claim is open"
     if share == 1:

@@ -21,18 +21,18 @@ from flint import arb
 
 from carom.proofs.balls import decided
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor
+from carom.proofs.lines import LineNumbers
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.series import hyperbolic, squared
 
 
-def steady_claims(rotor: Rotor) -> list[Claim]:
+def steady_claims(rotor: ProvenRotor) -> list[Claim]:
     """Claims about levitation, rubs and kicks."""
     rubs = [claim for name, side in (("rub 1", 1), ("rub 2", -1)) for claim in _claims_of_rub(rotor, name, side)]
     return [*_levitation_claims(rotor), *rubs, _kick_claim(rotor)]
 
 
-def _levitation_claims(rotor: Rotor) -> list[Claim]:
+def _levitation_claims(rotor: ProvenRotor) -> list[Claim]:
     radius, damping = rotor.numbers.levitation, rotor.hypotheses.numbers["gamma"]
     inside, reason = decided(1 - radius), "the sign of |U*| - 1 could not be shown"
     if rotor.on_the_wall:
@@ -59,7 +59,7 @@ def _levitation_claims(rotor: Rotor) -> list[Claim]:
     ]
 
 
-def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
+def _claims_of_rub(rotor: ProvenRotor, name: str, side: int) -> list[Claim]:
     """Claims about one synchronous rub: that of the larger normal force (1) or of the smaller (−1)."""
     n = rotor.numbers
     square, half = rub_discriminant(n), rub_balance(n)
@@ -98,30 +98,30 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
     return [exists, pressed, attracts]
 
 
-def wall_condition(n: Numbers) -> Any:
+def wall_condition(n: LineNumbers) -> Any:
     """``(ω² − 1)² + γ² − ρ²``: zero where ``|U*| = 1``."""
     return squared(n.product) - n.rho * n.rho
 
 
-def rub_force(n: Numbers, side: int) -> Any:
+def rub_force(n: LineNumbers, side: int) -> Any:
     """Normal force of a rub, the larger (1) or the smaller (−1) root, where the discriminant is positive."""
     root, half = rub_discriminant(n).sqrt(), rub_balance(n)
     # The form without cancellation where there would be some.
     return wall_condition(n) / (half - side * root) if half * side < 0 else (half + side * root) / (1 + n.mu * n.mu)
 
 
-def rub_discriminant(n: Numbers) -> Any:
+def rub_discriminant(n: LineNumbers) -> Any:
     """``ρ²(1 + μ²) − (γ + μκ)²``: a quarter of the discriminant of both rubs."""
     pull = n.gamma + n.mu * (1 - n.omega_squared)
     return n.rho * n.rho * (1 + n.mu * n.mu) - pull * pull
 
 
-def rub_balance(n: Numbers) -> Any:
+def rub_balance(n: LineNumbers) -> Any:
     """``κ − μγ``, which decides what becomes of levitation where it meets the wall."""
     return 1 - n.omega_squared - n.mu * n.gamma
 
 
-def _sign_of_square(rotor: Rotor, square: Any) -> int:
+def _sign_of_square(rotor: ProvenRotor, square: Any) -> int:
     """Sign of the discriminant; not positive where it is exactly zero."""
     given = rotor.hypotheses.rational("gamma", "omega_squared", "rho", "mu")
     if given is not None:
@@ -131,7 +131,7 @@ def _sign_of_square(rotor: Rotor, square: Any) -> int:
     return decided(square)
 
 
-def _kick_claim(rotor: Rotor) -> Claim:
+def _kick_claim(rotor: ProvenRotor) -> Claim:
     """Claim that kicks below a speed are harmless; without damping or with it, and refuted where no speed is small enough."""
     statement = "The rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall."
     room = 1 - rotor.numbers.levitation
@@ -147,7 +147,7 @@ def _kick_claim(rotor: Rotor) -> Claim:
     return claim(1, speed=speed)
 
 
-def contact_free_speed(n: Numbers) -> Any | None:
+def contact_free_speed(n: LineNumbers) -> Any | None:
     """Speed below which kicks are harmless; ``None`` where none is shown."""
     room = 1 - n.levitation
     if not (room > 0 and n.gamma >= 0):
@@ -156,7 +156,7 @@ def contact_free_speed(n: Numbers) -> Any | None:
     return speed if speed.is_finite() and speed > 0 else None
 
 
-def _largest_response(n: Numbers) -> Any:
+def _largest_response(n: LineNumbers) -> Any:
     """``h(τ)``, the largest value of the response."""
     half, split = n.gamma / 2, n.split
     if split < 0:

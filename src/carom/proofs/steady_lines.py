@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure, decided, enclosure_of, interval
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.lines import Line, Numbers, line_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.lines import Line, LineNumbers, line_of
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.runs import claim_of_runs, in_brackets, runs_along, written
 from carom.proofs.series import hull
 from carom.proofs.steady import contact_free_speed, rub_discriminant, rub_force, wall_condition
@@ -28,7 +28,7 @@ _ROUNDING = 1e-15
 """Of the lower ends in double precision."""
 
 
-def steady_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
+def steady_line_claims(rotor: ProvenRotor, options: Mapping[str, Any]) -> list[Claim]:
     """Claims along a parameter: the options ``along``, ``from`` and ``to``, as texts.
 
     The rotor's own value of the parameter does not matter.
@@ -46,32 +46,32 @@ def _holds(sign: int | None) -> bool | None:
     return sign > 0 if sign else None
 
 
-def _levitates(n: Numbers) -> bool | None:
+def _levitates(n: LineNumbers) -> bool | None:
     return _holds(decided(wall_condition(n)))
 
 
-def _is_pressed(n: Numbers, side: int) -> bool | None:
+def _is_pressed(n: LineNumbers, side: int) -> bool | None:
     exists = _holds(decided(rub_discriminant(n)))
     return _holds(decided(rub_force(n, side))) if exists else exists
 
 
-def _attracts(n: Numbers) -> bool | None:
+def _attracts(n: LineNumbers) -> bool | None:
     pressed, damped = _is_pressed(n, 1), decided(n.gamma + 2 * n.mu)
     if pressed is False or damped < 0:
         return False
     return True if pressed and damped else None
 
 
-def _rolls(n: Numbers) -> bool | None:
+def _rolls(n: LineNumbers) -> bool | None:
     return _holds(rolling_sign(n))
 
 
-def _whirl_is_absent(n: Numbers) -> bool | None:
+def _whirl_is_absent(n: LineNumbers) -> bool | None:
     return True if drag_sign(n) == 1 else False if rolling_sign(n) == 1 else None
 
 
 _RUB = "there is a synchronous rub, with two normal forces in balance, and the wall pushes the rotor at the {} of them"
-_KINDS: tuple[tuple[str, str, str, Callable[[Numbers], bool | None]], ...] = (
+_KINDS: tuple[tuple[str, str, str, Callable[[LineNumbers], bool | None]], ...] = (
     ("whirl", "rolls", "the rotor can roll on the wall without slip, backward, for ever", _rolls),
     ("whirl", "absent", BACKWARD, _whirl_is_absent),
     ("levitation", "inside", "the contact-free equilibrium lies inside the wall, |U*| < 1", _levitates),

@@ -15,10 +15,10 @@ from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.families import FAMILIES, KICKS
 from carom.proofs.kick_claims import BOX_NOT_CLAIMED, BOX_THEOREM, NOT_CLAIMED, kick_claims, options_of
-from carom.proofs.periods import Periods, all_periods
+from carom.proofs.periods import PeriodProof, all_periods
 from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import ProvenRotor
 from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
@@ -38,7 +38,7 @@ class Theorem:
     Attributes
     ----------
     claims : callable
-        Takes a :class:`~carom.proofs.rotor.Rotor`, or equations of any rotor, :class:`~carom.proofs.evidence.Evidence` and options.
+        Takes a :class:`~carom.proofs.rotor.ProvenRotor`, or equations of any rotor, :class:`~carom.proofs.evidence.Evidence` and options.
     not_claimed : tuple of str
     options : tuple of str
         Names of its options.
@@ -49,7 +49,7 @@ class Theorem:
     options: tuple[str, ...]
 
 
-def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[Claim]:
+def _single_impact(rotor: ProvenRotor, evidence: Evidence, options: Options) -> list[Claim]:
     """Equilibria, and all orbits with one impact a period."""
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
@@ -86,7 +86,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     return [*claims, complete]
 
 
-def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
+def _periods_claim(rotor: ProvenRotor, periods: PeriodProof) -> Claim:
     """Claim that the roots found are all there are."""
     count = len(periods.roots)
     places = list(dict.fromkeys(f"{float(low):.10g}" for low, _ in periods.open))

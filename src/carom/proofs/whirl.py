@@ -26,14 +26,14 @@ from carom.parameters import MACHINE_FIELDS
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of, decided, enclosures_of
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor
+from carom.proofs.lines import LineNumbers
+from carom.proofs.rotor import ProvenRotor
 
 _NAMES = ("gamma", "omega_squared", "rho", "mu", "radius_ratio")
 BACKWARD = "no motion that is pressed on the wall and whirls backward all the time repeats after a turn"
 
 
-def whirl_claims(rotor: Rotor) -> list[Claim]:
+def whirl_claims(rotor: ProvenRotor) -> list[Claim]:
     """Claims about rolling and its absence."""
     exact = exact_numbers(rotor)
     rolls = _rolling_claim(rotor, exact)
@@ -45,13 +45,13 @@ def whirl_claims(rotor: Rotor) -> list[Claim]:
     ]
 
 
-def exact_numbers(rotor: Rotor) -> Numbers:
+def exact_numbers(rotor: ProvenRotor) -> LineNumbers:
     """The numbers as fractions, if all that count here are rational; else as balls."""
     given = rotor.hypotheses.rational(*_NAMES)
     if given is None:
         return rotor.numbers
     gamma, stiffness, rho, mu, ratio = given
-    return Numbers(gamma, stiffness, rho, mu, Fraction(0), ratio)
+    return LineNumbers(gamma, stiffness, rho, mu, Fraction(0), ratio)
 
 
 def sign_of(value: Any) -> int | None:
@@ -61,30 +61,30 @@ def sign_of(value: Any) -> int | None:
     return 0 if value.is_zero() else decided(value) or None
 
 
-def rolling_force(n: Numbers) -> Any:
+def rolling_force(n: LineNumbers) -> Any:
     """``A = s² − ω²``, the mean normal force of rolling."""
     return n.radius_ratio * n.radius_ratio - n.omega_squared
 
 
-def excitation_of(n: Numbers) -> Any:
+def excitation_of(n: LineNumbers) -> Any:
     """``p = ρ√(1 + μ²)`` as a ball."""
     return n.rho * (1 + n.mu * n.mu).sqrt()
 
 
-def _against_pull(value: Any, n: Numbers) -> int | None:
+def _against_pull(value: Any, n: LineNumbers) -> int | None:
     """Sign of a value less ``p``, exactly for fractions."""
     if isinstance(value, Fraction):
         return -1 if value < 0 else sign_of(value * value - n.rho * n.rho * (1 + n.mu * n.mu))
     return sign_of(value - excitation_of(n))
 
 
-def rolling_signs(n: Numbers) -> tuple[int | None, int | None]:
+def rolling_signs(n: LineNumbers) -> tuple[int | None, int | None]:
     """Signs of ``A − ρ`` and of ``μA − |γ|s − p``: rolling is pressed, and held."""
     force = rolling_force(n)
     return sign_of(force - n.rho), _against_pull(n.mu * force - abs(n.gamma) * n.radius_ratio, n)
 
 
-def rolling_sign(n: Numbers) -> int | None:
+def rolling_sign(n: LineNumbers) -> int | None:
     """1 if rolling lasts, −1 if it does not."""
     pressed, held = rolling_signs(n)
     if pressed in (0, -1) or held == -1:
@@ -92,7 +92,7 @@ def rolling_sign(n: Numbers) -> int | None:
     return 1 if pressed == 1 and held in (0, 1) else None
 
 
-def drag_sign(n: Numbers) -> int | None:
+def drag_sign(n: LineNumbers) -> int | None:
     """1 if ``γ ≥ 0`` and ``γs > μA``: no backward whirl on the wall repeats; else −1."""
     damping, excess = sign_of(n.gamma), sign_of(n.gamma * n.radius_ratio - n.mu * rolling_force(n))
     if damping == -1 or excess in (0, -1):
@@ -101,7 +101,7 @@ def drag_sign(n: Numbers) -> int | None:
     return 1 if not_negative and excess == 1 else None
 
 
-def _claim(rotor: Rotor, kind: str, statement: str, sign: int | None, reason: str = "", **balls: Any) -> Claim:
+def _claim(rotor: ProvenRotor, kind: str, statement: str, sign: int | None, reason: str = "", **balls: Any) -> Claim:
     """Claim about whirl.  More bits may decide it where the sign is ``None``."""
     limited = rotor.hypotheses.exact and sign is None
     shown = reason or ("the sign of a condition is open" if sign is None else "")
@@ -109,7 +109,7 @@ def _claim(rotor: Rotor, kind: str, statement: str, sign: int | None, reason: st
     return claim_of("whirl", kind, statement, sign or 0, reason=shown, enclosures=numbers, limited=limited)
 
 
-def _rolling_claim(rotor: Rotor, exact: Numbers) -> Claim:
+def _rolling_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     n, sign = rotor.numbers, rolling_sign(exact)
     pressed, _ = rolling_signs(exact)
     reason = "the wall would have to pull" if pressed in (0, -1) else "friction is too weak"
@@ -126,7 +126,7 @@ def _rolling_claim(rotor: Rotor, exact: Numbers) -> Claim:
     )
 
 
-def _attraction_claim(rotor: Rotor, exact: Numbers) -> Claim:
+def _attraction_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     """Faster than ``w_c`` slides gain speed; faster than rolling they lose it, at a rate that rolling bounds."""
     n, (_, held), rolls = rotor.numbers, rolling_signs(exact), rolling_sign(exact)
     speed = attracting_speed(n)
@@ -142,19 +142,19 @@ def _attraction_claim(rotor: Rotor, exact: Numbers) -> Claim:
     )
 
 
-def attracting_speed(n: Numbers) -> Any:
+def attracting_speed(n: LineNumbers) -> Any:
     """Speed of backward whirl from which on slides gain speed and contact is kept, as a ball."""
     speed = sustaining_speed(n, excitation_of(n))
     # With damping that is not negative contact asks for no more.
     return speed if n.gamma >= 0 else speed.max((n.omega_squared + n.rho).sqrt())
 
 
-def sustaining_speed(n: Numbers, excitation: Any) -> Any:
+def sustaining_speed(n: LineNumbers, excitation: Any) -> Any:
     """Larger root ``w`` of ``μ(w² − ω²) − γw = excitation``, as a ball."""
     return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + excitation)).sqrt()) / (2 * n.mu)
 
 
-def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool) -> Claim:
+def _absence_claim(rotor: ProvenRotor, exact: LineNumbers, rolls: bool) -> Claim:
     statement = f"Dry-friction whirl in lasting contact is absent: {BACKWARD}."
     if rolls:
         return _claim(rotor, "absent", statement, -1, "the rotor can roll")
@@ -163,7 +163,7 @@ def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool) -> Claim:
     return _claim(rotor, "absent", statement, 0 if sign == -1 else sign, reason)
 
 
-def _below_claim(rotor: Rotor, exact: Numbers) -> Claim:
+def _below_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     """Claim for all speeds of the shaft below a share of the present one; for all speeds without friction."""
     n, damping, friction = rotor.numbers, sign_of(exact.gamma), sign_of(exact.mu)
     words = "With its damping and stiffness, at every speed of the shaft"

@@ -17,7 +17,7 @@ from typing import Any
 from flint import acb, arb, arb_mat
 
 from carom.proofs.flights import stays_inside
-from carom.proofs.lines import Numbers
+from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants
 from carom.proofs.series import I, conjugate, imaginary, real, squared
 
@@ -25,7 +25,7 @@ UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
 """Unknowns of each impact, in their order."""
 
 
-def equations_of(n: Numbers, *unknowns: Any) -> list[Any]:
+def equations_of(n: LineNumbers, *unknowns: Any) -> list[Any]:
     """Differences between the end of each flight and the state before the next impact."""
     impacts = [unknowns[k : k + 4] for k in range(0, len(unknowns), 4)]
     found = []
@@ -37,7 +37,7 @@ def equations_of(n: Numbers, *unknowns: Any) -> list[Any]:
     return found
 
 
-def _leaving(n: Numbers, impact: Sequence[Any]) -> tuple[Any, Any]:
+def _leaving(n: LineNumbers, impact: Sequence[Any]) -> tuple[Any, Any]:
     """Distance from the contact-free equilibrium, and velocity, just after an impact."""
     place = (impact[0] * I).exp()
     return place - n.levitation, (impact[1] + impact[2] * I - impact[1] * n.q) * place
@@ -49,13 +49,13 @@ class ShootingOrbit:
 
     Attributes
     ----------
-    numbers : Numbers
+    numbers : LineNumbers
         Balls.
     impacts : tuple of tuple of arb
         Enclosures of :data:`UNKNOWNS`.
     """
 
-    numbers: Numbers
+    numbers: LineNumbers
     impacts: tuple[tuple[Any, ...], ...]
 
     @property

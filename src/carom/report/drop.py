@@ -11,7 +11,7 @@ from carom.base.files import staged_directory, write_json
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.motions import Trajectory
 from carom.motions.courses import shown_until
-from carom.report.figure_files import Picture, draw_figures
+from carom.report.figure_files import ReportPicture, draw_figures
 from carom.report.film import Film, film_of, film_script
 from carom.report.html import page_template, versions
 from carom.studies.drops import DropStudy
@@ -47,7 +47,7 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
     InputError
         The directory cannot be written; nothing has been changed then.
     """
-    films, wanted = list[tuple[str, Film]](), list[Picture]()
+    films, wanted = list[tuple[str, Film]](), list[ReportPicture]()
     planes, drawn, cut = found.loads.planes, motion.begins + motion.time, ""
     if drawn < found.loads.time and not motion.outcome.settled:
         say = Wording(found.case.parameters.scales)
@@ -57,8 +57,10 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
         which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
         films.append((f"film{plane.plane}-", film_of(seen)))
         loads = partial(plots.touchdown, seen, until=shown_until(seen))
-        wanted.append(Picture(f"drop-orbit{mark}", "drop", _ORBIT + which, partial(plots.drop_orbit, seen)))
-        wanted.append(Picture(f"drop-loads{mark}", "drop", (_SOFT if plane.is_compliant else _RIGID) + which, loads))
+        wanted.append(ReportPicture(f"drop-orbit{mark}", "drop", _ORBIT + which, partial(plots.drop_orbit, seen)))
+        wanted.append(
+            ReportPicture(f"drop-loads{mark}", "drop", (_SOFT if plane.is_compliant else _RIGID) + which, loads)
+        )
     with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
         inline, names = draw_figures(wanted, place, Reporter.of(progress, "drawing"))
         write_json(place / DROP_NUMBERS, {**found.document(), "figures": names})

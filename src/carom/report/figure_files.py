@@ -15,7 +15,7 @@ from carom.report.html import InlineFigure, inline_figure
 
 
 @dataclass(frozen=True)
-class Picture:
+class ReportPicture:
     """A figure to draw.
 
     Attributes
@@ -36,7 +36,7 @@ class Picture:
     draw: Callable[[], Figure]
 
 
-def draw_figures(wanted: Sequence[Picture], place: Path, tell: Reporter) -> tuple[list[InlineFigure], list[str]]:
+def draw_figures(wanted: Sequence[ReportPicture], place: Path, tell: Reporter) -> tuple[list[InlineFigure], list[str]]:
     """Draw figures into a directory, as SVG and PNG; return them for the page, and the names of their files."""
     (place / FIGURES).mkdir()
     inline, names = list[InlineFigure](), list[str]()

@@ -17,7 +17,7 @@ from carom.motions.courses import shown_until
 from carom.motions.simulation import simulate
 from carom.parameters import Zones
 from carom.report import basins
-from carom.report.figure_files import Picture
+from carom.report.figure_files import ReportPicture
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
 from carom.studies.kinds import LABELS
@@ -38,35 +38,35 @@ SHORTEST_TAIL = 20.0 * math.pi
 """Time that it shows then even if it touched for a shorter one: ten turns."""
 
 
-def pictures(study: Study) -> list[Picture]:
+def pictures(study: Study) -> list[ReportPicture]:
     """Return all figures of a study in the order of the report."""
     possible = sorted((orbit for orbit in study.orbits if orbit.admissible), key=lambda orbit: not orbit.stable)
-    figures, kicks = list[Picture](), study.kicks
+    figures, kicks = list[ReportPicture](), study.kicks
     if basins.drawable(study):
-        figures.append(Picture("basins", "basins", basins.caption(study), lambda: basins.draw(study)))
+        figures.append(ReportPicture("basins", "basins", basins.caption(study), lambda: basins.draw(study)))
     # Under weight levitation is no point there, and one point alone is not worth a picture.
     if not study.under_gravity and len(study.equilibria) + len(possible) > 1:
         words = (
             "All steady motions and single-impact orbits, seen turning with the shaft: a steady whirl is a point, a bounce a "
             "loop, and what lies on the circle touches the bearing."
         )
-        figures.append(Picture("overview", "motions", words, study.plot))
+        figures.append(ReportPicture("overview", "motions", words, study.plot))
     figures += [*_of_disturbances(study), *_of_levitation(study), *_of_loads(study)]
     if kicks is not None:
         words = "Each point is a kick of the levitating rotor: what is proven of each cell of kicks, and why the others are open."
-        figures.append(Picture("proven-kicks", "proven", words, kicks.plot))
+        figures.append(ReportPicture("proven-kicks", "proven", words, kicks.plot))
     for orbit in study.stable_orbits[:MOST_ORBITS]:
         words = (
             f"How the rotor bounces for ever on {orbit.name}, with an impact every {study.wording.time(orbit.period)}: above as seen "
             "turning with the shaft, where each bounce is the same loop, below as seen in the room."
         )
-        figures.append(Picture(f"orbit-{_file_name(orbit.name)}", "method", words, partial(plots.orbit, orbit)))
+        figures.append(ReportPicture(f"orbit-{_file_name(orbit.name)}", "method", words, partial(plots.orbit, orbit)))
     if possible:
         words = (
             "A small disturbance of an orbit is multiplied by these numbers from impact to impact: the orbit is stable if all lie "
             "inside the unit circle."
         )
-        figures.append(Picture("multipliers", "method", words, partial(plots.multipliers, possible[:12])))
+        figures.append(ReportPicture("multipliers", "method", words, partial(plots.multipliers, possible[:12])))
     return figures
 
 
@@ -76,7 +76,7 @@ def _zones(study: Study, radii: np.ndarray) -> Zones | None:
     return zones if float(radii.min()) <= zones.limits[-1] else None
 
 
-def _of_disturbances(study: Study) -> Iterator[Picture]:
+def _of_disturbances(study: Study) -> Iterator[ReportPicture]:
     reached = [member for member in study.attractors if member.count]
     for member in reached[:MOST_ENDINGS]:
         example = shown_example(study.attractors, member)
@@ -86,7 +86,7 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
         )
         # Coordinates of several are no displacements, so that their rates have no size in mm/s.
         fast = "" if np.ndim(example.start.state.position) else f" at {study.wording.velocity(example.start.speed)}"
-        yield Picture(
+        yield ReportPicture(
             f"disturbance-{_file_name(member.name)}",
             "motions",
             f"After {what}{fast} the rotor ends {ending_phrase(member.name)}, "
@@ -96,26 +96,26 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
         )
 
 
-def _of_levitation(study: Study) -> Iterator[Picture]:
+def _of_levitation(study: Study) -> Iterator[ReportPicture]:
     """Whirls, response and sensitivity of a flexible machine."""
     found = study.levitating
     machine = found.machine
     if machine is None or found.campbell is None:
         return
     whirls = "Free whirls over the speed of the shaft, from all modes, with their damping ratios. Unbalance excites forward whirls where they cross the line of the speed; peaks of the response lie elsewhere where damping is large."
-    yield Picture("campbell", "levitating", whirls, found.campbell.plot)
+    yield ReportPicture("campbell", "levitating", whirls, found.campbell.plot)
     shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
-    yield Picture("shapes", "levitating", shapes, lambda: plots.mode_shapes(machine, found.whirls))
+    yield ReportPicture("shapes", "levitating", shapes, lambda: plots.mode_shapes(machine, found.whirls))
     if found.response is not None:
         radii = "Vibration (peak to peak) by unbalance over the speed of the shaft, at the touchdown bearings, and its phase."
         ends = float(found.response.speeds[0]), float(found.response.speeds[-1])
-        yield Picture("unbalance", "levitating", radii, lambda: unbalance_response(study.case, ends).plot())
+        yield ReportPicture("unbalance", "levitating", radii, lambda: unbalance_response(study.case, ends).plot())
     if found.sensitivity is not None:
         peaks = "Sensitivity of each loop, with the zones of ISO 14839-3."
-        yield Picture("sensitivity", "levitating", peaks, found.sensitivity.plot)
+        yield ReportPicture("sensitivity", "levitating", peaks, found.sensitivity.plot)
 
 
-def _of_loads(study: Study) -> Iterator[Picture]:
+def _of_loads(study: Study) -> Iterator[ReportPicture]:
     """Of each kind that must be survived the motion with the largest load, and the drop, at each touchdown bearing."""
     motions = [
         (str(each.kind), f"after the {LABELS[each.kind].lower()} with the largest load or the widest orbit", each.worst)
@@ -130,11 +130,11 @@ def _of_loads(study: Study) -> Iterator[Picture]:
             bearing, mark = (f", touchdown bearing {plane + 1}", f"-{plane + 1}") if several else ("", "")
             title, seen = f"{name.replace('_', ' ').capitalize()}{bearing}", motion.seen_at(plane)
             words = f"Orbit of the shaft{at} {when}, in the fixed frame{', and its gap to the bearing' if touched(seen) else ''}."
-            yield Picture(f"{name}{mark}", "loads", words, partial(plots.drop_orbit, seen, title=title))
+            yield ReportPicture(f"{name}{mark}", "loads", words, partial(plots.drop_orbit, seen, title=title))
             if touched(seen):
                 words = f"Distance from the centre, force of contact and slip over time{at} {when}."
                 loads = partial(plots.touchdown, seen, title=title, until=shown_until(seen))
-                yield Picture(f"{name}-loads{mark}", "loads", words, loads)
+                yield ReportPicture(f"{name}-loads{mark}", "loads", words, loads)
 
 
 def _file_name(name: str) -> str:

@@ -30,7 +30,7 @@ ROTOR, CLEARANCE, RING, HOUSING, ARROW = SIZES = 112.0, 60.0, 20.0, 26.0, 84.0
 """Radius of the drawn rotor, the drawn clearance, the thickness of race and housing, and the longest arrow, in units of the picture."""
 
 
-class Units(NamedTuple):
+class FilmUnits(NamedTuple):
     """Units of a film: by what to multiply, and the unit."""
 
     time: tuple[float, str]
@@ -40,7 +40,7 @@ class Units(NamedTuple):
     impulse: tuple[float, str]
 
     @classmethod
-    def of(cls, scales: Scales | None) -> Units:
+    def of(cls, scales: Scales | None) -> FilmUnits:
         """Those of machines: ms, µm, N, m/s; without scales those of the equations."""
         time, length, force, speed, impulse = (
             shown_in(kind, scales) for kind in ("time", "length", "force", "velocity", "impulse")
@@ -58,7 +58,7 @@ class Film:
     ----------
     course : Course
         What is filmed.
-    units : Units
+    units : FilmUnits
     magnified : float
         How many times wider than the shaft the clearance is drawn.
     race_radius : float or None
@@ -68,7 +68,7 @@ class Film:
     """
 
     course: Course
-    units: Units
+    units: FilmUnits
     magnified: float
     race_radius: float | None
     whole: bool
@@ -218,7 +218,7 @@ def film_of(motion: Trajectory) -> Film:
     race = motion.rotor.races[motion.plane]
     return Film(
         course=course_of(motion, until, samples),
-        units=Units.of(motion.scales),
+        units=FilmUnits.of(motion.scales),
         magnified=CLEARANCE / ROTOR * (float(motion.rotor.system.arrays.surface_speed[motion.plane]) - 1.0),
         race_radius=None if race is None else race.radius,
         whole=until == shown,

@@ -2,7 +2,7 @@
 
 ========================  =================================================================
 ``entries``               numbers of a part, in SI units or as text with a unit
-``sections``              :class:`Section`: a cylindrical section of a shaft; :class:`Material`
+``sections``              :class:`ShaftSection`: a cylindrical section of a shaft; :class:`Material`
 ``discs``                 :class:`Disc`: a rigid disc
 ``damping``               :class:`ModalDamping`, :class:`ProportionalDamping`
 ``beams``                 matrices of an element of Timoshenko's beam
@@ -58,11 +58,11 @@ from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.rigid_body import RigidRotor
 from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
-from carom.rotors.sections import Material, Section
+from carom.rotors.sections import Material, ShaftSection
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import Support
 from carom.rotors.synchronous import Ellipses, SynchronousResponse, synchronous_response
-from carom.rotors.whirls import Campbell, Whirl, campbell, find_whirls
+from carom.rotors.whirls import Campbell, WhirlMode, campbell, find_whirls
 
 __all__ = [
     "PID",
@@ -80,15 +80,15 @@ __all__ = [
     "ProportionalDamping",
     "ReducedMachine",
     "RigidRotor",
-    "Section",
     "Sensitivity",
+    "ShaftSection",
     "StateSpace",
     "Support",
     "SynchronousResponse",
     "TouchdownPlane",
     "TransferFunction",
     "Unbalance",
-    "Whirl",
+    "WhirlMode",
     "campbell",
     "find_whirls",
     "import_rotor",

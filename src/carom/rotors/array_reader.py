@@ -20,7 +20,7 @@ ADDRESSES = 4_000_000_000
 """Bytes of memory that the process may ask for, with its libraries."""
 
 
-class RefusedError(Exception):
+class RefusedArraysError(Exception):
     """What is wrong with a file, in words."""
 
 
@@ -30,8 +30,8 @@ def main(source: str, keys: list[str]) -> None:
     try:
         found = read(source, keys)
         if (size := sum(each.nbytes for each in found.values())) > LARGEST:
-            raise RefusedError(f"its arrays take {size / 1e6:.0f} MB, of which {LARGEST / 1e6:.0f} MB are read")
-    except RefusedError as problem:
+            raise RefusedArraysError(f"its arrays take {size / 1e6:.0f} MB, of which {LARGEST / 1e6:.0f} MB are read")
+    except RefusedArraysError as problem:
         found = {"refused": np.array(str(problem))}
     except MemoryError:
         found = {"refused": np.array("it needs more memory than a rotor does")}
@@ -60,7 +60,7 @@ def read(source: str, keys: list[str]) -> dict[str, Any]:
     try:
         held = loadmat(source, variable_names=keys)
     except NotImplementedError:
-        raise RefusedError("MATLAB has saved it with -v7.3; save it with -v7") from None
+        raise RefusedArraysError("MATLAB has saved it with -v7.3; save it with -v7") from None
     return {key: plain(key, held[key]) for key in keys if key in held}
 
 
@@ -71,9 +71,9 @@ def plain(key: str, given: Any) -> np.ndarray:
         listed = [str(np.asarray(each).ravel()[0]).strip() if np.size(each) else "" for each in array.ravel().tolist()]
         return np.array(listed[0].split() if len(listed) == 1 else listed, str)
     if array.dtype.kind not in "biufc":
-        raise RefusedError(f"{key} holds neither numbers nor texts")
+        raise RefusedArraysError(f"{key} holds neither numbers nor texts")
     if np.iscomplexobj(array) and array.imag.any():
-        raise RefusedError(f"{key} holds complex numbers; a rotor has real ones")
+        raise RefusedArraysError(f"{key} holds complex numbers; a rotor has real ones")
     return np.asarray(array.real, dtype="<f8")
 
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.rotors.sections import Section
+from carom.rotors.sections import ShaftSection
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 """Four points integrate polynomials of degree 7 exactly; those here have degree 6."""
@@ -30,7 +30,7 @@ class ElementMatrices(NamedTuple):
     gyroscopic: np.ndarray
 
 
-def beam_element(section: Section, length: float) -> ElementMatrices:
+def beam_element(section: ShaftSection, length: float) -> ElementMatrices:
     """Matrices of an element of a section with this length, m; the gyroscopic one is by the speed of the shaft, rad/s.
 
     ``M ẅ − iΩG ẇ + K w = 0``.

@@ -18,11 +18,11 @@ import numpy as np
 
 from carom.models import Limit
 from carom.parameters import Scales
-from carom.rotors.equations import Equations
+from carom.rotors.equations import RotorEquations
 from carom.rotors.magnetic_bearing import MagneticBearing
 
 
-class _Place(NamedTuple):
+class _LimitPlace(NamedTuple):
     """Where a bearing is in the equations."""
 
     pulls: np.ndarray
@@ -36,7 +36,7 @@ class _Place(NamedTuple):
 
 
 def limits_of_bearings(
-    equations: Equations, bearings: tuple[MagneticBearing, ...], pulls: np.ndarray, scales: Scales
+    equations: RotorEquations, bearings: tuple[MagneticBearing, ...], pulls: np.ndarray, scales: Scales
 ) -> tuple[Limit, ...]:
     """All limits that are stated.
 
@@ -51,12 +51,12 @@ def limits_of_bearings(
     last = len(equations.mass) - sum(each.loop.states for each in bearings) - 1
     for number, bearing in enumerate(bearings):
         last += bearing.loop.states
-        place = _Place(pulls[number], equations.currents[number], -equations.stiffness[last].real, last)
+        place = _LimitPlace(pulls[number], equations.currents[number], -equations.stiffness[last].real, last)
         found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
     return tuple(found)
 
 
-def _in_si(bearing: MagneticBearing, place: _Place, before: int) -> Iterator[Limit]:
+def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterator[Limit]:
     """Limits of a bearing after so many of others, for coordinates in m √kg."""
     none = np.zeros(len(place.current))
     of_force = np.inf if bearing.force_limit is None else bearing.force_limit / bearing.ki

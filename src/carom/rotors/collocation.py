@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.rotors.flexible_machine import FlexibleMachine
-from carom.rotors.whirls import Whirl
+from carom.rotors.whirls import WhirlMode
 
 HARDLY = 0.02
 """Displacement, as a share of the largest of the shaft, at its sensors or its actuator, below which a whirl has a node there."""
@@ -21,13 +21,13 @@ class Collocation:
     ----------
     bearing : int
         From 1.
-    whirl : Whirl
+    whirl : WhirlMode
     sensor, magnet : complex
         Displacement that the sensors measure, and at the magnet; the largest of the shaft is 1.
     """
 
     bearing: int
-    whirl: Whirl
+    whirl: WhirlMode
     sensor: complex
     magnet: complex
 
@@ -42,11 +42,11 @@ class Collocation:
         return not self.hardly and (self.sensor * self.magnet.conjugate()).real < 0.0
 
 
-def collocations(machine: FlexibleMachine, whirls: tuple[Whirl, ...]) -> tuple[Collocation, ...]:
+def collocations(machine: FlexibleMachine, whirls: tuple[WhirlMode, ...]) -> tuple[Collocation, ...]:
     """How sensors and magnet of each bearing stand in each whirl, those of a bearing together."""
     rotor = machine.rotor
 
-    def at(whirl: Whirl, node: int) -> complex:
+    def at(whirl: WhirlMode, node: int) -> complex:
         return complex(whirl.widest[rotor.place_of(node)])
 
     return tuple(

@@ -11,7 +11,7 @@ from carom.parameters import Field
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries
 from carom.rotors.entries import inertia_field, read_node
-from carom.rotors.sections import Section
+from carom.rotors.sections import ShaftSection
 
 DISC_FIELDS: Mapping[str, Field] = by_name(
     Field("mass", "", "mass of the disc", "a mass", "kg", 1e-12, 1e9, '"0.85 kg"', True),
@@ -53,13 +53,13 @@ class Disc:
 
     @classmethod
     @checked
-    def of_body(cls, node: int, body: Section) -> Disc:
+    def of_body(cls, node: int, body: ShaftSection) -> Disc:
         """Disc with the form of a hollow cylinder.
 
         Parameters
         ----------
         node : int
-        body : Section
+        body : ShaftSection
             The cylinder; its length is the width of the disc.
 
         Raises

@@ -14,7 +14,7 @@ from carom.rotors.reduction import Basis
 from carom.rotors.support import Support
 
 
-class Equations(NamedTuple):
+class RotorEquations(NamedTuple):
     """``M z̈ + (D − iΩG) ż + K z + D′ z̄˙ + K′ z̄ = Ω² e^{iΩt} f`` of vectors with unit modal mass, mounts, and controller states, which have no mass.
 
     Displacements are ``basis.shapes`` times the first ``v`` coordinates, which are in m √kg.
@@ -45,7 +45,7 @@ class Equations(NamedTuple):
         return bool(self.across.any())
 
     @property
-    def both(self) -> Equations:
+    def both(self) -> RotorEquations:
         """Equations of the coordinates and their conjugates ``(z, z̄)``, in which nothing depends on the direction.
 
         Their response has as its second half the conjugate of what goes round with ``e^{−iΩt}``.
@@ -127,7 +127,7 @@ def equations_of(
     unbalances: Sequence[Unbalance],
     supports: Sequence[Support],
     restart: float,
-) -> Equations:
+) -> RotorEquations:
     """Equations of a machine in a basis.
 
     Parameters
@@ -173,7 +173,7 @@ def equations_of(
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
-    return Equations(
+    return RotorEquations(
         mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, regained, carried, held.across
     )
 

@@ -17,7 +17,7 @@ from carom.rotors.beams import beam_element
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices
-from carom.rotors.sections import Section
+from carom.rotors.sections import ShaftSection
 
 ELEMENTS = 32
 """Elements of a shaft of equal sections, unless a length is stated."""
@@ -35,7 +35,7 @@ class FlexibleRotor(BendingRotor):
 
     Attributes
     ----------
-    sections : sequence of Section
+    sections : sequence of ShaftSection
     discs : sequence of Disc
     damping : ProportionalDamping or ModalDamping
         There is no default: without damping of the bending modes, results of contacts with stiff walls depend on details of the model.
@@ -48,16 +48,16 @@ class FlexibleRotor(BendingRotor):
         A part is of another kind, or a disc sits at a node that the shaft does not have.
     """
 
-    sections: Sequence[Section]
+    sections: Sequence[ShaftSection]
     discs: Sequence[Disc]
     damping: Damping
     longest_element: float | None = None
 
     def __post_init__(self) -> None:
-        for name, kind in (("sections", Section), ("discs", Disc)):
+        for name, kind in (("sections", ShaftSection), ("discs", Disc)):
             given: Any = getattr(self, name)
             listed = tuple(given) if isinstance(given, Iterable) else (None,)
-            if not all(isinstance(each, kind) for each in listed) or (kind is Section and not listed):
+            if not all(isinstance(each, kind) for each in listed) or (kind is ShaftSection and not listed):
                 raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}")
             object.__setattr__(self, name, listed)
         if len(self.sections) > MOST_ELEMENTS:

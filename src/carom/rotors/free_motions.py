@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.rotors.equations import Equations
+from carom.rotors.equations import RotorEquations
 
 STRAIGHT = 1e-9
 """Sense up to which a whirl counts as going to and fro along lines."""
@@ -17,7 +17,7 @@ KEPT = 8
 """Machines whose exponents are kept: unbalance, weight and walls, which are changed often, change none of them."""
 
 
-class Motions(NamedTuple):
+class FreeMotions(NamedTuple):
     """Free motions of a machine, each once: ``ahead e^{λt} + behind e^{λ̄t}``."""
 
     exponents: np.ndarray
@@ -27,11 +27,11 @@ class Motions(NamedTuple):
     behind: np.ndarray
 
 
-def motions_at(equations: Equations, speed: float) -> Motions:
+def motions_at(equations: RotorEquations, speed: float) -> FreeMotions:
     """Free motions at a speed, 1/s; of two conjugate exponents that stand for one motion the one whose sense prevails."""
     if not equations.is_anisotropic:
         exponents, coordinates = equations.exponents(speed)
-        return Motions(exponents, coordinates, np.zeros_like(coordinates))
+        return FreeMotions(exponents, coordinates, np.zeros_like(coordinates))
     exponents, coordinates = equations.both.exponents(speed)
     ahead, behind = np.split(coordinates, 2)
     has_mass = equations.mass.any(axis=1)
@@ -39,7 +39,7 @@ def motions_at(equations: Equations, speed: float) -> Motions:
     # Of one to and fro along lines neither does.
     level = STRAIGHT * np.linalg.norm(coordinates, axis=0)
     chosen = (prevails > level) | ((np.abs(prevails) <= level) & (exponents.imag > 0.0)) | (exponents.imag == 0.0)
-    return Motions(exponents[chosen], ahead[:, chosen], behind[:, chosen].conj())
+    return FreeMotions(exponents[chosen], ahead[:, chosen], behind[:, chosen].conj())
 
 
 def growing(exponents: np.ndarray) -> np.ndarray:
@@ -58,7 +58,7 @@ class Slowest(NamedTuple):
     """Growth, 1/s, that is rounding."""
 
 
-def slowest_of(equations: Equations, speed: float) -> Slowest:
+def slowest_of(equations: RotorEquations, speed: float) -> Slowest:
     """What decides whether a machine levitates, from all its exponents; where supports are not alike in both directions without the sense of whirls."""
     matrix = (equations.both if equations.is_anisotropic else equations).generator(speed)
     exponents = _exponents(matrix.tobytes(), len(matrix))

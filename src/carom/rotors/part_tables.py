@@ -15,7 +15,7 @@ from carom.rotors.discs import DISC_FIELDS, Disc
 from carom.rotors.flexible_rotor import LONGEST
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS
-from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
+from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, ShaftSection
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import SUPPORT_FIELDS, Support
 
@@ -82,8 +82,8 @@ def damping_of(whole: Mapping[str, Any]) -> ModalDamping | ProportionalDamping:
         ) from None
 
 
-def _section(entry: Mapping[str, Any]) -> Section:
-    return Section(**entries_in(entry, SECTION_FIELDS), material=Material(**entries_in(entry, MATERIAL_FIELDS)))
+def _section(entry: Mapping[str, Any]) -> ShaftSection:
+    return ShaftSection(**entries_in(entry, SECTION_FIELDS), material=Material(**entries_in(entry, MATERIAL_FIELDS)))
 
 
 def _disc(entry: Mapping[str, Any]) -> Disc:

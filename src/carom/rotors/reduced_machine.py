@@ -19,7 +19,7 @@ from carom.parameters.restitution import damping_ratio_of
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
-from carom.rotors.equations import Equations, equations_of, loops_of
+from carom.rotors.equations import RotorEquations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.free_motions import slowest_of
 from carom.rotors.machine_writer import machine_toml
@@ -100,11 +100,11 @@ class ReducedMachine(Result):
         return Scales(machine.rotor.mass, machine.clearance, machine.speed)
 
     @cached_property
-    def equations(self) -> Equations:
+    def equations(self) -> RotorEquations:
         """Equations of motion in SI units."""
         return self._equations(self.damped)
 
-    def _equations(self, basis: Basis) -> Equations:
+    def _equations(self, basis: Basis) -> RotorEquations:
         at = self.machine
         return equations_of(at.rotor, basis, at.bearings, at.touchdowns, at.unbalances, at.supports, restart=at.speed)
 
@@ -121,7 +121,7 @@ class ReducedMachine(Result):
         """Whether the reduced rotor comes back where the whole machine does."""
         return self.machine.slowest.grows or self._comes_back(self.equations)
 
-    def _comes_back(self, equations: Equations) -> bool:
+    def _comes_back(self, equations: RotorEquations) -> bool:
         whole = self.machine.slowest
         own = slowest_of(equations, self.machine.speed).exponents.real.max()
         return bool(own <= SLOWER * min(float(whole.exponents.real.max()), 0.0) + whole.rounding)

@@ -58,7 +58,7 @@ class Material:
 
 
 @dataclass(frozen=True)
-class Section:
+class ShaftSection:
     """A cylindrical section of a shaft, hollow or not.
 
     Every length is a number in m, or text with a unit such as ``"94 mm"``.

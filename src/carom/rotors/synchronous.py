@@ -22,7 +22,7 @@ from carom.base.results import Result
 from carom.models import Limit, Rotor, Subject, rotor_of
 from carom.parameters import Zones
 from carom.rotors import FlexibleMachine
-from carom.rotors.equations import Equations, loops_of
+from carom.rotors.equations import RotorEquations, loops_of
 from carom.rotors.whirls import speeds_of
 
 
@@ -103,7 +103,7 @@ class SynchronousResponse(Result):
 class _Whole(NamedTuple):
     """A rotor in units of its own, in which speeds are divided by ``speed`` and displacements multiplied by ``length``."""
 
-    equations: Equations
+    equations: RotorEquations
     speed: float
     length: np.ndarray
     """m, per touchdown bearing."""
@@ -182,7 +182,7 @@ def _of_model(model: Rotor) -> _Whole:
     mass, damping, gyroscopic, stiffness, forcing = model.matrices
     none = np.zeros((0, n))
     return _Whole(
-        Equations(
+        RotorEquations(
             mass,
             damping,
             gyroscopic,
@@ -231,7 +231,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
     )
 
 
-def _answers(equations: Equations, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _answers(equations: RotorEquations, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates (m, n) of what goes with the shaft and of what goes against it, at time zero."""
     held = equations.both if equations.is_anisotropic else equations
     answers = np.array([_answer(held, speed) for speed in speeds.tolist()])
@@ -241,7 +241,7 @@ def _answers(equations: Equations, speeds: np.ndarray) -> tuple[np.ndarray, np.n
     return forward, backward.conj()
 
 
-def _answer(equations: Equations, speed: float) -> np.ndarray:
+def _answer(equations: RotorEquations, speed: float) -> np.ndarray:
     try:
         return equations.response(speed)
     except np.linalg.LinAlgError:  # in undamped resonance to the last digit: as near to it as doubles come

@@ -23,7 +23,7 @@ STANDING = 0.1
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Whirl(Result):
+class WhirlMode(Result):
     """A free whirl at one speed of the shaft, in the fixed frame: ``z(s, t) = shape(s) e^{λt} + opposite(s) e^{λ̄t}``.
 
     Attributes
@@ -77,7 +77,7 @@ class Whirl(Result):
 
 
 @checked
-def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count: Count = SLOW) -> tuple[Whirl, ...]:
+def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count: Count = SLOW) -> tuple[WhirlMode, ...]:
     """Find the slowest free whirls of a flexible machine, from all its modes.
 
     Parameters
@@ -101,7 +101,7 @@ def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count:
     grow = growing(found.exponents)
     order = [place for place in np.argsort(np.abs(found.exponents.imag)) if turns(found.exponents[place])]
     return tuple(
-        Whirl(complex(found.exponents[place]), shapes[:, place] / size, opposite[:, place] / size)
+        WhirlMode(complex(found.exponents[place]), shapes[:, place] / size, opposite[:, place] / size)
         for rank, place in enumerate(order)
         if rank < count or grow[place]
         for size in [_largest(np.abs(shapes[:, place]) + np.abs(opposite[:, place]))]

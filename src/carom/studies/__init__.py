@@ -48,7 +48,7 @@ from carom.studies.motion_documents import trajectory_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
-from carom.studies.response_data import Rubs, Steady, Stretch
+from carom.studies.response_data import Rubs, SpeedStretch, Steady
 from carom.studies.trials import Check, Unrecovered, check_recovery
 from carom.studies.wording import Wording
 
@@ -61,8 +61,8 @@ __all__ = [
     "Recovery",
     "Rubs",
     "Separation",
+    "SpeedStretch",
     "Steady",
-    "Stretch",
     "Study",
     "Threshold",
     "UnbalanceResponse",

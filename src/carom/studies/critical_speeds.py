@@ -14,7 +14,7 @@ from scipy.optimize import brentq, minimize_scalar  # type: ignore[import-untype
 from carom.base.results import record
 from carom.models import Subject, rotor_of
 from carom.parameters.fields import RPM
-from carom.rotors import Whirl
+from carom.rotors import WhirlMode
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.standards import Side, required_margin
 
@@ -96,7 +96,7 @@ class Critical:
         return record(self, CRITICAL) | {"speed_rpm": self.speed / RPM}
 
 
-def usual_range(whirls: Iterable[Whirl], run: tuple[float, float]) -> tuple[float, float]:
+def usual_range(whirls: Iterable[WhirlMode], run: tuple[float, float]) -> tuple[float, float]:
     """Speeds of a response that are not stated, rad/s: around the operating ones and the slowest whirl that may resonate."""
     slow = [abs(each.exponent.imag) for each in whirls if each.sense != "backward" and each.damping_ratio < HALF_POWER]
     known = [*run, *([min(slow)] if slow else [])]
@@ -105,7 +105,7 @@ def usual_range(whirls: Iterable[Whirl], run: tuple[float, float]) -> tuple[floa
 
 def response_curve(
     machine: Subject,
-    whirls: Iterable[Whirl],
+    whirls: Iterable[WhirlMode],
     interval: tuple[float, float],
     operating: tuple[float, float],
     marks: Iterable[float] = (),

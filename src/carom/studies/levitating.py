@@ -23,7 +23,7 @@ from carom.rotors import (
     Campbell,
     FlexibleMachine,
     Sensitivity,
-    Whirl,
+    WhirlMode,
     campbell,
     find_whirls,
     sensitivity,
@@ -60,7 +60,7 @@ class Levitating(Result):
         rad/s.
     dimensionless : bool
         Whether no scales are known: then the speed is 1, and whirls are in units of it.
-    whirls : tuple of Whirl
+    whirls : tuple of WhirlMode
         The slowest ones at the speed of the machine; none where all that is free fades before it goes round.
     loops : tuple of LoopPeak
         One for each magnetic bearing whose loop is known; one for all equal bearings of one mass.
@@ -79,7 +79,7 @@ class Levitating(Result):
 
     speed: float
     dimensionless: bool
-    whirls: tuple[Whirl, ...]
+    whirls: tuple[WhirlMode, ...]
     loops: tuple[LoopPeak, ...]
     response: SynchronousResponse | None = None
     at_speed: SynchronousResponse | None = None
@@ -90,7 +90,7 @@ class Levitating(Result):
     collocations: tuple[Collocation, ...] = ()
 
     @property
-    def least_damped(self) -> Whirl | None:
+    def least_damped(self) -> WhirlMode | None:
         """The whirl with the smallest damping ratio of those listed."""
         return min(self.whirls, key=lambda each: each.damping_ratio, default=None)
 
@@ -155,7 +155,7 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
     )
 
 
-def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[Whirl, ...]:
+def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[WhirlMode, ...]:
     """The slowest whirls of the levitating rotor: of a flexible machine of all its modes."""
     reduced = rotor.finite_elements
     if reduced is not None:
@@ -163,7 +163,7 @@ def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[Whirl, ...]:
     exponents = (rotor.scales.speed if rotor.scales else 1.0) * (np.asarray(rotor.system.exponents) + 1j)
     still = np.ones(1, complex)
     slowest = exponents[np.argsort(np.abs(exponents.imag))]
-    return tuple([Whirl(complex(each), still, 0.0 * still) for each in slowest if turns(each)][:count])
+    return tuple([WhirlMode(complex(each), still, 0.0 * still) for each in slowest if turns(each)][:count])
 
 
 def _loop_of_mass(si: Mapping[str, float]) -> LoopPeak | None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from carom.parameters.formats import number
-from carom.rotors import Campbell, Whirl
+from carom.rotors import Campbell, WhirlMode
 from carom.rotors.synchronous import SynchronousResponse
 from carom.studies.facts import Fact
 from carom.studies.levitating import Levitating, LoopPeak
@@ -35,7 +35,7 @@ def levitation_facts(found: Levitating) -> Iterator[Fact]:
         yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
 
 
-def whirl_words(speed: float, whirls: Sequence[Whirl], *, dimensionless: bool = False) -> str:
+def whirl_words(speed: float, whirls: Sequence[WhirlMode], *, dimensionless: bool = False) -> str:
     """The least damped of the whirls at a speed, rad/s; without dimensions in units of the speed."""
     worst = min(whirls, key=lambda each: each.damping_ratio)
     kind = f"the {len(whirls)} slowest whirls" if worst.damping_ratio >= 0.0 else "all whirls"
@@ -46,7 +46,7 @@ def whirl_words(speed: float, whirls: Sequence[Whirl], *, dimensionless: bool = 
     )
 
 
-def frequency_words(whirl: Whirl, *, dimensionless: bool) -> str:
+def frequency_words(whirl: WhirlMode, *, dimensionless: bool) -> str:
     """How often it goes round: in Hz, or in units of the speed of the shaft."""
     return f"{number(abs(whirl.exponent.imag), 3)} Ω" if dimensionless else f"{number(whirl.frequency, 3)} Hz"
 

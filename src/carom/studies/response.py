@@ -23,7 +23,7 @@ from carom.parameters.fields import RPM
 from carom.rotors.synchronous import SynchronousResponse
 from carom.studies.critical_speeds import response_curve, usual_range
 from carom.studies.levitating import WHIRLS, whirls_of
-from carom.studies.response_data import ResponseData, Rubs, Steady, Stretch, stretches_between
+from carom.studies.response_data import ResponseData, Rubs, SpeedStretch, Steady, stretches_between
 from carom.studies.standards import ASSUMPTIONS, FULL_SPEED, vibration_limit
 
 RUB_SPEEDS = 121
@@ -124,7 +124,7 @@ def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     return Rubs(speeds, lags, radii)
 
 
-def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[Stretch, ...]:
+def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[SpeedStretch, ...]:
     """Ranges of speeds with the same steady motions; their ends are exact, or bisected between the speeds at which rubs were looked for."""
 
     def steady(speed: float) -> Steady:
@@ -234,5 +234,5 @@ def _bearings(found: SynchronousResponse) -> list[dict[str, Any]]:
     ]
 
 
-def _stretch(stretch: Stretch) -> dict[str, Any]:
+def _stretch(stretch: SpeedStretch) -> dict[str, Any]:
     return {"from_si": stretch.low, "to_si": stretch.high, "from_rpm": stretch.low / RPM, "to_rpm": stretch.high / RPM}

@@ -39,7 +39,7 @@ class Steady(NamedTuple):
     rolls: bool | None
 
 
-class Stretch(NamedTuple):
+class SpeedStretch(NamedTuple):
     """A range of speeds over which something stays the same.
 
     Attributes
@@ -91,7 +91,7 @@ class ResponseData(Result):
     criticals : tuple of Critical
     rubs : Rubs or None
         ``None`` where they are not known: under weight, in several touchdown bearings, or where bearings are anisotropic.
-    stretches : tuple of Stretch
+    stretches : tuple of SpeedStretch
         Ranges of speeds with the same steady motions, :class:`Steady`.
     exact : bool
         Whether all steady motions in contact have closed forms, so that the ends of the stretches are exact; otherwise rubs were looked for at the speeds
@@ -104,7 +104,7 @@ class ResponseData(Result):
     operating: tuple[float, float]
     criticals: tuple[Critical, ...]
     rubs: Rubs | None
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[SpeedStretch, ...]
     exact: bool
 
     @property
@@ -178,7 +178,7 @@ class ResponseData(Result):
         return crossings(self.speeds, self.reach - share, lambda speed: float(self.at(speed).reach.max()) - share)
 
     @cached_property
-    def saturating(self) -> tuple[Stretch, ...]:
+    def saturating(self) -> tuple[SpeedStretch, ...]:
         """Over which speeds sag and whirl ask more of the magnetic bearings than their limits; empty without limits."""
         asked = self.whirl.saturation
         if not asked.shape[1]:
@@ -192,7 +192,7 @@ class ResponseData(Result):
         return vibration_limit(self.speeds)
 
     @cached_property
-    def exceeds_api_617(self) -> tuple[Stretch, ...]:
+    def exceeds_api_617(self) -> tuple[SpeedStretch, ...]:
         """Over which speeds the contact-free vibration exceeds the limit of API 617."""
 
         def over(speed: float) -> float:
@@ -216,15 +216,15 @@ def crossings(speeds: np.ndarray, values: np.ndarray, function: Callable[[float]
 
 def stretches_between(
     interval: tuple[float, float], edges: Iterable[float], what: Callable[[float], Any]
-) -> tuple[Stretch, ...]:
+) -> tuple[SpeedStretch, ...]:
     """Stretches of an interval on which something is the same, if it can change only at given edges."""
     low, high = interval
     ends = [low, *sorted({edge for edge in edges if low < edge < high}), high]
-    found: list[Stretch] = []
+    found: list[SpeedStretch] = []
     for first, last in pairwise(ends):
         here = what(math.sqrt(first * last))
         if found and found[-1].what == here:
             found[-1] = found[-1]._replace(high=last)
         else:
-            found.append(Stretch(first, last, here))
+            found.append(SpeedStretch(first, last, here))
     return tuple(found)

@@ -12,7 +12,7 @@ from carom.base.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.parameters.formats import number
 from carom.studies.critical_speeds import Critical
-from carom.studies.response_data import ResponseData, Steady, Stretch
+from carom.studies.response_data import ResponseData, SpeedStretch, Steady
 from carom.studies.standards import CRITICALLY_DAMPED, vibration_limit
 from carom.studies.wording import listed
 
@@ -135,7 +135,7 @@ def _contact(response: ResponseData) -> list[str]:
     return [*found, "Bouncing motions are not part of this: carom bifurcations --along speed finds them."]
 
 
-def _from_to(stretches: list[Stretch]) -> str:
+def _from_to(stretches: list[SpeedStretch]) -> str:
     """Ranges of speeds in words, with neighbours joined; empty where there are none."""
     joined: list[tuple[float, float]] = []
     for stretch in stretches:

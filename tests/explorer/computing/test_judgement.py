@@ -13,12 +13,12 @@ from carom.basins import smallest_unrecovered
 from carom.disturbances import VelocityKick
 from carom.explorer.computing import judgement
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import rest_of
 from carom.models import jeffcott
 
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))
-KICKS = Plane("kick", "velocity", 1.0, 1.0)
+KICKS = DisturbancePlane("kick", "velocity", 1.0, 1.0)
 
 
 @pytest.mark.jit_only

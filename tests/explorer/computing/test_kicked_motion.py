@@ -8,13 +8,13 @@ from machines import PAPER
 
 import carom
 from carom.explorer.computing.kicked_motion import LONGEST, follow_kick
-from carom.explorer.computing.planes import Plane, planes_of
+from carom.explorer.computing.planes import DisturbancePlane, planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.models import jeffcott, rotor_of
 
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))
 BOUNCING = jeffcott(PAPER)
-KICKS = Plane("kick", "velocity", 1.0, 1.0)
+KICKS = DisturbancePlane("kick", "velocity", 1.0, 1.0)
 SINGLE = 1e-6
 """Rounding of numbers of single precision of the order of one, with a margin."""
 

@@ -12,14 +12,14 @@ from machines import PAPER
 import carom
 from carom.disturbances import FASTEST, Grid, KickPlane
 from carom.explorer.computing.kicks import NOWHERE, map_kicks
-from carom.explorer.computing.planes import Plane, planes_of
+from carom.explorer.computing.planes import DisturbancePlane, planes_of
 from carom.explorer.computing.rest import RestKick
 from carom.models import jeffcott
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CELLS = sized(24, 3)
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))
-KICKS = Plane("kick", "velocity", FASTEST, FASTEST)
+KICKS = DisturbancePlane("kick", "velocity", FASTEST, FASTEST)
 GROUNDED = jeffcott(PAPER.replace(gamma=0.05))
 
 

@@ -10,15 +10,15 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import Annotated, ClassVar, Self
 
-from carom.base.arguments import Kind
+from carom.base.arguments import ArgumentKind
 from carom.core import laws
 from carom.core.wall import Wall
 
 _NO_LAWS = ("choice", "compliant", "law", "rigid")
 LAWS = ("rigid", *sorted(module.name for module in pkgutil.iter_modules(laws.__path__) if module.name not in _NO_LAWS))
 """Names of the laws, those of their modules; each has its place as its number."""
-FromZeroToOne = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
-FromOneToTwo = Annotated[float, Kind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
+FromZeroToOne = Annotated[float, ArgumentKind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
+FromOneToTwo = Annotated[float, ArgumentKind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
 
 
 @dataclass(frozen=True)

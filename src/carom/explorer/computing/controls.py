@@ -58,7 +58,7 @@ class Control:
 
 
 @dataclass(frozen=True)
-class _Kind:
+class _ControlKind:
     group: str
     words: str
     unit: str
@@ -72,37 +72,37 @@ class _Kind:
     """Lower end of a slider that is not logarithmic, unless the value of the machine lies below it."""
 
 
-_KINDS: Mapping[str, _Kind] = {
-    "speed": _Kind(SHAFT, "speed", "rpm", 2.0, logarithmic=False),
-    "eccentricity": _Kind(SHAFT, "unbalance (eccentricity)", "mm", 2.0, logarithmic=False),
-    "unbalance": _Kind(SHAFT, "unbalance", "g mm", 4.0, logarithmic=False),
-    "stiffness": _Kind(MAGNETS, "stiffness (P gain)", "N/m", 4.0),
-    "damping": _Kind(MAGNETS, "damping (D gain)", "N s/m", 5.0),
-    "proportional": _Kind(MAGNETS, "P gain: stiffness", "A/m", 3.0),
-    "integral": _Kind(MAGNETS, "I gain: takes out the sag", "A/m/s", 10.0, least=5000.0),
-    "derivative": _Kind(MAGNETS, "D gain: damping", "A s/m", 4.0, least=10.0),
-    "filter_time": _Kind(MAGNETS, "filter of the D part", "ms", 10.0),
-    "delay": _Kind(MAGNETS, "delay of the controller", "ms", 5.0, least=0.2, logarithmic=False),
-    "amplifier_bandwidth": _Kind(MAGNETS, "bandwidth of the amplifier", "Hz", 10.0),
-    "current_limit": _Kind(MAGNETS, "largest current", "A", 5.0),
-    "force_limit": _Kind(MAGNETS, "largest force", "N", 5.0),
-    "slew_rate_limit": _Kind(MAGNETS, "fastest change of current", "A/s", 5.0),
-    "clearance": _Kind(TOUCHDOWNS, "clearance", "mm", 3.0),
-    "friction": _Kind(TOUCHDOWNS, "friction", "", 2.0, least=0.5, most=10.0, logarithmic=False),
-    "restitution": _Kind(TOUCHDOWNS, "restitution", "", 1.0, least=1.0, most=1.0, logarithmic=False),
-    "touchdown_stiffness": _Kind(TOUCHDOWNS, "touchdown stiffness", "N/m", 10.0),
-    "touchdown_restitution": _Kind(
+_KINDS: Mapping[str, _ControlKind] = {
+    "speed": _ControlKind(SHAFT, "speed", "rpm", 2.0, logarithmic=False),
+    "eccentricity": _ControlKind(SHAFT, "unbalance (eccentricity)", "mm", 2.0, logarithmic=False),
+    "unbalance": _ControlKind(SHAFT, "unbalance", "g mm", 4.0, logarithmic=False),
+    "stiffness": _ControlKind(MAGNETS, "stiffness (P gain)", "N/m", 4.0),
+    "damping": _ControlKind(MAGNETS, "damping (D gain)", "N s/m", 5.0),
+    "proportional": _ControlKind(MAGNETS, "P gain: stiffness", "A/m", 3.0),
+    "integral": _ControlKind(MAGNETS, "I gain: takes out the sag", "A/m/s", 10.0, least=5000.0),
+    "derivative": _ControlKind(MAGNETS, "D gain: damping", "A s/m", 4.0, least=10.0),
+    "filter_time": _ControlKind(MAGNETS, "filter of the D part", "ms", 10.0),
+    "delay": _ControlKind(MAGNETS, "delay of the controller", "ms", 5.0, least=0.2, logarithmic=False),
+    "amplifier_bandwidth": _ControlKind(MAGNETS, "bandwidth of the amplifier", "Hz", 10.0),
+    "current_limit": _ControlKind(MAGNETS, "largest current", "A", 5.0),
+    "force_limit": _ControlKind(MAGNETS, "largest force", "N", 5.0),
+    "slew_rate_limit": _ControlKind(MAGNETS, "fastest change of current", "A/s", 5.0),
+    "clearance": _ControlKind(TOUCHDOWNS, "clearance", "mm", 3.0),
+    "friction": _ControlKind(TOUCHDOWNS, "friction", "", 2.0, least=0.5, most=10.0, logarithmic=False),
+    "restitution": _ControlKind(TOUCHDOWNS, "restitution", "", 1.0, least=1.0, most=1.0, logarithmic=False),
+    "touchdown_stiffness": _ControlKind(TOUCHDOWNS, "touchdown stiffness", "N/m", 10.0),
+    "touchdown_restitution": _ControlKind(
         TOUCHDOWNS, "touchdown restitution", "", 1.0, least=1.0, most=1.0, logarithmic=False, low=0.05
     ),
-    "touchdown_damping": _Kind(TOUCHDOWNS, "touchdown damping", "N s/m", 10.0, least=1000.0),
-    "touchdown_dissipation": _Kind(TOUCHDOWNS, "touchdown dissipation", "s/m", 10.0, least=1.0),
+    "touchdown_damping": _ControlKind(TOUCHDOWNS, "touchdown damping", "N s/m", 10.0, least=1000.0),
+    "touchdown_dissipation": _ControlKind(TOUCHDOWNS, "touchdown dissipation", "s/m", 10.0, least=1.0),
 }
-_DIMENSIONLESS: Mapping[str, _Kind] = {
-    "rho": _Kind(SHAFT, "unbalance ρ", "", 2.0, logarithmic=False),
-    "omega": _Kind(MAGNETS, "stiffness: frequency ω over speed", "", 2.0),
-    "gamma": _Kind(MAGNETS, "damping γ", "", 5.0),
-    "mu": _Kind(TOUCHDOWNS, "friction μ", "", 2.0, least=0.5, most=10.0, logarithmic=False),
-    "d": _Kind(TOUCHDOWNS, "restitution d", "", 1.0, least=1.0, most=1.0, logarithmic=False),
+_DIMENSIONLESS: Mapping[str, _ControlKind] = {
+    "rho": _ControlKind(SHAFT, "unbalance ρ", "", 2.0, logarithmic=False),
+    "omega": _ControlKind(MAGNETS, "stiffness: frequency ω over speed", "", 2.0),
+    "gamma": _ControlKind(MAGNETS, "damping γ", "", 5.0),
+    "mu": _ControlKind(TOUCHDOWNS, "friction μ", "", 2.0, least=0.5, most=10.0, logarithmic=False),
+    "d": _ControlKind(TOUCHDOWNS, "restitution d", "", 1.0, least=1.0, most=1.0, logarithmic=False),
 }
 """The same of a rotor that is given by numbers of its equations."""
 _FIRST = 0.5
@@ -134,7 +134,7 @@ def _entries(case: Case) -> Mapping[str, Any]:
     return {} if reduced is None else reduced.machine.entries
 
 
-def _kinds(case: Case) -> Mapping[str, _Kind]:
+def _kinds(case: Case) -> Mapping[str, _ControlKind]:
     return _KINDS if "friction" in _named(case).varied else _DIMENSIONLESS
 
 
@@ -177,7 +177,7 @@ def _value(case: Case, name: str, unit: str) -> float | None:
         return None
 
 
-def _unit(case: Case, name: str, kind: _Kind) -> str:
+def _unit(case: Case, name: str, kind: _ControlKind) -> str:
     """Unit of a control: that of a stiffness depends on its exponent."""
     if not name.startswith("touchdown_stiffness"):
         return kind.unit
@@ -196,7 +196,7 @@ def unit_of(name: str) -> float:
     return _size(SETTINGS[name], _KINDS[name].unit) if name in _KINDS and not name.startswith(PREFIX) else 1.0
 
 
-def _control(case: Case, name: str, kind: _Kind, value: float) -> Control:
+def _control(case: Case, name: str, kind: _ControlKind, value: float) -> Control:
     logarithmic = kind.logarithmic and value > 0.0
     high = min(max(kind.reach * value, kind.least), kind.most) or 1.0
     low = value / kind.reach if logarithmic else _FIRST * value if name == "speed" else min(kind.low, value)

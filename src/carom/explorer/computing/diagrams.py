@@ -22,7 +22,7 @@ _STEADY = {
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class DiagramLine:
     """A stretch of orbits of one kind: their impact speeds, and whether they are stable, unstable or virtual."""
 
     x: np.ndarray
@@ -42,7 +42,7 @@ class Bar:
 
 
 @dataclass(frozen=True)
-class Point:
+class DiagramPoint:
     """A special point; steady motions have the impact speed zero."""
 
     x: float
@@ -53,23 +53,23 @@ class Point:
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class DiagramPicture:
     """A diagram, ready to be drawn; speeds in mm/s if the machine is known, otherwise in ``c_r Ω``."""
 
     control: Control
     speed_unit: str
     top: float
-    lines: tuple[Line, ...]
+    lines: tuple[DiagramLine, ...]
     bars: tuple[Bar, ...]
-    points: tuple[Point, ...]
+    points: tuple[DiagramPoint, ...]
 
 
-def picture_along(rotor: Rotor, control: Control, progress: ShowProgress = None) -> Picture:
+def picture_along(rotor: Rotor, control: Control, progress: ShowProgress = None) -> DiagramPicture:
     """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)
     heights = [_speeds(diagram, branch)[branch.admissible] for branch in diagram.orbits]
-    return Picture(
+    return DiagramPicture(
         control=control,
         speed_unit=diagram.speed_unit,
         top=1.15 * float(np.concatenate([*heights, [0.0]]).max() or 1.0),
@@ -83,7 +83,7 @@ def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:
     return diagram.shown_speeds(branch.values, branch.radial_speed)
 
 
-def _lines(branch: OrbitBranch, unit: float, speeds: np.ndarray) -> list[Line]:
+def _lines(branch: OrbitBranch, unit: float, speeds: np.ndarray) -> list[DiagramLine]:
     looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
     lines = []
     for kind in ("virtual", "unstable", "stable"):
@@ -92,7 +92,7 @@ def _lines(branch: OrbitBranch, unit: float, speeds: np.ndarray) -> list[Line]:
         shown[:-1] |= (looks[1:] == kind) & (kind != "virtual")
         if shown.any():
             y = np.where(shown, speeds, np.nan)
-            lines.append(Line(branch.values / unit, y, kind, LOOKS[kind].colour))
+            lines.append(DiagramLine(branch.values / unit, y, kind, LOOKS[kind].colour))
     return lines
 
 
@@ -109,11 +109,11 @@ def _bars(branch: EquilibriumBranch, unit: float) -> list[Bar]:
     ]
 
 
-def _points(diagram: Diagram, unit: float) -> list[Point]:
+def _points(diagram: Diagram, unit: float) -> list[DiagramPoint]:
     points = []
     for found in diagram.points:
         look = BOUNDARIES.get(found.detail, POINTS[found.kind])
         height = 0.0 if np.isnan(found.radial_speed) else float(diagram.shown_speeds(found.value, found.radial_speed))
         words = look.words if found.motion != "orbit" else f"{look.words}, {found.name}"
-        points.append(Point(found.value / unit, height, words, look.colour, found.admissible))
+        points.append(DiagramPoint(found.value / unit, height, words, look.colour, found.admissible))
     return points

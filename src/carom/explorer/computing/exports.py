@@ -15,7 +15,7 @@ import numpy as np
 
 from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, in_options, unit_of
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import Rest
 from carom.models import Rotor, rotor_of
 from carom.motions import State
@@ -27,7 +27,7 @@ from carom.parameters.terms import set_by
 class Kick:
     """The disturbance shown: its kind, its components and the largest one of the picture, in units of the equations."""
 
-    plane: Plane
+    plane: DisturbancePlane
     rest: Rest
     first: float
     second: float

@@ -10,7 +10,7 @@ from carom.base.progress import Reporter, ShowProgress
 from carom.basins import smallest_unrecovered
 from carom.explorer.computing.kicked_motion import MOST_EVENTS
 from carom.explorer.computing.kicks import is_slow
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import contact_peaks, wall_at
 from carom.models import Rotor
@@ -56,7 +56,7 @@ class Hardest:
     remark: str
 
 
-def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress = None) -> Loss:
+def find_loss(rotor: Rotor, plane: DisturbancePlane, largest: float, progress: ShowProgress = None) -> Loss:
     """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
     scales = rotor.scales
     try:
@@ -79,7 +79,7 @@ def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress
 
 
 def find_hardest(
-    rotor: Rotor, plane: Plane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
+    rotor: Rotor, plane: DisturbancePlane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
 ) -> Hardest:
     """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest impact."""
     rest, wall = rest_of(rotor), wall_at(rotor, 0)

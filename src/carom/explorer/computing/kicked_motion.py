@@ -10,7 +10,7 @@ import numpy as np
 from carom.attractors.naming import name_motions
 from carom.base.outcome import Outcome
 from carom.base.progress import ShowProgress
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import ContactPeaks, contact_peaks, wall_at
 from carom.models import Rotor
@@ -36,7 +36,7 @@ CALM, LONGEST_CALM = 4.0, 120.0
 
 
 @dataclass(frozen=True)
-class Span:
+class ContactSpan:
     """A stretch of lasting contact: its times in ``1/Ω``, words and colour."""
 
     start: float
@@ -46,7 +46,7 @@ class Span:
 
 
 @dataclass(frozen=True, eq=False)
-class AtBearing:
+class PathAtBearing:
     """A motion at one touchdown bearing; lengths in its clearances.
 
     Attributes
@@ -61,7 +61,7 @@ class AtBearing:
         each is: normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
     forward : ndarray of bool, shape (m,)
         Whether the rotor whirls forward in the fixed frame just before the impact.
-    spans : tuple of Span
+    spans : tuple of ContactSpan
         Lasting contact.
     hardest : float
         The hardest of all impacts, also of those that are not drawn; 0 without one.
@@ -78,7 +78,7 @@ class AtBearing:
     impact_speeds: np.ndarray
     peak_loads: np.ndarray
     forward: np.ndarray
-    spans: tuple[Span, ...]
+    spans: tuple[ContactSpan, ...]
     hardest: float
     words: str
 
@@ -91,7 +91,7 @@ class KickedMotion:
     ----------
     times : ndarray of float32, shape (n,)
         In ``1/Ω``.
-    planes : tuple of AtBearing
+    planes : tuple of PathAtBearing
     whole : bool
         Whether the motion is drawn up to where it is settled.
     outcome, colour, words : str
@@ -99,14 +99,16 @@ class KickedMotion:
     """
 
     times: np.ndarray
-    planes: tuple[AtBearing, ...]
+    planes: tuple[PathAtBearing, ...]
     whole: bool
     outcome: str
     colour: str
     words: str
 
 
-def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progress: ShowProgress = None) -> KickedMotion:
+def follow_kick(
+    rotor: Rotor, plane: DisturbancePlane, first: float, second: float, progress: ShowProgress = None
+) -> KickedMotion:
     """Follow one disturbance, by its components in units of the equations, to where it ends; refuse one that is not possible."""
     rotor, start, begin = plane.start(rotor, rest_of(rotor), first, second)
     motion = simulate(rotor, start, settle=True, progress=progress)
@@ -127,13 +129,13 @@ def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progres
     )
 
 
-def _at_bearing(shown: Trajectory, times: np.ndarray, every: ContactPeaks) -> AtBearing:
+def _at_bearing(shown: Trajectory, times: np.ndarray, every: ContactPeaks) -> PathAtBearing:
     """What is drawn of a motion at the touchdown bearing at which it is seen."""
     position, _ = shown.at_plane(times)
     wall, log = wall_at(shown.rotor, shown.plane), contact_peaks(shown)
     factor, unit = shown_in("force", shown.scales)
     force = factor * shown.forces(times)[0] if wall.compliant else np.zeros(len(times))
-    return AtBearing(
+    return PathAtBearing(
         x=position.real.astype(np.float32),
         y=position.imag.astype(np.float32),
         force=force.astype(np.float32),
@@ -162,10 +164,10 @@ def _shown_until(rotor: Rotor, motion: Trajectory) -> float:
     return min(end, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
 
 
-def span_of(stretch: LastingContact) -> Span:
+def span_of(stretch: LastingContact) -> ContactSpan:
     """A stretch of lasting contact as it is drawn."""
     look = REGIMES[stretch.phase]
-    return Span(stretch.start, stretch.end, look.words, look.colour)
+    return ContactSpan(stretch.start, stretch.end, look.words, look.colour)
 
 
 def _words(motion: Trajectory, begin: str, peaks: list[ContactPeaks], ending: str) -> str:

@@ -14,7 +14,7 @@ from carom.basins import Share, map_basins
 from carom.disturbances import Grid
 from carom.disturbances.blade_loss import levitating_before
 from carom.disturbances.following import NO_START, follow
-from carom.explorer.computing.planes import Plane, ShockPlane
+from carom.explorer.computing.planes import DisturbancePlane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Rotor
 from carom.plots.cells import MotionLook, motion_looks
@@ -35,7 +35,7 @@ WANTED = 0.2
 
 
 @dataclass(frozen=True, eq=False)
-class Ending:
+class CellEnding:
     """One motion on which disturbances end, with the look that figures give it.
 
     Attributes
@@ -62,7 +62,7 @@ class KickMap:
     Attributes
     ----------
     rest : Rest
-    plane : Plane
+    plane : DisturbancePlane
     largest : float
         Largest disturbance, in units of the equations: the radius of the disc.
     outcomes : ndarray of int, shape (n, n)
@@ -71,16 +71,16 @@ class KickMap:
         Whether the rotor met the wall.
     cells : ndarray of uint8, shape (n, n)
         Index of the ending by second (rows) and first component, both ascending; ``NOWHERE`` without one.
-    endings : tuple of Ending
+    endings : tuple of CellEnding
     """
 
     rest: Rest
-    plane: Plane
+    plane: DisturbancePlane
     largest: float
     outcomes: np.ndarray
     touched: np.ndarray
     cells: np.ndarray
-    endings: tuple[Ending, ...]
+    endings: tuple[CellEnding, ...]
 
     @property
     def middles(self) -> np.ndarray:
@@ -119,7 +119,9 @@ class KickMap:
         return self.share_up_to(math.inf)
 
 
-def map_kicks(rotor: Rotor, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
+def map_kicks(
+    rotor: Rotor, plane: DisturbancePlane, cells: int, largest: float, progress: ShowProgress = None
+) -> KickMap:
     """Follow a grid of disturbances up to a size, in the units of planes, to where they end."""
     rest, own = rest_of(rotor), plane.own(largest, rotor.scales)
     if plane.name == "blade-loss":
@@ -134,11 +136,11 @@ def map_kicks(rotor: Rotor, plane: Plane, cells: int, largest: float, progress: 
     return KickMap(rest, plane, own, basin.outcomes, basin.touched, cells_, tuple(map(_ending, looks)))
 
 
-def _ending(look: MotionLook) -> Ending:
-    return Ending(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
+def _ending(look: MotionLook) -> CellEnding:
+    return CellEnding(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
 
 
-def _map_losses(rotor: Rotor, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
+def _map_losses(rotor: Rotor, rest: Rest, plane: DisturbancePlane, cells: int, largest: float) -> KickMap:
     """The same of losses of a blade.
 
     Changes that leave one size of the unbalance lead to one machine.  So a cell shows the nearest of few sizes, each with many phases; motions are stated
@@ -167,7 +169,7 @@ def _map_losses(rotor: Rotor, rest: Rest, plane: Plane, cells: int, largest: flo
     for place, code in enumerate(np.unique(outcomes[exists])):
         places[outcomes == code] = place
         look, share = OUTCOMES[Outcome(code).label], float((outcomes == code).sum() / exists.sum())
-        endings.append(Ending(look.words, look.colour, look.hatch[:1], share, code == Outcome.LEVITATED))
+        endings.append(CellEnding(look.words, look.colour, look.hatch[:1], share, code == Outcome.LEVITATED))
     return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
 
 
@@ -177,7 +179,7 @@ def is_slow(rotor: Rotor) -> bool:
 
 
 @lru_cache(maxsize=MACHINES)
-def opening_range(rotor: Rotor, plane: Plane) -> float:
+def opening_range(rotor: Rotor, plane: DisturbancePlane) -> float:
     """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost.
 
     Of a rotor whose motions take long it is the first at which some are lost.

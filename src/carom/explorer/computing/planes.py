@@ -53,7 +53,7 @@ class ShockPlane(Disturbance):
 
 
 @dataclass(frozen=True)
-class Plane:
+class DisturbancePlane:
     """One kind of disturbance of a machine.
 
     Attributes
@@ -141,7 +141,7 @@ class Plane:
         return after, state, f"A loss of a blade that changes the unbalance by {words} at {turned}"
 
 
-def planes_of(case: Case) -> tuple[Plane, ...]:
+def planes_of(case: Case) -> tuple[DisturbancePlane, ...]:
     """The kinds of disturbances that a machine can be shown with, kicks first."""
     scales = case.parameters.scales
     needed = case.requirement.own(scales)
@@ -152,16 +152,16 @@ def planes_of(case: Case) -> tuple[Plane, ...]:
         return size * (float(getattr(scales, scale)) if scales else 1.0)
 
     kick = si(needed.kick, "velocity")
-    planes = [Plane("kick", "velocity", kick, kick)]
+    planes = [DisturbancePlane("kick", "velocity", kick, kick)]
     duration = needed.shock.duration if needed.shock else SHOCK_DURATION / scales.time if scales else 0.0
     if 0.0 < duration <= LONGEST_SHOCK and levitates:
         peak = si(needed.shock.peak, "acceleration") if needed.shock else None
         usual = peak or si(math.pi * needed.kick / (2.0 * duration), "acceleration")
-        planes.append(Plane("shock", "acceleration", peak, usual, si(duration, "time")))
+        planes.append(DisturbancePlane("shock", "acceleration", peak, usual, si(duration, "time")))
     if levitates and (most := largest_change(rotor)) > 0.0:
         scale = "unbalance" if scales else "length"
         change = si(needed.blade_loss, scale) if needed.blade_loss else None
-        planes.append(Plane("blade-loss", scale, change, change or si(0.5 * most, scale)))
+        planes.append(DisturbancePlane("blade-loss", scale, change, change or si(0.5 * most, scale)))
     return tuple(planes)
 
 

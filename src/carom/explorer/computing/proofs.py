@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.base.outcome import InputError
 from carom.base.progress import ShowProgress
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import DisturbancePlane
 from carom.models import Rotor, exact_rotor_of
 from carom.parameters.formats import number, rounded_down
 
@@ -36,7 +36,7 @@ class ProvenPicture:
     open: np.ndarray
 
 
-def find_proven(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress = None) -> ProvenPicture:
+def find_proven(rotor: Rotor, plane: DisturbancePlane, largest: float, progress: ShowProgress = None) -> ProvenPicture:
     """Prove kicks up to a size, in units of the equations; of other disturbances nothing is proven."""
     if plane.name != "kick":
         raise InputError("what disturbs the rotor", plane.nouns[1], "kicks: of other disturbances nothing is proven")

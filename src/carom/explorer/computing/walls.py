@@ -63,7 +63,7 @@ def _most(values: np.ndarray) -> float:
 
 
 @dataclass(frozen=True)
-class Wall:
+class ContactWords:
     """What the page calls contacts with a wall, and the load that it tells of them.
 
     Attributes
@@ -107,7 +107,7 @@ class Wall:
         return f"; limit {LoadLimits.format('force', limits.force)}: {kept}"
 
 
-RIGID = Wall(
+RIGID = ContactWords(
     False,
     "impact",
     "an impact",
@@ -117,7 +117,7 @@ RIGID = Wall(
     "lasting contact",
     "looking for the hardest impact",
 )
-COMPLIANT = Wall(
+COMPLIANT = ContactWords(
     True,
     "contact",
     "contact",
@@ -129,6 +129,6 @@ COMPLIANT = Wall(
 )
 
 
-def wall_at(rotor: Rotor, place: int) -> Wall:
+def wall_at(rotor: Rotor, place: int) -> ContactWords:
     """What the page says of a touchdown bearing of a rotor."""
     return COMPLIANT if is_compliant(rotor.system, place) else RIGID

@@ -10,13 +10,13 @@ from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
 from carom.explorer.computing.controls import Control
-from carom.explorer.computing.diagrams import Picture, Point
+from carom.explorer.computing.diagrams import DiagramPicture, DiagramPoint
 from carom.explorer.computing.judgement import Loss
 from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.levitation import levitation_of
 from carom.explorer.computing.motions import MotionTable
-from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.planes import DisturbancePlane
 from carom.models import Rotor
 from carom.parameters import Case, Scales
 from carom.parameters.fields import RPM
@@ -46,7 +46,7 @@ def _typed(value: float) -> str:
     return f"{digits}e{int(exponent)}"
 
 
-def plane_message(plane: Plane, scales: Scales | None) -> Message:
+def plane_message(plane: DisturbancePlane, scales: Scales | None) -> Message:
     """A kind of disturbances, as the page offers it."""
     lasting = (
         f" of {format_quantity(plane.duration / (scales.time if scales else 1.0), 'time', scales)}"
@@ -182,18 +182,18 @@ def table_message(table: MotionTable) -> Message:
     return {"rows": [asdict(row) for row in table.rows], "argument": table.argument}
 
 
-def loss_message(found: Loss, plane: Plane, scales: Scales | None) -> Message:
+def loss_message(found: Loss, plane: DisturbancePlane, scales: Scales | None) -> Message:
     """The smallest loss, with its size in the unit that people see."""
     size = 0.0 if found.size is None else plane.shown(scales)[0] * found.size
     return {"size": size, "value": found.value, "remark": found.remark}
 
 
-def diagram_message(picture: Picture) -> Message:
+def diagram_message(picture: DiagramPicture) -> Message:
     """Lines, bars and points of a diagram, by column."""
     return {
         **fields_of(picture.control, "name", "words", "unit", "low", "high"),
         **fields_of(picture, "speed_unit", "top"),
         "lines": [asdict(line) for line in picture.lines],
         "bars": [asdict(bar) for bar in picture.bars],
-        "points": {one.name: [getattr(point, one.name) for point in picture.points] for one in fields(Point)},
+        "points": {one.name: [getattr(point, one.name) for point in picture.points] for one in fields(DiagramPoint)},
     }

@@ -19,7 +19,7 @@ from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import RANGES, TRIED, is_slow, map_kicks, opening_range, representative_kicks
 from carom.explorer.computing.levitation import response_of
 from carom.explorer.computing.motions import table_of
-from carom.explorer.computing.planes import Plane, opening_words, planes_of
+from carom.explorer.computing.planes import DisturbancePlane, opening_words, planes_of
 from carom.explorer.computing.proofs import find_proven
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import wall_at
@@ -79,7 +79,7 @@ Work = Callable[[Shown, ShowProgress], Message]
 
 
 @dataclass(frozen=True)
-class Task:
+class PageTask:
     """Work that takes long: what is done in words, and the answer that it gives."""
 
     words: str
@@ -114,7 +114,7 @@ class Questions:
     def __init__(self, origin: Origin) -> None:
         self.origin, self.mark = origin, mark_of(origin.case)
         self.controls: Mapping[str, Control] = {control.name: control for control in controls_of(origin.case)}
-        self.planes: dict[str, Plane] = {plane.name: plane for plane in planes_of(origin.case)}
+        self.planes: dict[str, DisturbancePlane] = {plane.name: plane for plane in planes_of(origin.case)}
         self.along = next(name for name in (*MOVING, *self.controls) if name in self.controls)
         rotor = rotor_of(origin.case)
         self.bearings, self.slow, self.exact = len(rotor.system.planes), is_slow(rotor), exact_results(rotor).orbits
@@ -130,17 +130,19 @@ class Questions:
             **{slot: self._motion(place) for place, slot in enumerate(SLOTS)},
             "table": lambda shown, tell: messages.table_message(table_of(shown.subject.rotor)),
         }
-        response = Task("computing the response to unbalance", self._response, "response")
-        diagram = Task("following orbits along the slider", self._diagram, "diagram")
-        self.long: Mapping[str, Task] = {
-            "fine": Task("following disturbances", self._fine, "basin"),
+        response = PageTask("computing the response to unbalance", self._response, "response")
+        diagram = PageTask("following orbits along the slider", self._diagram, "diagram")
+        self.long: Mapping[str, PageTask] = {
+            "fine": PageTask("following disturbances", self._fine, "basin"),
             **({"response": response} if shown["response"] else {}),
-            "loss": Task("looking for the smallest that is lost", self._loss, "loss"),
-            "hardest": Task("looking for the hardest impact", self._hardest, "hardest"),
+            "loss": PageTask("looking for the smallest that is lost", self._loss, "loss"),
+            "hardest": PageTask("looking for the hardest impact", self._hardest, "hardest"),
             **({"diagram": diagram} if self.exact else {}),
-            "verdict": Task("writing the verdict", self._verdict, "verdict"),
+            "verdict": PageTask("writing the verdict", self._verdict, "verdict"),
         }
-        self.on_request: Mapping[str, Task] = {"proven": Task("proving which kicks come back", self._proven, "proven")}
+        self.on_request: Mapping[str, PageTask] = {
+            "proven": PageTask("proving which kicks come back", self._proven, "proven")
+        }
 
     def subject(self, settings: Mapping[str, str]) -> Subject:
         """The machine with other values of its controls; refuse all that cannot be used at once."""
@@ -204,7 +206,7 @@ class Questions:
             "python": as_python(self.origin, shown.settings, rotor, kick, self.controls[shown.along]),
         }
 
-    def _plane(self, shown: Shown) -> Plane:
+    def _plane(self, shown: Shown) -> DisturbancePlane:
         return self.planes.get(shown.view.kind, self.planes["kick"])
 
     def _largest(self, shown: Shown) -> float:
