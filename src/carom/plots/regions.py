@@ -114,15 +114,14 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
     def mark(place: tuple[float, float], words: str, marker: str, size: float, face: str, edge: str = _BLACK) -> None:
         x, y = np.array(place) / units
         axes.plot([x], [y], ls="none", marker=marker, ms=size, mfc=face, mec=edge, zorder=6, gid=words)
-        filled = _BLACK if face == "none" else face
-        entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=filled, mec=edge, label=words))
+        entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=face, mec=edge, label=words))
 
     for point in found.codimension2:
         if not point.admissible:
             continue
         resonance = point.resonance
         look = ("resonance of the multipliers", "D", 4.0) if resonance else ("two at once", "o", 4.5)
-        mark(point.value, *look, _BLACK if point.admissible else "none")
+        mark(point.value, *look, _BLACK)
         if resonance:
             _write(axes, resonance, np.array(point.value) / units, "resonance", 4.0, ha="right", va="top")
     for change in found.unexplained:
