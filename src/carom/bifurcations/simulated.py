@@ -89,7 +89,7 @@ class SimulatedBranch(Result):
 
     @cached_property
     def impacts(self) -> int:
-        """Arrivals at a wall in a period of the first orbit."""
+        """Impacts in a period of the first orbit."""
         return self.orbits[0].impacts
 
     @property

@@ -79,14 +79,14 @@ def _why_no_impact(rotor: Rotor, kind: Kind, node: np.ndarray, duration: float) 
     if wall.restitution == 0.0 and wall_push(rotor.system.arrays, 0, after)[0] >= 0.0:
         return "it would stay on the wall: it does not rebound and is pressed outward"
     code, time = _first_contact(rotor, after, 1.5 * duration)
-    if code == Outcome.CLEAR or _same_arrival(rotor, after, time, duration):
+    if code == Outcome.CLEAR or _same_impact(rotor, after, time, duration):
         return ""
     if code == Outcome.GRAZING:
         return f"it grazes the wall at t = {time:.6g} after the impact"
     return f"it would cross the wall at t = {time:.6g}, before its period is over"
 
 
-def _same_arrival(rotor: Rotor, after: np.ndarray, time: float, duration: float) -> bool:
+def _same_impact(rotor: Rotor, after: np.ndarray, time: float, duration: float) -> bool:
     """Whether the next contact of a flight and its end are one event.
 
     The nodes are on the wall as closely as Newton's method brings them, which shifts a slow impact in time by far more.

@@ -124,7 +124,7 @@ class SimulatedOrbit(Result):
 
     @property
     def impacts(self) -> int:
-        """Arrivals at a wall in a period, without those of a chatter."""
+        """Impacts in a period, without those of a chatter."""
         return sum(each.begins_contact for each in self.happenings)
 
     @property

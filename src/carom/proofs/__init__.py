@@ -53,7 +53,7 @@
 ``shocks``          the same for shocks and steps of the unbalance
 ``sizes``           the largest size that a theorem is about
 ``forms``           quadratic forms that fall in flight and in contact
-``arrivals``        all states in which motions first meet the wall
+``impact_states``   all states in which motions first meet the wall
 ``form_search``     which forms show that all states return
 ``lost_states``     motions that never return
 ``state_claims``    claims about all states up to a speed

@@ -72,7 +72,7 @@ class OrbitFact:
         return self.name, self.admissible, self.stable, self.reason, self.instability
 
     @property
-    def doubt(self) -> str:
+    def objection(self) -> str:
         """What is not decided; empty if everything is."""
         if self.stable is None:
             return f"the stability of {self.name} is open"

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from carom.proofs.arrivals import all_trapped, limits_of, read_forms, traps_of
 from carom.proofs.forms import STEP, Form, Surface
+from carom.proofs.impact_states import all_trapped, limits_of, read_forms, traps_of
 
 _SHARES, _RADII, _DIRECTIONS = 24, 3, 24
 """How many values of ``α/γ`` are tried, of the room for ``β`` and ``k``, and directions in it."""
@@ -75,7 +75,7 @@ class Candidates:
 
     def chosen(self, speed: float) -> tuple[Listed, Listed] | None:
         """Traps, and forms that bound what arrives, for all states up to a speed; ``None`` if there are none."""
-        a, b, turns, limits = self._arrivals(speed)
+        a, b, turns, limits = self._impact_states(speed)
         a, b = self.wall.after(a, b)
         sizes = _spread(self.forms).size(self.wall, turns, a, b)
         inside = sizes <= (1 - _MARGIN) * self.levels[:, None]
@@ -90,7 +90,7 @@ class Candidates:
             left &= ~inside[best]
         return _listed(self.forms, traps), _listed(self.forms, limits)
 
-    def _arrivals(self, speed: float) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray], list[int]]:
+    def _impact_states(self, speed: float) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray], list[int]]:
         """Velocities at the wall, sines and cosines of the angles of levitation, and the forms that bound them most."""
         turns = _turns(_TURNS + 1)
         forms = _joined(self.forms, Form(0.0, 0.0, self.wall.omega_squared, 1.0, np.inf))

@@ -138,8 +138,8 @@ def _facts(line: Line, low: Fraction, high: Fraction, *, decided: bool) -> tuple
     except (ArithmeticError, ValueError) as problem:
         # Series cannot be divided where their first term may vanish.
         raise OpenError(f"a formula has a pole next to it: {problem}") from None
-    for doubt in filter(None, (fact.doubt for fact in facts if decided)):
-        raise OpenError(doubt)
+    for objection in filter(None, (fact.objection for fact in facts if decided)):
+        raise OpenError(objection)
     return facts
 
 
@@ -156,7 +156,7 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter
         facts, reason = None, ""
         try:
             facts = _facts(line, before, after, decided=known == DECIDED)
-            reason = next((fact.doubt for fact in facts if fact.doubt), "")
+            reason = next((fact.objection for fact in facts if fact.objection), "")
         except OpenError as problem:
             if known == DECIDED:
                 shown = f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"

@@ -31,7 +31,7 @@ def test_impacts_of_a_rigid_wall_are_those_of_its_log():
     assert RIGID.stated(peaks, SCALES).endswith(" N s")
 
 
-def test_arrivals_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion(motion):
+def test_impact_states_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion(motion):
     peaks = contact_peaks(motion)
     assert peaks.count == len(motion.contacts) == len(peaks.time)
     # The motion itself, sampled around the hardest of its contacts: below the peak, and close to it.
