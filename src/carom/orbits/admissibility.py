@@ -14,7 +14,7 @@ from carom.models import Rotor
 from carom.orbits.shooting import TOLERANCE, ShootingStart
 from carom.orbits.word import Kind, Word
 
-ARRIVAL_TOLERANCE = 1e-7
+IMPACT_RTOL = 1e-7
 """Relative difference below which the certified next event and the end of a segment count as the same event."""
 SHIFT = 1e-4
 """Relative difference up to which they may be the same event if the rotor is on the wall from one to the other."""
@@ -92,8 +92,8 @@ def _same_impact(rotor: Rotor, after: np.ndarray, time: float, duration: float) 
     The nodes are on the wall as closely as Newton's method brings them, which shifts a slow impact in time by far more.
     """
     apart = abs(time - duration)
-    if apart <= ARRIVAL_TOLERANCE * duration or apart > SHIFT * duration:
-        return apart <= ARRIVAL_TOLERANCE * duration
+    if apart <= IMPACT_RTOL * duration or apart > SHIFT * duration:
+        return apart <= IMPACT_RTOL * duration
     between, _ = rotor.system.at_plane(rotor.system.fly(after, np.array(0.5 * (time + duration))), 0)
     return bool(abs(abs(between) - 1.0) <= TOLERANCE * (1.0 + np.abs(after).max()))
 
