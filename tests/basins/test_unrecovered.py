@@ -12,7 +12,7 @@ from machines import PAPER
 import carom
 from carom.base.outcome import InputError, Outcome
 from carom.basins import smallest_unrecovered
-from carom.basins.unrecovered import FULL, Found, _SizeSearch
+from carom.basins.unrecovered import FULL, _SizeSearch
 from carom.disturbances import StateSlice, VelocityKick
 
 pytestmark = pytest.mark.jit_only
@@ -162,7 +162,7 @@ class _Striped(_SizeSearch):
 def test_a_smallest_loss_whose_neighbours_come_back_is_said_to_be_sensitive():
     search = _Striped(carom.models.jeffcott(MACHINE), VelocityKick(1.0), 1e-3, None, FULL)
     assert search.result(1.0).sensitivity == ""
-    search.best = Found(0.4, 0.4004, 0.3, Outcome.FORWARD_RUB)
+    search.hits = np.array([[0.4004], [Outcome.FORWARD_RUB], [0.3]])
     found = search.result(0.4)
     assert 0 < found.neighbours_lost < found.neighbours
     assert f"sensitive: {found.neighbours - found.neighbours_lost} of 32 within 1e-09 of it come back" in found.words

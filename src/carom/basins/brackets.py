@@ -52,7 +52,7 @@ class SmallestUnrecovered(Result):
     largest : float
         Largest size searched.
     tolerance : float
-        Relative width to which the smallest is bisected, and angle in rad between the last directions tried.
+        Relative width to which the smallest is bisected.
     tried : int
         Number of starts followed.
     complete : bool

@@ -25,6 +25,24 @@ def starts_by_size(rotor: Rotor, model: Disturbance, sizes: np.ndarray, *at: np.
     return model.starts_on(rotor, sizes, *at)
 
 
+def on_few_machines(
+    rotor: Rotor, model: Disturbance, sizes: np.ndarray, at: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Disturbances close to those of these sizes in these directions ``at[0]``, that lead to so many machines at most.
+
+    The unbalances after losses of a blade, of any rotor that changes along its unbalance, are moved to circles: all of one circle lead
+    to the same machine, the frame of which has turned.
+    """
+    before = rotor.definition.unbalance_along(model.node) if isinstance(model, BladeLoss) else None
+    if before is None:
+        return sizes, at
+    places = before + sizes * np.exp(1j * at[0])
+    for some in np.array_split(np.abs(places).argsort(), count):
+        if some.size:
+            places[some] *= np.abs(places[some[some.size // 2]]) / np.abs(places[some])
+    return np.abs(places - before), np.vstack([np.angle(places - before), at[1:]])
+
+
 def contact_free_size(rotor: Rotor, model: Disturbance) -> float:
     """Size up to which contact is proven to be impossible; nothing is proven of a subclass, which may start anywhere."""
     if type(model) is VelocityKick:

@@ -7,6 +7,7 @@ the smallest size found that does not.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.brackets import BESIDE_LOST, NEIGHBOURS, SmallestUnrecovered
-from carom.basins.families import contact_free_size, size_coordinate, starts_by_size
+from carom.basins.families import contact_free_size, on_few_machines, size_coordinate, starts_by_size
 from carom.disturbances import Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
@@ -32,34 +33,30 @@ class Effort(NamedTuple):
 
     directions: int = 96
     sizes: int = 96
-    """Directions all around, and sizes in each, that are scanned."""
-    beside: int = 8
-    """Directions to each side of the best one so far, in each round."""
-    below: int = 24
-    """Sizes up to the best one so far, tried in each direction."""
-    near: int = 32
-    """Pairs of direction and instant about the best one so far in each round."""
+    """Directions all around, and intervals of size, of the scan."""
+    near: int = 96
+    """Disturbances below the smallest unrecovered one in each round."""
     drawn: int = 2000
     """Fresh starts below the smallest unrecovered size."""
     around: int = 720
-    """Directions over a full turn among the fresh starts, at the upper end of their sizes."""
+    """Directions over a full turn among the fresh starts, at the upper end of their sizes; as many times more pairs as in the scan."""
 
 
 FULL = Effort()
-COARSE, COARSEST, MANY_MODES = Effort(24, 24, drawn=500, around=120), Effort(12, 24, drawn=500, around=120), 16
+COARSE, COARSEST, MANY_MODES = Effort(24, 24, 32, 500, 120), Effort(12, 24, 16, 500, 120), 16
 """For rotors whose motions are followed one after another, and for those of more modes than that."""
-ONE_EACH = Effort(24, 12, beside=3, below=4, near=12, drawn=300, around=96)
-"""Where each disturbance leads to a machine of its own, the exact results of which take milliseconds."""
-TOGETHER = 768
-"""About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them fails to come back."""
-NARROWED = 4
-"""Factor by which the spacing of directions is reduced from one round of refinement to the next."""
+LOSSES, MACHINES = Effort(24, 12, 24, 300, 96), 8
+"""For losses of a blade, each of which leads to a machine of its own, and number of such machines in a round."""
+PAIRS = 4
+"""Where the instant matters, as many times more pairs of direction and instant are tried than directions else."""
 GOLDEN = (5.0**0.5 - 1.0) / 2.0
 """Share of a turn between instants of neighbouring directions: pairs are then spread evenly over both."""
-PAIRS, COARSER = 4, 4
-"""Where the instant matters, as many times more pairs of direction and instant are scanned than directions else, at fewer sizes."""
-CLOSER = 2.5
-"""Factor by which the distance of pairs from the best one so far is reduced from one round to the next."""
+KEPT, BEST = 64, 16
+"""Smallest unrecovered ones that are kept for those of the next round, and those of them that are displaced."""
+AGAIN, CLOSEST = 0.05, 0.5
+"""Part of the smallest unrecovered size by which the search begins again below it, and share of the tolerance at which it ends."""
+MARGIN = 10.0
+"""Where the instant matters, all are said to come back up to so many tolerances below the smallest: basins are rough there, and no sample finds their lowest point."""
 FEWEST = 60
 """Fewest fresh starts for which the budget of a study must suffice: 95 of 100 such samples show that one in twenty does not come back."""
 
@@ -79,12 +76,11 @@ def smallest_unrecovered(
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
     Where the end depends on the instant of the turn at which a disturbance comes (:attr:`carom.models.Rotor.depends_on_instant`), all that is
-    said here of directions holds of pairs of direction and instant.  All directions are scanned at increasing sizes between the proven contact-free one (zero where nothing is proven, see
-    :func:`~carom.closed_forms.contact_free_kick`) and the largest, up to the first at which some
-    do not come back.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
-    bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
-    the best size; if some do not come back, the search continues from the smallest of them.  Basins can be thinner than any
-    sample, so a smaller one is possible.
+    said here of directions holds of pairs of direction and instant.  All directions are tried at increasing sizes between the proven contact-free one (zero where nothing is proven, see
+    :func:`~carom.closed_forms.contact_free_kick`) and the largest, up to the first interval of sizes in which some do not come back.  Then ever smaller intervals below the smallest
+    unrecovered size are tried, in directions near those of the smallest ones so far, until they are half the tolerance wide; the gap in the direction of the smallest is halved
+    to the tolerance.  Finally fresh starts are drawn below it; if some do not come back, the search continues from them.  Basins can be thinner than any
+    sample, so a smaller one is possible.  All are said to come back up to the tolerance below the smallest, or ten times that where the instant matters: basins are rough there.
 
     Parameters
     ----------
@@ -133,7 +129,7 @@ def smallest_unrecovered(
 
 def _effort(rotor: Rotor, model: Disturbance) -> Effort:
     if model.changes_machine:
-        return ONE_EACH
+        return LOSSES
     return FULL if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
 
 
@@ -142,49 +138,31 @@ def _searched(search: _SizeSearch, directions: int, sizes: int, tell: Reporter) 
     contact_free, largest = search.contact_free, search.largest
     if contact_free >= largest:
         return search.result(largest)
-    all_round = _all_round(directions, search.timed)
-    if search.timed:
-        sizes = max(1, sizes // COARSER)
-    if contact_free == 0.0:
-        search.scan(all_round, np.zeros(1))
-        if search.best is not None:
-            return search.result(None)
-    levels = contact_free + (largest - contact_free) * np.arange(sizes + 1) / sizes
-    search.scan(all_round, levels)
-    search.refine(TURN / directions)
+    around = search.all_around(directions)
+    if contact_free == 0.0 and search.follow(np.zeros(around.shape[1]), around):
+        return search.result(None)
+    search.climb(directions, contact_free + (largest - contact_free) * np.linspace(0.0, 1.0, sizes + 1) ** 2)
+    apart = TURN / directions
+    search.narrow(search.least - search.back, apart)
     for number in range(MOST_CHECKS):
         tell(0.5 + 0.5 * number / MOST_CHECKS)
-        below = largest if search.best is None else search.share * search.best.recovered
+        before = search.least
+        below = min(largest, (1.0 - search.tolerance) * before)
         if below <= contact_free:
             break
-        before = search.best
         fresh = search.draw(below, number)
-        if search.best is before:
+        search.narrow(AGAIN * search.least, apart)
+        if search.least > below:
             tell(1.0)
-            return search.result(below, *fresh)
-        search.refine(TURN / directions)
+            return search.result(min(below, search.surely * search.least), *fresh)
     return search.result(contact_free or None)
 
 
-def _all_round(directions: int, timed: bool) -> np.ndarray:
-    """Evenly spaced directions over a turn, shape (1, n), or with instants, shape (2, n)."""
-    count = directions * (PAIRS if timed else 1)
-    angles = TURN * np.arange(count) / count
-    return np.stack([angles, TURN * (GOLDEN * np.arange(count) % 1.0)]) if timed else angles[None]
-
-
-class Found(NamedTuple):
-    """A bracket in one direction, and at one instant where that matters."""
-
-    recovered: float
-    size: float
-    angle: float
-    outcome: Outcome
-    instant: float | None = None
-
-
 class _SizeSearch:
-    """Search among the disturbances of a model by size and direction; ``best`` is the smallest unrecovered one so far."""
+    """Search among the disturbances of a model by size and direction, and instant where that matters.
+
+    ``hits`` has the smallest unrecovered ones so far by increasing size: rows are the size, the outcome, the direction and the instant.
+    """
 
     def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None, effort: Effort) -> None:
         size = size_coordinate(model)
@@ -197,82 +175,76 @@ class _SizeSearch:
             size.high,
             rotor.depends_on_instant,
         )
-        # Where trials are dear, no smaller ones are sought than by half the tolerance.
-        self.share = 1.0 - 0.5 * tolerance if model.changes_machine else 1.0
+        self.pairs = PAIRS if self.timed else 1
+        self.surely = 1.0 - (MARGIN if self.timed else 1.0) * tolerance
+        self.random = np.random.default_rng(0)
         self.tried = 0
-        self.best: Found | None = None
-        self.back = 0.0  # up to here all directions scanned came back
+        self.hits = np.empty((3 + self.timed, 0))
+        self.recovered = self.back = self.contact_free  # in the direction of the smallest, and up to here in all tried
 
-    def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
-        """Scan angles (k, n) at increasing sizes, the first of which is known to recover, up to that at which some do not come back.
+    @property
+    def least(self) -> float:
+        """Smallest unrecovered size so far."""
+        return float(self.hits[0, 0]) if self.hits.size else math.inf
 
-        These are bisected below it; what does not come back farther out cannot be smaller.  A single size is only tried, not bisected.
+    def all_around(self, directions: int) -> np.ndarray:
+        """Evenly spaced directions over a turn, shape (1, n), or pairs of direction and instant, shape (2, n)."""
+        count = directions * self.pairs
+        angles = TURN * (np.arange(count) + self.random.random()) / count
+        instants = TURN * ((GOLDEN * np.arange(count) + self.random.random()) % 1.0)
+        return np.stack([angles, instants][: 1 + self.timed])
+
+    def follow(self, sizes: np.ndarray, at: np.ndarray) -> bool:
+        """Follow those that are smaller than the smallest so far; keep those that do not come back, and return whether there are any."""
+        inside = (sizes < self.least) & (sizes <= self.largest)
+        sizes, at = sizes[inside], at[:, inside]
+        outcomes = self._outcomes(sizes, at)
+        gone = unrecovered(outcomes)
+        self.hits = np.append(self.hits, np.stack([sizes, outcomes, *at])[:, gone], axis=1)
+        self.hits = self.hits[:, self.hits[0].argsort(kind="stable")[:KEPT]]
+        return bool(gone.any())
+
+    def climb(self, directions: int, levels: np.ndarray) -> None:
+        """Try all directions at increasing sizes, up to the first interval in which some do not come back."""
+        for low, high in pairwise(levels.tolist()):
+            at = self.all_around(directions)
+            sizes = low + (high - low) * self.random.random(at.shape[1])
+            if self.follow(*on_few_machines(self.rotor, self.model, sizes, at, MACHINES)):
+                return
+            self.back = high
+
+    def narrow(self, reach: float, apart: float) -> None:
+        """Try disturbances below the smallest unrecovered one, first by up to ``reach``, then ever less; then halve the gap in its direction.
+
+        Each has the direction and instant of one of those kept, displaced by a part of the difference between two others, so that long
+        valleys are followed along, and at random by up to ``apart`` at first.
         """
-        bisect = len(levels) > 1
-        # Where motions are followed one after another, or machines are many, larger sizes are dear that a smaller one makes needless.
-        dear = self.model.changes_machine or not self.rotor.system.is_planar
-        together = 1 if dear else max(1, TOGETHER // angles.shape[1])
-        sizes, known = levels[bisect:], self.best is not None
-        for begin in range(0, len(sizes), together):
-            outcomes, gone = self._follow(sizes[None, begin : begin + together], angles[:, :, None])
-            first = begin + (int(gone.any(axis=0).argmax()) if gone.any() else outcomes.shape[1])
-            if bisect and not known:
-                self.back = float(levels[first])
-            if gone.any():
-                break
-        else:
+        if not self.hits.size:
             return
-        place = first - begin
-        failing = np.flatnonzero(gone[:, place])
-        ends, angles = outcomes[failing, place], angles[:, failing]
-        low, high = (np.full(len(failing), levels[each]) for each in (first, first + bisect))
-        self._note(low, high, angles, ends)
-        while ((high - low) > self.tolerance * high).any():
-            middle = 0.5 * (low + high)
-            found, gone = self._follow(middle, angles)
-            low, high, ends = np.where(gone, low, middle), np.where(gone, middle, high), np.where(gone, found, ends)
-            least = low < high.min()  # the others have brackets above the smallest
-            low, high, ends, angles = low[least], high[least], ends[least], angles[:, least]
-        self._note(low, high, angles, ends)
-
-    def _note(self, low: np.ndarray, high: np.ndarray, angles: np.ndarray, ends: np.ndarray) -> None:
-        """Note the smallest of several brackets, if it is the best so far."""
-        place = int(high.argmin())
-        if self.best is None or high[place] <= self.best.size:
-            direction, *instant = angles[:, place].tolist()
-            self.best = Found(float(low[place]), float(high[place]), direction, Outcome(int(ends[place])), *instant)
-
-    def refine(self, apart: float) -> None:
-        """Scan directions to both sides of the best one, or pairs all around it, ever closer."""
-        if self.timed:
-            self._refine_pairs(apart)
-            return
-        beside = self.effort.beside
-        while self.best is not None and apart > self.tolerance:
-            apart /= NARROWED
-            angles = self.best.angle + apart * np.delete(np.arange(-beside, beside + 1), beside)
-            self.scan(angles[None], np.linspace(self.contact_free, self.share * self.best.size, self.effort.below + 1))
-
-    def _refine_pairs(self, apart: float) -> None:
-        """Scan pairs spread over discs about the best one, from two distances between pairs of the first scan down to the tolerance."""
-        reach, number = 2.0 * math.sqrt(apart * TURN / PAIRS), np.arange(self.effort.near) + 0.5
-        spread = np.sqrt(number / self.effort.near) * np.array(
-            [np.cos(TURN * GOLDEN * number), np.sin(TURN * GOLDEN * number)]
-        )
-        while self.best is not None and reach > self.tolerance:
-            at = np.array([[self.best.angle], [self.best.instant]])
-            self.scan(
-                at + reach * spread,
-                np.linspace(self.contact_free, self.share * self.best.size, self.effort.below // 2 + 1),
+        gap, count = reach, self.effort.near * self.pairs
+        while gap > CLOSEST * self.tolerance * self.least:
+            before, (one, other) = self.least, self.random.integers(self.hits.shape[1], size=(2, count))
+            first = self.random.integers(min(BEST, self.hits.shape[1]), size=count)
+            at = self.hits[2:, first] + self.random.random(count) ** 1.5 * _turned(
+                self.hits[2:, one] - self.hits[2:, other]
             )
-            reach /= CLOSER
+            at += apart * math.sqrt(gap / reach) * self.random.standard_normal(at.shape)
+            sizes = np.maximum(before - gap * self.random.random(count), self.contact_free)
+            self.follow(*on_few_machines(self.rotor, self.model, sizes, at, MACHINES))
+            gap /= 1.0 if before - self.least > 0.5 * gap else 2.0
+        low = self.contact_free
+        while self.least - low > self.tolerance * self.least:
+            middle = 0.5 * (low + self.least)
+            if not self.follow(np.array([middle]), self.hits[2:, :1]):
+                low = middle
+        self.recovered = low
 
     def draw(self, below: float, seed: int) -> tuple[int, int]:
-        """Try fresh starts up to a size, and all directions at it; bisect those that do not come back; return how many were tried, and how many of these drawn.
+        """Try fresh starts up to a size, and all directions at it; return how many were tried, and how many of these drawn.
 
         Where the budget of a study does not suffice for all of them, those that were followed count.
         """
-        random, drawn, around = np.random.default_rng(seed), self.effort.drawn, self.effort.around
+        random, drawn, around = np.random.default_rng(seed), self.effort.drawn, self.pairs * self.effort.around
         low, shares = self.contact_free, random.random(drawn)
         area = np.sqrt(low**2 + (below**2 - low**2) * shares)
         sizes = np.append(area if self.size.over_disc else low + (below - low) * shares, np.full(around, below))
@@ -284,16 +256,14 @@ class _SizeSearch:
         if np.count_nonzero(followed[:drawn]) < min(FEWEST, drawn):
             raise BudgetSpentError("too few fresh starts could be followed")
         gone = unrecovered(np.where(followed, outcomes, Outcome.GRAZING))
-        for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
-            if self.best is None or sizes[place] < self.best.size:
-                self.scan(
-                    angles[:, place : place + 1], np.linspace(self.contact_free, sizes[place], self.effort.below + 1)
-                )
+        if gone.any():
+            found = np.stack([sizes, outcomes, *angles])[:, gone]
+            self.hits = found[:, found[0].argsort()[:KEPT]]
         return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:drawn]))
 
     def unfinished(self) -> SmallestUnrecovered:
         """Result of a search that was ended."""
-        below = self.back > self.contact_free and (self.best is None or self.best.size > self.back)
+        below = self.contact_free < self.back < self.least
         return self.result(self.back if below else None, complete=False)
 
     def result(
@@ -303,7 +273,10 @@ class _SizeSearch:
 
         The neighbours are followed only where the search came to its end: otherwise nothing is left to follow them with.
         """
-        recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
+        size, outcome, angle, instant = None, None, None, None
+        if self.hits.size:
+            size, code, angle, *instants = self.hits[:, 0].tolist()
+            outcome, instant = Outcome(int(code)), instants[0] if instants else None
         return SmallestUnrecovered(
             kind=self.model.kind,
             quantity=self.size.scale,
@@ -312,12 +285,12 @@ class _SizeSearch:
             tolerance=self.tolerance,
             scales=self.rotor.scales,
             neighbours_lost=self._neighbours_lost() if complete else 0,
-            neighbours=NEIGHBOURS if complete and self.best is not None else 0,
+            neighbours=NEIGHBOURS if complete and self.hits.size else 0,
             size=size,
             angle=None if angle is None else math.remainder(angle, TURN),
             instant=None if instant is None else instant % TURN,
             outcome=outcome,
-            recovered=recovered,
+            recovered=(all_back or 0.0) if size is None else self.recovered,
             all_back=all_back,
             fresh=fresh,
             drawn=drawn,
@@ -327,18 +300,12 @@ class _SizeSearch:
 
     def _neighbours_lost(self) -> int:
         """How many of the neighbours of the best one, at its instant, do not come back."""
-        if self.best is None:
+        if not self.hits.size:
             return 0
         away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
-        at = [self.best.angle + away[1]]
-        if self.best.instant is not None:
-            at.append(np.full(NEIGHBOURS, self.best.instant))
-        return int(np.count_nonzero(self._follow(self.best.size * (1.0 + away[0]), np.array(at))[1]))
-
-    def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Outcomes, and which starts do not come back; impossible and undecided starts do not count as unrecovered."""
-        outcomes = self._outcomes(sizes, angles)
-        return outcomes, unrecovered(outcomes)
+        at = np.repeat(self.hits[2:, :1], NEIGHBOURS, axis=1)
+        at[0] += away[1]
+        return int(np.count_nonzero(unrecovered(self._outcomes(self.least * (1.0 + away[0]), at))))
 
     def _outcomes(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
         """Outcomes; of impossible starts as of undecided ones."""
@@ -349,6 +316,11 @@ class _SizeSearch:
         counted = starts.exists & (starts.ended == Outcome.CLEAR) & (outcomes != NOT_FOLLOWED)
         self.tried += int(np.count_nonzero(counted))
         return outcomes
+
+
+def _turned(angles: np.ndarray) -> np.ndarray:
+    """Angles from half a turn backward to half a turn forward."""
+    return (angles + 0.5 * TURN) % TURN - 0.5 * TURN
 
 
 def unrecovered(outcomes: np.ndarray) -> np.ndarray:

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from carom.parameters import Scales
 
 
+SAME_CIRCLE = 14
+"""Decimals of a clearance to which unbalances are of one size."""
+
+
 @dataclass(frozen=True)
 class BladeLoss(Disturbance):
     """The unbalance changes by a vector of a stated size, for example because a blade is lost; its phase is free.
@@ -107,9 +111,13 @@ def starts_after(
     """Starts after changes of the unbalance of these sizes and phases at these instants, with the machine after each."""
     sizes, phases, instants = np.broadcast_arrays(sizes, phases, instants)
     after, turned = np.empty(phases.shape, object), np.empty(phases.shape)
+    before = rotor.definition.unbalance_along(node)
+    known: dict[float, Rotor] = {}
     for place in np.ndindex(phases.shape):
         change = cmath.rect(float(sizes[place]), float(phases[place]))
         after[place], turned[place] = rotor.with_changed_unbalance(change, node)
+        if before is not None:  # all of a circle lead to one machine, up to rounding
+            after[place] = known.setdefault(round(abs(before + change), SAME_CIRCLE), after[place])
     return levitating_before(rotor, turned, instants)._replace(after=after)
 
 
