@@ -109,7 +109,7 @@ def smallest_unrecovered(
     >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> found = cm.basins.smallest_unrecovered(machine, kicks)
     >>> print(f"{found.size * machine.parameters.scales.velocity * 1e3:.3f} mm/s, ends in {found.outcome.label}")
-    5.466 mm/s, ends in forward-rub
+    5.464 mm/s, ends in forward-rub
     """
     rotor = rotor_of(machine)
     if rotor.system.rest_radius >= 1.0:
