@@ -115,9 +115,10 @@ def starts_after(
     known: dict[float, Rotor] = {}
     for place in np.ndindex(phases.shape):
         change = cmath.rect(float(sizes[place]), float(phases[place]))
-        after[place], turned[place] = rotor.with_changed_unbalance(change, node)
+        changed, turned[place] = rotor.with_changed_unbalance(change, node)
         if before is not None:  # all of a circle lead to one machine, up to rounding
-            after[place] = known.setdefault(round(abs(before + change), SAME_CIRCLE), after[place])
+            changed = known.setdefault(round(abs(before + change), SAME_CIRCLE), changed)
+        after[place] = changed
     return levitating_before(rotor, turned, instants)._replace(after=after)
 
 

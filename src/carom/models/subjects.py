@@ -39,7 +39,7 @@ def rotor_of(subject: Subject) -> Rotor:
     case = Case("machine", subject.parameters, subject, Zones()) if isinstance(subject, Machine) else subject
     if not isinstance(case, Case):
         raise InputError("machine", shown(subject), _ALLOWED)
-    rotor, limits = rotor_of(case.parameters), case.machine and case.machine.control_limit
+    rotor, limits = rotor_of(case.parameters), case.machine.control_limit if case.machine else None
     if (case.touchdown or case.drive) and rotor.has_closed_forms:
         rotor = jeffcott(rotor.parameters, case.touchdown or RIGID, drive=case.drive, air_gap=case.si.get("air_gap"))
     if limits is not None:
