@@ -98,7 +98,8 @@ class System(ModeArrays):
     def why_not_stationary(self) -> tuple[str, str] | None:
         """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
         if self.shaft is not None:
-            return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
+            never = "a shaft whose speed changes, so that no motion repeats itself"
+            return never, "leave out [drive], or simulate its motions"
         if self.is_externally_forced:
             return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
         return None
