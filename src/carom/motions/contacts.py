@@ -115,6 +115,11 @@ class ContactLog(LogTable):
         begins = np.repeat([since for since, _ in logs], [len(log) for _, log in logs])
         return cls(**columns | {name: columns[name] + begins for name in _INSTANTS}, scales=logs[0][1].scales)
 
+    def some(self, chosen: np.ndarray) -> ContactLog:
+        """Those that are chosen."""
+        columns: dict[str, Any] = {name: getattr(self, name)[chosen] for name in self.columns}
+        return replace(self, **columns)
+
     @property
     def whole(self) -> ContactLog:
         """The same where one that is not entered goes on from one before that lasts: both are one contact."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -21,15 +21,6 @@ FOLLOWED = 30
 """Contacts shown one by one: more would cover each other."""
 LATER = 1.15
 """Time up to which a drop is shown, over that since which the rotor rests or whirls."""
-
-
-class ImpactLog(NamedTuple):
-    """Impacts on a rigid wall: times, normal impulses and those of friction along growing angle, sizes of the slip before them."""
-
-    times: np.ndarray
-    impulses: np.ndarray
-    frictions: np.ndarray
-    slips: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -52,8 +43,8 @@ class Course:
         Speed of the surface of the race; ``None`` if it does not turn.
     held : ndarray of bool
         Whether the wall presses.
-    impact_log : ImpactLog or None
-        ``None`` if the wall is compliant.
+    impacts : ContactLog or None
+        ``None`` if the touchdown bearing is compliant.
     stages : tuple of float
         Times at which later stages begin.
     down : float
@@ -70,7 +61,7 @@ class Course:
     slip: np.ndarray
     race: np.ndarray | None
     held: np.ndarray
-    impact_log: ImpactLog | None
+    impacts: ContactLog | None
     stages: tuple[float, ...]
     down: float
     scales: Scales | None
@@ -87,9 +78,10 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
         course["mount"] = None
     if rotor.system.arrays.race[plane] < 0:
         course["race"] = None
+    impacts = ContactLog.joined([(part.begins, part.contacts) for part in parts])
     return Course(
         **course,
-        impact_log=None if is_compliant(rotor.system, plane) else _impact_log(parts, until),
+        impacts=None if is_compliant(rotor.system, plane) else impacts.some(impacts.time <= until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
         down=rotor.direction_of_fall,
         scales=motion.scales,
@@ -116,13 +108,6 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
         "race": race_speed(system, part.plane, amplitudes),
         "held": presses(phases[:, part.plane]),
     }
-
-
-def _impact_log(parts: list[Trajectory], until: float) -> ImpactLog:
-    log = ContactLog.joined([(part.begins, part.contacts) for part in parts])
-    here = log.time <= until
-    columns = log.time, log.normal_impulse, log.friction_impulse, np.abs(log.slip_before)
-    return ImpactLog(*(each[here] for each in columns))
 
 
 def shown_until(motion: Trajectory) -> float:

@@ -18,7 +18,8 @@ from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number, orbit_look, orbit_title
 
 if TYPE_CHECKING:
-    from carom.motions.courses import Course, ImpactLog
+    from carom.motions.contacts import ContactLog
+    from carom.motions.courses import Course
     from carom.motions.ledger import EnergyLedger
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
@@ -124,8 +125,8 @@ def touchdown(
     first = first_contacts(motion, _FIRST)
     spans = [end] if first > _SHORT * end or narrow() else [first, end]
     courses = [sampled(motion, span) for span in spans]
-    impact_log, lasts = courses[-1].impact_log, bool(courses[-1].held.any())
-    several = lasts or (impact_log is not None and len(impact_log.times) >= _SEVERAL)
+    impacts, lasts = courses[-1].impacts, bool(courses[-1].held.any())
+    several = lasts or (impacts is not None and len(impacts) >= _SEVERAL)
     # An impact or two on a rigid wall would be dots in panels of their own: the legend says how hard they are.
     rows = 3 if several or courses[-1].race is not None else 1
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.24 * max(2, rows + (ledger is not None)) * TWO_COLUMNS))
@@ -136,9 +137,9 @@ def touchdown(
         if rows > 1:
             _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
             _speeds(panels[2], course)
-        elif impact_log is not None and len(impact_log.times):
+        elif impacts is not None and len(impacts):
             unit = display_unit("impulse", course.scales)[1]
-            words = f"impulse at most {number(float(impact_log.impulses.max()), 3)} {unit}"
+            words = f"impulse at most {number(float(impacts.normal_impulse.max()), 3)} {unit}"
             panels[0].plot([], [], ls="none", label=words, gid="hardest")
         if ledger is not None:
             energies(ledger, axes=panels[-1])
@@ -187,15 +188,16 @@ def sampled(motion: Trajectory, until: float) -> Course:
     from carom.motions.courses import course_of
 
     course = course_of(motion, until)
-    scales, impact_log = course.scales, course.impact_log
+    scales, impacts = course.scales, course.impacts
     time, length, force, impulse = (display_unit(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
     speed = 1.0 if scales is None else scales.velocity
-    if impact_log is not None:
-        impact_log = impact_log._replace(
-            times=time * impact_log.times,
-            impulses=impulse * impact_log.impulses,
-            frictions=impulse * impact_log.frictions,
-            slips=speed * impact_log.slips,
+    if impacts is not None:
+        impacts = replace(
+            impacts,
+            time=time * impacts.time,
+            normal_impulse=impulse * impacts.normal_impulse,
+            friction_impulse=impulse * impacts.friction_impulse,
+            slip_before=speed * impacts.slip_before,
         )
     return replace(
         course,
@@ -206,7 +208,7 @@ def sampled(motion: Trajectory, until: float) -> Course:
         friction=force * course.friction,
         slip=speed * course.slip,
         race=None if course.race is None else speed * course.race,
-        impact_log=impact_log,
+        impacts=impacts,
         stages=tuple(time * each for each in course.stages),
     )
 
@@ -214,7 +216,7 @@ def sampled(motion: Trajectory, until: float) -> Course:
 def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
     """Draw the distance from the centre with the contacts, and why the motion ends."""
     scales, distance = course.scales, np.abs(course.place)
-    _curve(axes, course.times, distance, scales, replace(LOOKS["path"], words="radius"), soft=course.impact_log is None)
+    _curve(axes, course.times, distance, scales, replace(LOOKS["path"], words="radius"), soft=course.impacts is None)
     rolls = course.slip <= _STICKS * (1.0 if scales is None else scales.velocity)
     for meaning, those in (("slide", course.held & ~rolls), ("roll", course.held & rolls)):
         if those.any():
@@ -296,31 +298,31 @@ def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
     """Draw the forces of contact in the unit that the whole motion needs, and impulses on an axis of their own if the wall is rigid."""
     large = bool(course.scales) and float(whole.force.max()) >= _LARGE
     factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{display_unit('force', course.scales)[1]}"
-    normal = factor * np.where(course.held, course.force, np.nan if course.impact_log is not None else 0.0)
+    normal = factor * np.where(course.held, course.force, np.nan if course.impacts is not None else 0.0)
     friction = factor * np.where(course.held, np.abs(course.friction), np.nan)
     for values, look in ((normal, NORMAL), (friction, FRICTION)):
         if course.held.any():
             axes.plot(course.times, values, **look.stroke, label=look.words, gid=look.words.split(",")[0])
     held = normal[course.held & (course.force > 0.0)]
-    if course.impact_log is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
+    if course.impacts is not None and len(held) and held.max() > _WIDE_RANGE * np.median(held):
         axes.set_yscale("log")
     else:
         axes.set_ylim(0.0, 1.08 * float(np.max(held, initial=0.0)) or 1.0)
     axes.set_ylabel(f"contact force ({unit})")
     if not (whole.held & (whole.force > 0.0)).any():
         axes.set_yticks([])
-        axes.set_ylabel("no lasting contact" if course.impact_log is not None else "no contact")
-    if course.impact_log is not None and len(course.impact_log.times):
-        _impulses(axes, course.impact_log, axis_label("impulse", "impulse", course.scales) if last else "")
+        axes.set_ylabel("no lasting contact" if course.impacts is not None else "no contact")
+    if course.impacts is not None and len(course.impacts):
+        _impulses(axes, course.impacts, axis_label("impulse", "impulse", course.scales) if last else "")
 
 
-def _impulses(axes: Axes, impact_log: ImpactLog, label: str) -> None:
+def _impulses(axes: Axes, impacts: ContactLog, label: str) -> None:
     """Draw impulses as stems, on a separate axis at the right."""
     beside = axes.twinx()
     dots: dict[str, Any] = {"ls": "none", "marker": "o", "ms": 2.2, "color": LOOKS["path"].colour}
-    beside.vlines(impact_log.times, 0.0, impact_log.impulses, color=LOOKS["path"].colour, lw=0.6)
-    beside.plot(impact_log.times, impact_log.impulses, **dots)
-    beside.set(ylim=(0.0, 1.15 * float(impact_log.impulses.max())), ylabel=label)
+    beside.vlines(impacts.time, 0.0, impacts.normal_impulse, color=LOOKS["path"].colour, lw=0.6)
+    beside.plot(impacts.time, impacts.normal_impulse, **dots)
+    beside.set(ylim=(0.0, 1.15 * float(impacts.normal_impulse.max())), ylabel=label)
     axes.plot([], [], **dots, label="impulse of an impact (right axis)")
 
 
@@ -330,8 +332,8 @@ def _speeds(axes: Axes, course: Course) -> None:
     if course.held.any():
         axes.plot(course.times, slips, **SLIP.stroke, label=SLIP.words, gid="slip")
     tallest = max(float(np.nanmax(slips, initial=0.0)), float(race.max()))
-    if course.impact_log is not None:
-        times, slips = course.impact_log.times, course.impact_log.slips
+    if course.impacts is not None:
+        times, slips = course.impacts.time, np.abs(course.impacts.slip_before)
         axes.plot(times, slips, "o", ms=2.2, color=SLIP.colour, label="slip before an impact")
         tallest = max(tallest, float(slips.max(initial=0.0)))
     if course.race is not None:

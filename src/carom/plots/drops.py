@@ -52,7 +52,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     end = shown_until(motion)
     within = min(end, first_contacts(motion, FOLLOWED)) if until is None else min(until, motion.begins + motion.time)
     course = sampled(motion, within)
-    touches = bool(course.held.any()) or (course.impact_log is not None and len(course.impact_log.times) > 0)
+    touches = bool(course.held.any()) or (course.impacts is not None and len(course.impacts) > 0)
     figure, (left, *close) = frames(1 + touches)
     wall = clearance(course.scales)
     clearance_circle(left, max(1.12, 1.06 * float(np.abs(course.place).max()) / wall), wall)
@@ -70,7 +70,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
         _path(right, course, np.where(jumps, np.nan, angles), gap)
         _close_to_the_wall(right, course, angles, gap, middle)
         hardest = int(course.force.argmax())
-        if course.impact_log is None:
+        if course.impacts is None:
             for axes, where in ((left, course.place), (right, angles + 1j * gap)):
                 point(axes, complex(where[hardest]), "end", label="largest force", colour=LOOKS["unstable"].colour)
     point(left, complex(course.place[0]), "start", label="start", size=4.0)
@@ -132,7 +132,7 @@ def _close_to_the_wall(axes: Axes, course: Course, angles: Floats, gap: Floats, 
     """Set the range of the close-up to depths and places of the contacts, and draw the wall."""
     axes.axhline(0.0, **LOOKS["wall"].stroke, gid="wall")
     low, near = float(gap.min()), _near(course)
-    deep = course.impact_log is None and low < 0.0
+    deep = course.impacts is None and low < 0.0
     largest = float(np.abs(angles[gap < near] - middle).max(initial=10.0))
     reach = next(each for each in _REACHES if largest <= each)
     axes.set(

@@ -13,7 +13,8 @@ import numpy as np
 from markupsafe import Markup
 
 from carom.motions import Trajectory
-from carom.motions.courses import FOLLOWED, Course, ImpactLog, course_of, first_contacts, shown_until
+from carom.motions.contacts import ContactLog
+from carom.motions.courses import FOLLOWED, Course, course_of, first_contacts, shown_until
 from carom.parameters import Scales
 from carom.parameters.formats import shown_in
 from carom.studies.wording import Wording
@@ -77,9 +78,9 @@ class Film:
     def poster(self) -> int:
         """Sample that is shown before the film is played: the largest force, or the hardest impact."""
         course = self.course
-        if course.impact_log is None or not len(course.impact_log.times):
+        if course.impacts is None or not len(course.impacts):
             return int(course.force.argmax())
-        return int(np.searchsorted(course.times, course.impact_log.times[course.impact_log.impulses.argmax()]))
+        return int(np.searchsorted(course.times, course.impacts.time[course.impacts.normal_impulse.argmax()]))
 
     sizes: ClassVar[tuple[float, ...]] = SIZES
 
@@ -101,15 +102,15 @@ class Film:
     def legend(self) -> list[tuple[str, str]]:
         """Classes and words of the arrows, with the size that the longest shows; nothing where there is no contact."""
         say, course = Wording(self.course.scales), self.course
-        lasting = " of lasting contact" if course.impact_log is not None else ""
+        lasting = " of lasting contact" if course.impacts is not None else ""
         sizes = [
             ("normal", f"normal force{lasting}", course.force, say.force),
             ("friction", f"friction{lasting}", course.friction, say.force),
         ]
-        if course.impact_log is not None:
+        if course.impacts is not None:
             impacts = [
-                ("normal", "impulse of an impact", course.impact_log.impulses, say.impulse),
-                ("friction", "that of friction", course.impact_log.frictions, say.impulse),
+                ("normal", "impulse of an impact", course.impacts.normal_impulse, say.impulse),
+                ("friction", "that of friction", course.impacts.friction_impulse, say.impulse),
             ]
             sizes = [*impacts, *sizes]
         return [
@@ -144,7 +145,7 @@ class Film:
         time = self.units.time[0] * float(self.course.times[self.poster])
         if not self.legend:
             return "Shown: the release; nothing is touched."
-        what = "the largest force" if self.course.impact_log is None else "the hardest impact"
+        what = "the largest force" if self.course.impacts is None else "the hardest impact"
         return f"Shown: {what}, {time:.4g} {self.units.time[1]} after the release."
 
     @property
@@ -175,8 +176,8 @@ class Film:
             numbers |= {"mx": np.round(course.mount.real, 4), "my": np.round(course.mount.imag, 4)}
         if course.race is not None and self._race_angles is not None:
             numbers |= {"q": np.round(units.speed[0] * course.race, 4), "b": np.round(self._race_angles, 3)}
-        if course.impact_log is not None:
-            numbers["impacts"], numbers["hardest"] = self._impact_log(course.impact_log)
+        if course.impacts is not None:
+            numbers["impacts"], numbers["hardest"] = self._impacts(course.impacts)
         entries = {name: values.tolist() for name, values in numbers.items()}
         entries |= {
             "poster": self.poster,
@@ -189,20 +190,21 @@ class Film:
         }
         return Markup(json.dumps(entries, separators=(",", ":")).replace("<", "\\u003c"))
 
-    def _impact_log(self, impact_log: ImpactLog) -> tuple[np.ndarray, np.ndarray]:
+    def _impacts(self, impacts: ContactLog) -> tuple[np.ndarray, np.ndarray]:
         """Impacts on a rigid wall: time, shares of the largest impulses, and slip, shape (n, 4); and those impulses."""
-        hardest = [self._largest(each) for each in (impact_log.impulses, impact_log.frictions)]
+        hardest = [self._largest(each) for each in (impacts.normal_impulse, impacts.friction_impulse)]
         shares = (
-            each / largest for each, largest in zip((impact_log.impulses, impact_log.frictions), hardest, strict=True)
+            each / largest
+            for each, largest in zip((impacts.normal_impulse, impacts.friction_impulse), hardest, strict=True)
         )
-        columns = self.units.time[0] * impact_log.times, *shares, self.units.speed[0] * impact_log.slips
+        columns = self.units.time[0] * impacts.time, *shares, self.units.speed[0] * np.abs(impacts.slip_before)
         return np.round(np.transpose(columns), 5), self.units.impulse[0] * np.array(hardest)
 
     def _peaks(self) -> np.ndarray:
         """Times of the contacts: of the largest force in each, or of the impacts."""
         course = self.course
-        if course.impact_log is not None:
-            return course.impact_log.times
+        if course.impacts is not None:
+            return course.impacts.time
         edges = np.flatnonzero(np.diff(np.concatenate([[0], course.force > 0.0, [0]]).astype(int))).reshape(-1, 2)
         return np.array([course.times[first + course.force[first:last].argmax()] for first, last in edges])
 
