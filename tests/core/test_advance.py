@@ -51,7 +51,7 @@ class Run:
             rub_workspace(modes, len(self.contact)),
         )
         self.times += list(self.time + log.times[:count])
-        self.planes += list(log.planes[:count])
+        self.planes += list(log.stations[:count])
         self.before += list(log.before[:count])
         self.after += list(log.after[:count])
         self.time += time

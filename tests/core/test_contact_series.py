@@ -126,8 +126,8 @@ def test_contact_at_one_plane_changes_with_what_happens_at_the_other():
     assert time > 0.5
     phases = set(map(tuple, log.phases[:count].tolist()))
     assert len(phases) > 1
-    assert set(log.planes[:count].tolist()) == {0, 1}
-    for before, plane in zip(log.before[:count], log.planes[:count], strict=True):
+    assert set(log.stations[:count].tolist()) == {0, 1}
+    for before, plane in zip(log.before[:count], log.stations[:count], strict=True):
         for other in (0, 1):
             assert abs(SYSTEM.at_plane(before, other)[0]) < 1.0 + 1e-12
         assert plane in (0, 1)
