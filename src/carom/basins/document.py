@@ -55,7 +55,7 @@ def basin_document(
         "criteria": attributes["criteria"],
         "source": attributes["source"],
     }
-    document |= in_si(document, scales, contact_free_kick="velocity")
+    document |= in_si(document, scales, harmless_kick="velocity")
     if scales is not None:
         document["scales_si"] = fields_of(scales, *SCALING)
     model = basin.plan.model
