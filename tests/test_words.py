@@ -22,6 +22,7 @@ IN_TEXT = re.compile(
 ALLOWED = {
     "gives_way": "a local name of a kernel, which would be compiled anew",
     "STRUCK": "a verdict of a kernel, which would be compiled anew",
+    "harmless_kick": "a key of JSON",
     "spare_friction": "a number of stored certificates",
     "Arrivals at a wall and lasting contact there": "the first line of a module of kernels",
 }

@@ -111,7 +111,7 @@ THEOREMS: Mapping[str, Theorem] = {
         _single_impact,
         (
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
-            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
+            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the contact-free speed",
             "which disturbances end in a rub",
             "which slides and whirls repeat that are not stated, or that there is no whirl that bounces",
         ),
@@ -125,7 +125,7 @@ THEOREMS: Mapping[str, Theorem] = {
         (
             "that there are no other orbits with two or more impacts a period: those listed are what a search found",
             "that there are no orbits with lasting contact or with impacts that stop the slip, and no irregular motions",
-            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
+            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the contact-free speed",
         ),
         ("longest_period", "cells", "impacts"),
     ),
