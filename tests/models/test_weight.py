@@ -65,7 +65,6 @@ def test_without_levitation_no_spring_and_no_damper_acts(rotor):
     "asked",
     [
         cm.find_equilibria,
-        cm.find_orbits,
         exact_rotor_of,
         lambda machine: rotor_of(machine).refuse_forces(),
     ],

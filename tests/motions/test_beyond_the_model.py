@@ -1,4 +1,4 @@
-"""Motions stop where the rotor is deeper in its touchdown bearing than the model holds, or strikes a magnet."""
+"""Motions stop where the rotor is deeper in its touchdown bearing than the model holds, or reaches a magnet."""
 
 import dataclasses
 
@@ -89,7 +89,7 @@ def test_a_motion_stops_at_a_magnet(tmp_path):
     assert radii[-1] > 1.5 >= radii[:-1].max()
     reach = drop_loads(motion).magnets
     assert reach.reached
-    assert reach.words.startswith("The rotor strikes a magnet")
+    assert reach.words.startswith("The rotor reaches a magnet")
     kicked = cm.simulate(case, cm.kick("150 mm/s"), 100.0)
     found, farthest = drop_loads(kicked).magnets, kicked.radius(np.linspace(0.0, kicked.time, 5000)).max()
     assert found.share == pytest.approx(farthest / 1.5, rel=1e-3)
