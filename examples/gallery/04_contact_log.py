@@ -11,9 +11,9 @@ machine = cm.load("../keogh-cole.toml")
 motion = cm.simulate(machine, cm.kick("100 mm/s"), until="300 ms")
 log = motion.contacts.to_dataset()
 impulse = log.normal_impulse
-print(f"{log.sizes['impact']} impacts, the hardest {float(impulse.max()):.3g} {impulse.units}")
+print(f"{log.sizes['contact']} impacts, the hardest {float(impulse.max()):.3g} {impulse.units}")
 
 # %%
-# What to see: each stem is an impact, its height the impulse.  The fourth hit is the hardest; later they settle at 9 N s, which is
+# What to see: in the middle each stem is an impact, its height the impulse.  The fourth impact is the hardest; later they settle at 9 N s, which is
 # what the bearing has to bear in regular bouncing.
-figure = cm.plots.forces(motion)
+figure = cm.plots.touchdown(motion)

@@ -18,4 +18,4 @@ print(motion.outcome.meaning)
 # same times 0.15.
 scales = machine.parameters.scales
 print(f"{equilibria[1].normal_force * scales.force:.4g} N in equilibrium")
-figure = cm.plots.forces(motion)
+figure = cm.plots.touchdown(motion)

@@ -22,4 +22,4 @@ print([contact.kind for contact in motion.lasting_contacts])
 # %%
 # What to see: the force on the bearing grows four-hundredfold within 16 ms, a turn of the shaft being 34 ms; mind the logarithmic axis.  Where
 # the friction force drops the slip has ended and the rotor rolls.  No wall is rigid under 4 MN: the study says so, and calls it *no model*.
-figure = cm.plots.forces(motion)
+figure = cm.plots.touchdown(motion)
