@@ -5,7 +5,6 @@
 Which kicks are proven to come back, and after how many impacts.  Needs ``pip install "carom[proof]"``.
 """
 
-import carom as cm
 from carom.proofs import ProvenKicks, prove_kicks
 
 proof = prove_kicks("../spindle.toml", "200 mm/s", most_impacts=1, time_limit="30 s")
