@@ -22,8 +22,11 @@ def run() -> int:
         code = 130
     except SystemExit as end:
         code = end.code if isinstance(end.code, int) else 1
+    for thread in set(threading.enumerate()) - {threading.current_thread()}:
+        thread.join(0.25)  # those that manage other processes end by themselves
     if threading.active_count() > 1:
         # A thread that is still in a kernel would come back to an interpreter that is gone, which may wait for it for ever.
+        gc.collect()  # what is shared with other processes, such as semaphores, is let go first
         os._exit(code)
     # After a Ctrl-C during an import that runs generated code, Python exits by that signal, whatever code is returned.
     # Running any other code resets this.

@@ -9,7 +9,7 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from itertools import chain, islice
 from multiprocessing import connection
@@ -26,6 +26,8 @@ AHEAD = 2
 """Chunks assigned to a worker at a time: one to compute, and one more so that it need not wait."""
 TRIES = 2
 """Number of times that a process ends while a chunk is with the workers until the chunk is tried alone; it may have been killed from outside."""
+STARTING = 1.5
+"""Seconds for which a Ctrl-C waits for a worker that starts."""
 _ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Environment of a worker: linear algebra uses one thread."""
 _Computed = TypeVar("_Computed")
@@ -116,21 +118,21 @@ def _processes(workers: int) -> Iterator[ProcessPoolExecutor]:
     from loky.backend import get_context
     from loky.process_executor import BrokenProcessPool, ProcessPoolExecutor
 
-    theirs, ours = get_context("loky").Pipe(duplex=False)
-    pool = ProcessPoolExecutor(workers, initializer=_end_with, initargs=(theirs,), env=_ENVIRONMENT)
-    try:
-        with _interrupts_blocked():
+    with ExitStack() as ending:
+        with _interrupts_blocked():  # an executor that is half made would leave semaphores behind
+            theirs, ours = get_context("loky").Pipe(duplex=False)
+            ending.callback(ours.close)
+            ending.callback(theirs.close)
+            pool = ProcessPoolExecutor(workers, initializer=_end_with, initargs=(theirs,), env=_ENVIRONMENT)
+            ending.callback(pool.shutdown, kill_workers=True)
             started = pool.submit(os.getpid)
+            wait([started], timeout=STARTING)  # a worker that is ended while it starts says so at length
         try:
             started.result()
         except BrokenProcessPool as problem:
             words = f"worker processes end before they begin ({_endings(problem)}); try --threads"
             raise CaromError(words) from None
         yield pool
-    finally:
-        pool.shutdown(kill_workers=True)
-        theirs.close()
-        ours.close()
 
 
 def _endings(problem: Exception) -> str:
@@ -167,8 +169,15 @@ def _interrupts_blocked() -> Iterator[None]:
 
     from loky.backend import resource_tracker as loky_tracker
 
+    before = os.environ.get("PYTHONWARNINGS")
+    # It frees what an interrupted process leaves behind; nobody has to do anything about it.
+    os.environ["PYTHONWARNINGS"] = ",".join(filter(None, (before, "ignore:resource_tracker:UserWarning")))
     for tracker in (resource_tracker, loky_tracker):
         tracker.ensure_running()  # otherwise it starts with the first process and unblocks the signal
+    if before is None:
+        del os.environ["PYTHONWARNINGS"]
+    else:
+        os.environ["PYTHONWARNINGS"] = before
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
