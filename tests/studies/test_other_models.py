@@ -77,7 +77,7 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
     monkeypatch.setattr("carom.studies.advice.CHECKED", 30)
     monkeypatch.setattr("carom.studies.recovery.MOST", 3)
     monkeypatch.setattr("carom.basins.unrecovered.COARSE", Effort(8, 6, drawn=20, around=24))
-    monkeypatch.setattr("carom.basins.unrecovered.ONE_EACH", Effort(8, 6, beside=2, below=4, drawn=10, around=12))
+    monkeypatch.setattr("carom.basins.unrecovered.LOSSES", Effort(8, 6, near=4, drawn=10, around=12))
     monkeypatch.setattr(
         "carom.studies.survives.smallest_unrecovered", partial(smallest_unrecovered, directions=8, sizes=6)
     )
