@@ -75,7 +75,7 @@ class BladeLoss(Disturbance):
         return starts_after(rotor, self.change, phases, self.node, instant)
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
-        """See :meth:`Disturbance.echo`; the eccentricity is stated of rotors with one unbalance alone."""
+        """See :meth:`carom.disturbances.Disturbance.echo`; the eccentricity is stated of rotors with one unbalance alone."""
         (phase,), scales = values, rotor.scales
         kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
         words = (
@@ -91,7 +91,7 @@ class BladeLoss(Disturbance):
         return Echo(self.kind, words, sizes)
 
     def up_to_words(self, before: float | None, scales: Scales | None) -> str:
-        """See :meth:`Disturbance.up_to_words`."""
+        """See :meth:`carom.disturbances.Disturbance.up_to_words`."""
         start = "" if before is None else f" from {eccentricity_words(before, scales)}"
         change = eccentricity_words(self.change, scales)
         return f"{self.coordinates[0].words}: all around; eccentricity{self._where} changes{start} by {change}"

@@ -72,7 +72,7 @@ class VelocityKick(Disturbance):
         return _kicked(rotor, velocity, instant)
 
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
-        """See :meth:`Disturbance.apply`."""
+        """See :meth:`carom.disturbances.Disturbance.apply`."""
         from carom.models import rotor_of
         from carom.motions.starts import levitating
 
@@ -84,7 +84,7 @@ class VelocityKick(Disturbance):
         return rotor, levitating(rotor, cmath.rect(speed, direction), begun)
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
-        """See :meth:`Disturbance.echo`."""
+        """See :meth:`carom.disturbances.Disturbance.echo`."""
         speed, angle = values
         size = f"{format_quantity(speed, 'velocity', rotor.scales)} at {format_angle(angle)}"
         sizes = {"speed": (speed, "velocity"), "angle": (angle, "")}
@@ -269,7 +269,7 @@ class BaseShock(Disturbance):
         return in_stages((pulse, *further)), start
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
-        """See :meth:`Disturbance.echo`."""
+        """See :meth:`carom.disturbances.Disturbance.echo`."""
         (peak, angle), scales = values, rotor.scales
         size = f"{format_quantity(peak, 'acceleration', scales)} for {format_quantity(self.duration, 'time', scales)} at {format_angle(angle)}"
         counted = angles_words(rotor.unbalance_phase, ", as it lies when the shock begins")
@@ -277,7 +277,7 @@ class BaseShock(Disturbance):
         return Echo(self.kind, f"Shock of the base: half-sine, {size}; {counted}; times count from then", sizes)
 
     def up_to_words(self, before: float | None, scales: Scales | None) -> str:
-        """See :meth:`Disturbance.up_to_words`."""
+        """See :meth:`carom.disturbances.Disturbance.up_to_words`."""
         return f"{super().up_to_words(before, scales)} for {format_quantity(self.duration, 'time', scales)}"
 
     def release(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> State:

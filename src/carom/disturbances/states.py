@@ -169,7 +169,7 @@ class GivenState(Disturbance):
         return Starts.of(positions, complex_of(vx, vy), within(positions)).at(instant)
 
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
-        """See :meth:`Disturbance.apply`; the state may lie in a compliant touchdown bearing."""
+        """See :meth:`carom.disturbances.Disturbance.apply`; the state may lie in a compliant touchdown bearing."""
         from carom.models import rotor_of
         from carom.motions.starts import State
 
@@ -182,7 +182,7 @@ class GivenState(Disturbance):
         return rotor, State(complex(x, y), complex(vx, vy), time=begun)
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
-        """See :meth:`Disturbance.echo`."""
+        """See :meth:`carom.disturbances.Disturbance.echo`."""
         x, y, vx, vy = values
         begun = moving(complex(x, y), complex(vx, vy), rotor.scales)
         counted = angles_words(rotor.unbalance_phase, ", as it lies at the start")
@@ -217,7 +217,7 @@ class Whirl(Disturbance):
     def whole(
         self, values: Sequence[float | str], instant: float | str = 0.0, scales: Scales | None = None
     ) -> tuple[float, ...]:
-        """See :meth:`Disturbance.whole`."""
+        """See :meth:`carom.disturbances.Disturbance.whole`."""
         found = super().whole(values, instant, scales)
         if not 0.0 <= found[0] <= 1.0:
             raise InputError("whirl radius", values[0], "must be from 0 to the clearance")

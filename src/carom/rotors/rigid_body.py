@@ -135,7 +135,7 @@ class RigidRotor(FreeRotor):
         return self.rows(self.places) @ shapes
 
     def carried(self, shapes: np.ndarray) -> np.ndarray:
-        """See :meth:`FreeRotor.carried`: of a rotor held at a point, what a force on all its masses does to the tilt."""
+        """See ``FreeRotor.carried``: of a rotor held at a point, what a force on all its masses does to the tilt."""
         return super().carried(shapes) if self.pivot is None else -self.mass * self.pivot * shapes[0]
 
     @property
