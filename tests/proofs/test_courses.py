@@ -10,7 +10,7 @@ from machines import random_parameters
 
 from carom.bifurcations.conditions import conditions_at, jacobian_at, profile_at
 from carom.orbits import find_orbits
-from carom.parameters import LineNumbers as Doubles
+from carom.parameters import Numbers as Doubles
 from carom.proofs.balls import at_precision
 from carom.proofs.courses import OrbitCourse, Return, period_condition
 from carom.proofs.hypotheses import hypotheses_of
