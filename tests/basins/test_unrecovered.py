@@ -162,7 +162,7 @@ class _Striped(_SizeSearch):
 def test_a_smallest_loss_whose_neighbours_come_back_is_said_to_be_sensitive():
     search = _Striped(carom.models.jeffcott(MACHINE), VelocityKick(1.0), 1e-3, None, FULL)
     assert search.result(1.0).sensitivity == ""
-    search.failing_cells = np.array([[0.4004], [Outcome.FORWARD_RUB], [0.3]])
+    search.smallest_ones = np.array([[0.4004], [Outcome.FORWARD_RUB], [0.3]])
     found = search.result(0.4)
     assert 0 < found.neighbours_lost < found.neighbours
     assert f"sensitive: {found.neighbours - found.neighbours_lost} of 32 within 1e-09 of it come back" in found.words

@@ -161,7 +161,7 @@ def _searched(search: _SizeSearch, directions: int, sizes: int, tell: Reporter) 
 class _SizeSearch:
     """Search among the disturbances of a model by size and direction, and instant where that matters.
 
-    ``failing_cells`` has the smallest unrecovered ones so far by increasing size: rows are the size, the outcome, the direction and the instant.
+    ``smallest_ones`` has the smallest unrecovered ones so far by increasing size: rows are the size, the outcome, the direction and the instant.
     """
 
     def __init__(self, rotor: Rotor, model: Disturbance, tolerance: float, threads: int | None, effort: Effort) -> None:
@@ -179,13 +179,13 @@ class _SizeSearch:
         self.surely = 1.0 - (MARGIN if self.timed else 1.0) * tolerance
         self.random = np.random.default_rng(0)
         self.tried = 0
-        self.failing_cells = np.empty((3 + self.timed, 0))
+        self.smallest_ones = np.empty((3 + self.timed, 0))
         self.recovered = self.back = self.contact_free  # in the direction of the smallest, and up to here in all tried
 
     @property
     def least(self) -> float:
         """Smallest unrecovered size so far."""
-        return float(self.failing_cells[0, 0]) if self.failing_cells.size else math.inf
+        return float(self.smallest_ones[0, 0]) if self.smallest_ones.size else math.inf
 
     def all_around(self, directions: int) -> np.ndarray:
         """Evenly spaced directions over a turn, shape (1, n), or pairs of direction and instant, shape (2, n)."""
@@ -200,8 +200,8 @@ class _SizeSearch:
         sizes, at = sizes[inside], at[:, inside]
         outcomes = self._outcomes(sizes, at)
         gone = unrecovered(outcomes)
-        self.failing_cells = np.append(self.failing_cells, np.stack([sizes, outcomes, *at])[:, gone], axis=1)
-        self.failing_cells = self.failing_cells[:, self.failing_cells[0].argsort(kind="stable")[:KEPT]]
+        self.smallest_ones = np.append(self.smallest_ones, np.stack([sizes, outcomes, *at])[:, gone], axis=1)
+        self.smallest_ones = self.smallest_ones[:, self.smallest_ones[0].argsort(kind="stable")[:KEPT]]
         return bool(gone.any())
 
     def climb(self, directions: int, levels: np.ndarray) -> None:
@@ -219,14 +219,14 @@ class _SizeSearch:
         Each has the direction and instant of one of those kept, displaced by a part of the difference between two others, so that long
         valleys are followed along, and at random by up to ``apart`` at first.
         """
-        if not self.failing_cells.size:
+        if not self.smallest_ones.size:
             return
         gap, count = reach, self.effort.near * self.pairs
         while gap > CLOSEST * self.tolerance * self.least:
-            before, (one, other) = self.least, self.random.integers(self.failing_cells.shape[1], size=(2, count))
-            first = self.random.integers(min(BEST, self.failing_cells.shape[1]), size=count)
-            at = self.failing_cells[2:, first] + self.random.random(count) ** 1.5 * _turned(
-                self.failing_cells[2:, one] - self.failing_cells[2:, other]
+            before, (one, other) = self.least, self.random.integers(self.smallest_ones.shape[1], size=(2, count))
+            first = self.random.integers(min(BEST, self.smallest_ones.shape[1]), size=count)
+            at = self.smallest_ones[2:, first] + self.random.random(count) ** 1.5 * _turned(
+                self.smallest_ones[2:, one] - self.smallest_ones[2:, other]
             )
             at += apart * math.sqrt(gap / reach) * self.random.standard_normal(at.shape)
             sizes = np.maximum(before - gap * self.random.random(count), self.contact_free)
@@ -235,7 +235,7 @@ class _SizeSearch:
         low = self.contact_free
         while self.least - low > self.tolerance * self.least:
             middle = 0.5 * (low + self.least)
-            if not self.follow(np.array([middle]), self.failing_cells[2:, :1]):
+            if not self.follow(np.array([middle]), self.smallest_ones[2:, :1]):
                 low = middle
         self.recovered = low
 
@@ -258,7 +258,7 @@ class _SizeSearch:
         gone = unrecovered(np.where(followed, outcomes, Outcome.GRAZING))
         if gone.any():
             found = np.stack([sizes, outcomes, *angles])[:, gone]
-            self.failing_cells = found[:, found[0].argsort()[:KEPT]]
+            self.smallest_ones = found[:, found[0].argsort()[:KEPT]]
         return int(np.count_nonzero(followed)), int(np.count_nonzero(followed[:drawn]))
 
     def unfinished(self) -> SmallestUnrecovered:
@@ -274,8 +274,8 @@ class _SizeSearch:
         The neighbours are followed only where the search came to its end: otherwise nothing is left to follow them with.
         """
         size, outcome, angle, instant = None, None, None, None
-        if self.failing_cells.size:
-            size, code, angle, *instants = self.failing_cells[:, 0].tolist()
+        if self.smallest_ones.size:
+            size, code, angle, *instants = self.smallest_ones[:, 0].tolist()
             outcome, instant = Outcome(int(code)), instants[0] if instants else None
         return SmallestUnrecovered(
             kind=self.model.kind,
@@ -285,7 +285,7 @@ class _SizeSearch:
             tolerance=self.tolerance,
             scales=self.rotor.scales,
             neighbours_lost=self._neighbours_lost() if complete else 0,
-            neighbours=NEIGHBOURS if complete and self.failing_cells.size else 0,
+            neighbours=NEIGHBOURS if complete and self.smallest_ones.size else 0,
             size=size,
             angle=None if angle is None else math.remainder(angle, TURN),
             instant=None if instant is None else instant % TURN,
@@ -300,10 +300,10 @@ class _SizeSearch:
 
     def _neighbours_lost(self) -> int:
         """How many of the neighbours of the best one, at its instant, do not come back."""
-        if not self.failing_cells.size:
+        if not self.smallest_ones.size:
             return 0
         away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
-        at = np.repeat(self.failing_cells[2:, :1], NEIGHBOURS, axis=1)
+        at = np.repeat(self.smallest_ones[2:, :1], NEIGHBOURS, axis=1)
         at[0] += away[1]
         return int(np.count_nonzero(unrecovered(self._outcomes(self.least * (1.0 + away[0]), at))))
 

@@ -152,9 +152,9 @@ def find_orbits(
     longest_period : float, optional
         Search only periods up to this, in ``1/Ω``; where all orbits with one impact have closed forms.
     impacts : int, optional
-        Orbits with at most this many impacts a period instead; by default of rotors without closed forms a short search of those with 1, with lasting contact too: those with one impact of the planar
+        Orbits with at most this many impacts a period instead, with lasting contact too: those with one impact of the planar
         rotor, and others by Newton's method from ends and stretches of simulated motions; what is found is exact, but nothing proves
-        that it is all.
+        that it is all.  Of rotors without closed forms the default is a short search of those with one impact.
     guesses, seed : int
         Number of stretches that this search tries for each number of impacts, by default 1500 or, for a rotor of many states, as many as
         take about a minute; and the seed of the random starts.
@@ -189,24 +189,23 @@ def find_orbits(
     >>> print(f"{orbits['B1,d'].period:.6f}", orbits["B1,d"].stable)
     2.328416 True
     """
-    model = rotor_of(machine)
-    if impacts is not None or not model.has_closed_forms:
+    rotor = rotor_of(machine)
+    if impacts is not None or not rotor.has_closed_forms:
         if longest_period is not None:
             raise InputError("longest_period", longest_period, _CLOSED_FORMS_ALONE)
         if impacts is None:
             impacts, guesses = 1, guesses or A_FEW
         tell = Reporter.of(progress, "searching orbits")
-        model.system.refuse_non_stationary()
+        rotor.system.refuse_non_stationary()
         members: tuple[Any, ...]
-        if model.has_closed_forms:
-            there = [orbit for orbit in orbits_within_reach(model) if orbit.admissible]
-            members, search = search_orbits(model, impacts, guesses, seed, there, tell)
+        if rotor.has_closed_forms:
+            there = [orbit for orbit in orbits_within_reach(rotor) if orbit.admissible]
+            members, search = search_orbits(rotor, impacts, guesses, seed, there, tell)
         else:
-            members, search = search_simulated(model, impacts, guesses, seed, tell)
+            members, search = search_simulated(rotor, impacts, guesses, seed, tell)
         return OrbitSet(
-            model, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
+            rotor, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
         )
-    rotor = model
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, roots, 1)
