@@ -76,7 +76,8 @@ class VelocityKick(Disturbance):
         from carom.models import rotor_of
         from carom.motions.starts import levitating
 
-        rotor, radius = rotor_of(machine), rotor_of(machine).system.rest_radius
+        rotor = rotor_of(machine)
+        radius = rotor.system.rest_radius
         if radius > 1.0 and rotor.system.forced is None:  # with weight the kick itself says so
             words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall"
             raise InputError("kick", radius, words)

@@ -97,7 +97,7 @@ def settle_parts(parts: list[Portion], limits: EventLimits) -> Iterator[int]:
 
     When the caller stops iterating or is interrupted, no thread takes up another motion.
     """
-    if min(limits.threads, len(parts)) == 1 and all(len(part.motions) <= FEW for part in parts):
+    if (limits.threads == 1 or _is_brief(parts)) and all(len(part.motions) <= FEW for part in parts):
         yield from (_settle_part(part, limits) for part in parts)
         return
     with ThreadPoolExecutor(limits.threads) as pool:
@@ -111,6 +111,12 @@ def settle_parts(parts: list[Portion], limits: EventLimits) -> Iterator[int]:
                 part.counter.numbers[0] = STOPPED + 1
             pool.shutdown(cancel_futures=True)
             raise
+
+
+def _is_brief(parts: list[Portion]) -> bool:
+    """Whether to start threads takes longer than to follow all motions in this one."""
+    side_by_side = all(part.stage.rotor.system.is_planar for part in parts)
+    return len(parts) == 1 or (side_by_side and sum(len(part.motions) for part in parts) <= FEW)
 
 
 def _settle_part(part: Portion, limits: EventLimits) -> int:

@@ -76,18 +76,25 @@ def search_orbits(
 
 def _orbits_of_ends(
     rotor: Rotor, count: int, random: np.random.Generator
-) -> Iterator[tuple[Orbit | SimulatedOrbit, int]]:
-    """Orbits on which motions from random starts end, with the number of motions; an orbit may come several times."""
+) -> tuple[list[tuple[Orbit | SimulatedOrbit, int]], int]:
+    """Orbits on which motions from random starts end, with the number of motions; an orbit may come several times.
+
+    And the number of motions that had not settled when they were given up.
+    """
     ends: Endings = settle(rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
-    ends = ends[((ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities > 0)) | (ends.outcomes == Outcome.MIXED)]
+    irregular = (ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities == 0)
+    unsettled = np.count_nonzero(irregular | (ends.outcomes < Outcome.LEVITATED))
+    ends = ends[((ends.outcomes == Outcome.BOUNCING) & ~irregular) | (ends.outcomes == Outcome.MIXED)]
+    found: list[tuple[Orbit | SimulatedOrbit, int]] = []
     if not len(ends.times):
-        return
+        return found, unsettled
     states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
     _, different, numbers = np.unique(states.round(KIND), axis=0, return_index=True, return_counts=True)
     for place, number in zip(different[:ENDS].tolist(), numbers[:ENDS].tolist(), strict=True):
         orbit = orbit_of_motion(simulate(rotor, ends.state(place), settle=True))
         if orbit is not None:
-            yield orbit, number
+            found.append((orbit, number))
+    return found, unsettled
 
 
 class OrbitSearch:
@@ -125,7 +132,7 @@ class OrbitSearch:
 
     def run(self, settled: int, guesses: int, fresh: int, seed: Sequence[int], tell: Reporter) -> Searched:
         """Search, with so many guesses for each number of impacts."""
-        for orbit, _ in _orbits_of_ends(self.rotor, settled, np.random.default_rng([*seed, 1])):
+        for orbit, _ in _orbits_of_ends(self.rotor, settled, np.random.default_rng([*seed, 1]))[0]:
             self._add(orbit)
         tell(0.3)
         self._guess(guesses, np.random.default_rng([*seed, 2]), tell.part(0.3, 0.9))
@@ -136,15 +143,16 @@ class OrbitSearch:
             settled, self.motions, self.guesses, self.repeats, self.failures, self.last_new, virtual, fresh, *ended
         )
 
-    def measured(self, fresh: int, random: np.random.Generator) -> tuple[int, int]:
-        """Number of motions from random starts that end on the orbits found, and on others with no more impacts than are searched."""
+    def measured(self, fresh: int, random: np.random.Generator) -> tuple[int, int, int]:
+        """Number of motions from random starts that end on the orbits found, on others with no more impacts than are searched, and not settled."""
         listed = others = 0
-        for orbit, number in _orbits_of_ends(self.rotor, fresh, random):
+        ends, unsettled = _orbits_of_ends(self.rotor, fresh, random)
+        for orbit, number in ends:
             if any(same_orbit(orbit, other) for other in self.found):
                 listed += number
             elif orbit.impacts <= self.impacts:
                 others += number
-        return listed, others
+        return listed, others, unsettled
 
     def _guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
         """Correct stretches of motions from random starts and from beside known orbits, so many for each number of impacts."""

@@ -40,6 +40,8 @@ class Searched:
         Number of those that ended on one of the orbits.
     on_others : int
         Number of those that ended on another periodic motion with no more impacts than were searched.
+    unsettled : int
+        Number of those that had not settled when they were given up.
     """
 
     settled: int
@@ -52,6 +54,7 @@ class Searched:
     fresh: int
     on_listed: int
     on_others: int
+    unsettled: int
 
     @property
     def share_on_listed(self) -> float:
@@ -72,7 +75,8 @@ class Searched:
             f"Orbits were searched, which does not prove that these are all: {self.settled} motions "
             f"were followed until they settled; stretches of {self.motions} others gave {self.guesses} guesses for Newton's method, of "
             f"which {self.repeats} led to known orbits and {self.failures} to none; {newest}. Solutions that are not motions: {self.virtual}. "
-            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here and {self.on_others} on other orbits with no more impacts than were searched."
+            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here, {self.on_others} on other orbits with no more impacts than "
+            f"were searched, and {self.unsettled} had not settled when they were given up."
         )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,8 +24,8 @@ from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
 
 SETTLED, FRESH, GUESSES = 120, 60, 150
 """Motions followed until they settle, fresh ones afterwards, and stretches of further ones that are tried for each number of impacts."""
-GIVEN_UP = 2000
-"""Events after which a motion that does not settle is given up."""
+GIVEN_UP = 30_000
+"""Events after which a motion that does not settle is given up: weakly damped bouncing takes hundreds of periods."""
 EVENTS = 4e6
 """Events of a search (:class:`~carom.orbits.flow.FlowBudget`), some 20 s of a processor; motions followed until they settle may take a quarter."""
 SLOWEST = 0.01
@@ -50,13 +51,13 @@ def search_simulated(
     share = min(share, 1.0 if guesses is None else guesses / GUESSES)
     search = _Search(rotor, impacts, share)
     settled = search.ends(math.ceil(share * SETTLED), np.random.default_rng([seed, 1]), tell.part(0.0, 0.4))
-    for orbit, _ in settled[1]:
+    for orbit, _ in settled.orbits:
         search.add(orbit)
     search.guess(guesses or math.ceil(share * GUESSES), np.random.default_rng([seed, 2]), tell.part(0.4, 0.8))
-    fresh, ends = search.ends(math.ceil(share * FRESH), np.random.default_rng([seed, 3]), tell.part(0.8, 1.0))
-    listed = sum(count for orbit, count in ends if search.knows(orbit))
-    others = sum(count for orbit, count in ends if not search.knows(orbit) and orbit.impacts <= impacts)
-    for orbit, _ in ends:
+    fresh = search.ends(math.ceil(share * FRESH), np.random.default_rng([seed, 3]), tell.part(0.8, 1.0))
+    listed = sum(count for orbit, count in fresh.orbits if search.knows(orbit))
+    others = sum(count for orbit, count in fresh.orbits if not search.knows(orbit) and orbit.impacts <= impacts)
+    for orbit, _ in fresh.orbits:
         search.add(orbit)
     found = sorted(search.found, key=lambda orbit: (orbit.impacts, orbit.period))
     counts: dict[int, int] = {}
@@ -64,8 +65,16 @@ def search_simulated(
     for orbit in found:
         counts[orbit.impacts] = counts.get(orbit.impacts, 0) + 1
         named.append(numbered(orbit, counts[orbit.impacts]))
-    done = (settled[0], search.motions, search.guesses, search.repeats, search.failures, search.last_new)
-    return tuple(named), Searched(*done, 0, fresh, listed, others)
+    done = (settled.followed, search.motions, search.guesses, search.repeats, search.failures, search.last_new)
+    return tuple(named), Searched(*done, 0, fresh.followed, listed, others, fresh.unsettled)
+
+
+class _Ends(NamedTuple):
+    """Where motions from random starts end: how many were followed, the orbits with their numbers, and how many had not settled."""
+
+    followed: int
+    orbits: list[tuple[SimulatedOrbit, int]]
+    unsettled: int
 
 
 class _Search:
@@ -89,11 +98,9 @@ class _Search:
             self.found.append(orbit)
         return True
 
-    def ends(
-        self, count: int, random: np.random.Generator, tell: Reporter
-    ) -> tuple[int, list[tuple[SimulatedOrbit, int]]]:
-        """Periodic motions on which motions from random starts end, each with the number of these, and how many were followed."""
-        followed, reserve = 0, self.budget.left - 0.25 * self.share * EVENTS
+    def ends(self, count: int, random: np.random.Generator, tell: Reporter) -> _Ends:
+        """Follow motions from random starts until they settle or are given up."""
+        followed, unsettled, reserve = 0, 0, self.budget.left - 0.25 * self.share * EVENTS
         found: list[tuple[SimulatedOrbit | None, int]] = []
         kinds: dict[tuple[Outcome, int, bytes], int] = {}
         left = np.array_split(np.arange(count), max(1, count // 10))
@@ -102,6 +109,8 @@ class _Search:
                 start = start_of(self.rotor, random)
                 motion = self.budget.pay(simulate(self.rotor, start, patience=GIVEN_UP, max_events=GIVEN_UP))
                 state = motion.rotor.system.states_of(motion.last_amplitudes[None])
+                irregular = motion.outcome is Outcome.BOUNCING and not motion.multiplicity
+                unsettled += irregular or not motion.outcome.settled
                 kind = motion.outcome, motion.multiplicity, state.round(KIND).tobytes()
                 if kind not in kinds:
                     kinds[kind] = len(found)
@@ -112,7 +121,7 @@ class _Search:
             tell(followed / count)
             if self.budget.left < reserve:
                 break
-        return followed, [(orbit, number) for orbit, number in found if orbit is not None]
+        return _Ends(followed, [(orbit, number) for orbit, number in found if orbit is not None], unsettled)
 
     def guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
         """Close stretches of motions that nearly come back."""

@@ -121,7 +121,8 @@ def paint(
     for entry in motions:  # hatched, so that they can be distinguished without colour too
         if entry.look.hatch and (index == entry.index).any():
             drawn: dict[str, Any] = {"hatch": entry.look.hatch, "ec": ink(entry.colour), "lw": 0.0, "zorder": 1.2}
-            axes.add_patch(PathPatch(cells_path(corners, index == entry.index), fc="none", rasterized=True, **drawn))
+            # Not a patch to axes: thousands of cells, whose limits the mesh has set.
+            axes.add_artist(PathPatch(cells_path(corners, index == entry.index), fc="none", rasterized=True, **drawn))
 
 
 def share_bars(axes: Axes, looks: Sequence[MotionLook], words: Sequence[str], ends: Sequence[float]) -> None:
