@@ -1,7 +1,5 @@
 """The cells of the matrix of machines and questions, and what a command answers in each."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 from pathlib import Path

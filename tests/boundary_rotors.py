@@ -1,7 +1,5 @@
 """Rotors of two coordinates and two planes whose levitation is at a given distance from the wall at one of them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from carom.models import from_matrices

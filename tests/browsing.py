@@ -1,7 +1,5 @@
 """A real browser for the tests of the page: what it is run with, and what is done in it."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -7,8 +7,6 @@ The daily run (``make test``) is one that people wait for.  ``make test-deep`` t
 marked ``deep`` too.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What disks, crashes and careless hands do to files."""
 
-from __future__ import annotations
-
 import shutil
 
 CONTENT = ("empty", "cut", "flip", "zeros", "longer", "random")

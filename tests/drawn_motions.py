@@ -1,7 +1,5 @@
 """Machines and starts of all kinds for hypothesis to draw."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

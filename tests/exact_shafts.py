@@ -1,7 +1,5 @@
 """A shaft by its exact solution: the transfer matrix of Timoshenko's beam, no finite elements."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq

@@ -1,7 +1,5 @@
 """The magnetic-bearing rig of TU Munich with touchdown bearings, and smaller machines."""
 
-from __future__ import annotations
-
 import dataclasses
 import itertools
 

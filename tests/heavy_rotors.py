@@ -1,7 +1,5 @@
 """Rotors that weigh something, on which periodic motions take whole turns of the shaft, and the reference of some of them."""
 
-from __future__ import annotations
-
 import numpy as np
 from compliant_reference import HuntCrossley as ReferenceHuntCrossley
 from compliant_reference import KelvinVoigt as ReferenceKelvinVoigt

@@ -1,7 +1,5 @@
 """Kernels made of lines of text, with the functions on lanes at hand, and the same for one lane with NumPy's scalars."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 import numba

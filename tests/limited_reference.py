@@ -4,8 +4,6 @@ Nothing here shares a formula or a line with the package.  The right-hand side c
 short steps finds the kinks by itself.  Impacts end an integration, and the next one begins behind them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@
 ``U`` is the position in the co-rotating frame, ``Z = Ue^{it}`` that in the fixed one, ``W = 1 + θ̇`` the whirl speed there.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 

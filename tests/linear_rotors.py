@@ -4,8 +4,6 @@ Nothing here shares a formula with the package: forces are physical ones on the 
 follows the motion.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Nothing here shares a formula with the package: the flight goes through matrix e
 mpmath), the impact law through polar coordinates.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 

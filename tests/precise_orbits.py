@@ -1,7 +1,5 @@
 """Orbits with one impact a period in arithmetic of fifty digits, without a formula of the package."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import mpmath

@@ -10,8 +10,6 @@ so a step that ends before the first root of the right side cannot pass a crossi
 below; the crossing is then enclosed between the last proven time and a time where ``f`` is proven positive.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Bounces and slides around a rub by a general integrator, in polar coordinates of the frame that turns with the shaft."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

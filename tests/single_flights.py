@@ -1,7 +1,5 @@
 """Single flights in the frame of proofs about patches of them, by the exponential of a matrix and the impact law in polar coordinates."""
 
-from __future__ import annotations
-
 import cmath
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Slides along the wall near the synchronous rub."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

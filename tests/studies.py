@@ -1,7 +1,5 @@
 """Studies of machines that several tests look at: each is made once in a process, for it takes seconds."""
 
-from __future__ import annotations
-
 from carom.parameters import Case, Machine, Parameters
 from carom.studies import Study, study
 

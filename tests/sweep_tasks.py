@@ -1,7 +1,5 @@
 """Plans of small sweeps, and tasks that are quick, slow, fail or die: importable, so that other processes know them."""
 
-from __future__ import annotations
-
 import os
 import signal
 import time

@@ -1,7 +1,5 @@
 """Every question is answered for every machine, with few and short motions: those without weight, of few states."""
 
-from __future__ import annotations
-
 import pytest
 from answers import CELLS, check_answer
 

@@ -1,7 +1,5 @@
 """Every public function refuses what it cannot use in one line that names the argument, before it does anything."""
 
-from __future__ import annotations
-
 import inspect
 import math
 from importlib import import_module

@@ -1,7 +1,5 @@
 """Docstrings of the reference: their examples run, and what they point to exists."""
 
-from __future__ import annotations
-
 import doctest
 import inspect
 import re

@@ -1,7 +1,5 @@
 """What the documentation says by hand, against the code: `make docs` does not notice what is missing."""
 
-from __future__ import annotations
-
 import ast
 import re
 import shlex

@@ -1,7 +1,5 @@
 """The gallery: numbered scripts, each with a title and a figure.  `make docs` runs all of them."""
 
-from __future__ import annotations
-
 import ast
 import os
 import re

@@ -1,7 +1,5 @@
 """One motion has one name: what the page of the names rules out is not written for people anywhere."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Every function on a rotor takes a machine, a case, parameters or a model, and gives the same for each of them."""
 
-from __future__ import annotations
-
 import dataclasses
 import inspect
 from collections.abc import Mapping, Sequence

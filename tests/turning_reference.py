@@ -5,8 +5,6 @@ The numbers of a state are coordinates ``Z``, their rates, angle ``ϑ`` and spee
 a condition fixes (what keeps a plane on a rigid wall, or lets it roll) follow from the residuals of all conditions, which are linear.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

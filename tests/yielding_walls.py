@@ -3,8 +3,6 @@
 The reference gives the phases and the states between them; here impulses and works are integrated beside the equations.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import compliant_reference as reference

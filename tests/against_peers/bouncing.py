@@ -6,8 +6,6 @@ They integrate ``Ü = ρe^{iφ} − (γ + 2i)U̇ − (ω² − 1 + iγ)U`` as it
 Errors are carried along: what an integrator may add in one flight, and what the impacts make of it later.
 """
 
-from __future__ import annotations
-
 import cmath
 from functools import cache
 from time import process_time

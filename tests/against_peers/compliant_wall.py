@@ -10,8 +10,6 @@ impact takes the time ``2ψ/(sin ψ √k)`` and gives back the share ``d = e^{�
 of ``Im e^{λt}`` with ``λ = √k e^{i(π−ψ)}``, the push one of ``Im λ²e^{λt}``.  So all errors are of the order ``1/√k``.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from functools import cache

@@ -9,8 +9,6 @@ rolling keeps ``v = 0`` by a friction force ``−P`` and lasts while ``|P| ≤ �
 amplitudes by its own Taylor series instead, so nothing is shared but the physics.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cache

@@ -14,8 +14,6 @@ What that leaves out, for a first height ``h = v²/2N``:
   time ``t = 2v/N``: by ``4hP/(N(1 − d²))`` in all.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import mpmath as mp

@@ -7,8 +7,6 @@ by steps that cannot pass it: along a flight ``|g''|``, ``g = |z|²``, has a bou
 go side by side in arrays.  Bounces that accumulate end in lasting contact, followed by the rule of Runge and Kutta.
 """
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Curves of bifurcations against AUTO-07p, which follows the same bifurcations as algebraic problems of its own."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -4,8 +4,6 @@ Differences may be as large as the errors of the flights make them through the d
 the comparison goes on for as long as that is less than LARGEST.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """Rotors that ROSS ships, by its own numbers: ``ross_rotors.json``, which ``ross_rotors.py`` has written with ROSS 2.3.0."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Single flights and their first crossings, against general-purpose integrators with a terminal event at the wall."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

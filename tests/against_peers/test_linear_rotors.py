@@ -1,7 +1,5 @@
 """Rotors of several coordinates and contact planes against a general integrator in the fixed frame."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

@@ -3,8 +3,6 @@
 Where ROSS can be imported, or ``CAROM_ROSS_PYTHON`` names a Python that can, the first rotor is imported again.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

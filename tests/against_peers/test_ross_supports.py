@@ -1,7 +1,5 @@
 """A rotor of ROSS on anisotropic bearings, by the numbers of ROSS itself: ``ross_supports.py`` has written them with ROSS 2.3.0."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -4,8 +4,6 @@
 another sign of the magnets' stiffness.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Motions on compliant walls against an integrator that shares nothing with the package."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import compliant_reference as reference

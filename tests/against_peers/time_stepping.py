@@ -5,8 +5,6 @@ It knows nothing of circular walls, flights or chatter: it gets the equations of
 The scheme is of the first order.
 """
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Exponents of attractors, each checked by another route."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Attractors of rotors that weigh something: motions of whole turns, levitation about the sag, rest on the bearing, tori."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

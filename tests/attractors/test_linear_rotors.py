@@ -1,7 +1,5 @@
 """Attractors of any linear rotor: the planar one by its matrices, several rubs at rest, several planes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import random_rotor, tilting, touchdowns

@@ -1,7 +1,5 @@
 """How long irregular motion lasts: the numbers, their words, and motions whose life is known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

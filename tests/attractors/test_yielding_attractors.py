@@ -1,7 +1,5 @@
 """Attractors and basins of a rotor in a compliant wall, against its orbits and rubs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

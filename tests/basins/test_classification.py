@@ -1,7 +1,5 @@
 """Basins: every disturbance ends as it does alone, and the dataset says how it was done."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 

@@ -1,7 +1,5 @@
 """Basins of drops say what single drops say, and what is known in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

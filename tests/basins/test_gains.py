@@ -1,7 +1,5 @@
 """Gain maps: each node is the basin of its machine, and the least change is enough."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

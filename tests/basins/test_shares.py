@@ -1,7 +1,5 @@
 """One share of kicks everywhere, and how sure it is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The smallest lost kick, shock and loss of a blade."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

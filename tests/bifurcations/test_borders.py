@@ -1,7 +1,5 @@
 """Where the word of an orbit changes: the neighbouring orbit, and what simulated motions do on the other side."""
 
-from __future__ import annotations
-
 from functools import cache, reduce
 
 import numpy as np

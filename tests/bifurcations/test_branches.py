@@ -1,7 +1,5 @@
 """Branches of orbits and their special points, each looked at again by another route."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

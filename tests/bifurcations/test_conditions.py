@@ -1,7 +1,5 @@
 """Test functions and points of curves against 60 digits, and the Jacobian of branches against differences."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

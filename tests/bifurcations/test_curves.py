@@ -1,7 +1,5 @@
 """Curves in two parameters and the points on them where two bifurcations meet."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Whole diagrams and maps of a plane."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

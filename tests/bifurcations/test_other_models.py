@@ -1,7 +1,5 @@
 """Diagrams of other models than the planar rotor: their equilibria, and the orbits that a search finds."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

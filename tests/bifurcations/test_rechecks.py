@@ -1,7 +1,5 @@
 """Every kind of located point, on several machines and parameters, looked at again by a route of its own."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import mpmath

@@ -1,7 +1,5 @@
 """Resonances of the multipliers, and the Neimark–Sacker curves that begin there."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Branches of orbits with several impacts in a diagram."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Special points of steady motions along one parameter."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Maps of a plane explain every change of motions: tried along lines of which the maps know nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Neimark–Sacker bifurcations: where a pair of complex multipliers leaves the unit circle and a torus is born."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Branches of orbits of any word: against the closed form, simulation and thirty digits; switching at period doublings."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

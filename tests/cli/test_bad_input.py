@@ -13,29 +13,17 @@ from carom.base.outcome import CaromError, CaromWarning, InputError
 from carom.cli import main
 from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
 
-FIELDS = {
-    "mass": ("50 kg", "1 s"),
-    "damping": ("1400 N s/m", "1400 N/m"),
-    "stiffness": ("9.8e5 N/m", "9.8e5 N"),
-    "eccentricity": ("0.3 mm", "0.3 kg"),
-    "clearance": ("0.7 mm", "0.7 rad"),
-    "rotor_radius": ("40 mm", "40 N"),
-    "speed": ("184.2 rad/s", "184.2 m/s"),
-    "unbalance_phase": ("0.21 rad", "0.21 m"),
-    "friction": (0.15, "0.15 N"),
-    "restitution": (0.95, "0.95 m"),
-}
-
-
-def toml(values):
-    lines = ["[machine]"]
-    for name, value in values.items():
-        lines.append(f'{name} = "{value}"' if isinstance(value, str) else f"{name} = {value}")
-    return "\n".join(lines) + "\n"
-
-
-def good():
-    return {name: value for name, (value, _) in FIELDS.items()}
+MACHINE = """[machine]
+mass = "50 kg"
+damping = "1400 N s/m"
+stiffness = "9.8e5 N/m"
+eccentricity = "0.3 mm"
+clearance = "0.7 mm"
+rotor_radius = "40 mm"
+speed = "184.2 rad/s"
+friction = 0.15
+restitution = 0.95
+"""
 
 
 def assert_refused(answer, *names):
@@ -47,42 +35,6 @@ def assert_refused(answer, *names):
     assert "Traceback" not in err
     for name in names:
         assert name in err
-
-
-@pytest.fixture
-def refused(carom, tmp_path):
-    """Study a file with this text and check that it is refused and leaves no trace."""
-
-    def check(text, *names):
-        path = tmp_path / "machine.toml"
-        path.write_text(text, encoding="utf-8")
-        out = tmp_path / "out"
-        assert_refused(carom("study", path, "--out", out), *names)
-        assert sorted(entry.name for entry in tmp_path.iterdir()) == ["machine.toml"]
-
-    return check
-
-
-@pytest.mark.parametrize("name", [name for name in FIELDS if name != "unbalance_phase"])
-def test_field_missing(refused, name):
-    refused(toml({field: value for field, value in good().items() if field != name}), name, "missing")
-
-
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ("", "empty"),
-        ("\n \n", "empty"),
-        ("mass = 1", "mass"),
-        ("[dimensionless]\ngamma=1\nomega=1\nrho=0\nphi=0\nmu=0\nd=1", "missing"),
-        ("[machine\nmass=1", "TOML"),
-        ("[machines]\nmass=1", "machine"),
-        ("[machine]\nmass=1\n[dimensionless]\ngamma=1", "more"),
-        ("[zones]\nlimits=[0.1,0.2,0.3]", "none"),
-    ],
-)
-def test_wrong_file(refused, content, words):
-    refused(content, words)
 
 
 def test_unreadable_files(carom, tmp_path):
@@ -103,25 +55,14 @@ def test_settings_that_set_the_same_thing(carom, machine):
         ((), "--start"),
         (("--start", "0,0,0,0", "--kick", "1"), "--kick"),
         (("--start", "1,2,3"), "RE,IM,VRE,VIM"),
-        (("--start", "0,0,0,0,0"), "RE,IM,VRE,VIM"),
-        (("--start", ",,,"), "RE,IM,VRE,VIM"),
         (("--start", "a,0,0,0"), "--start = a"),
         (("--start", "1.1,0,0,0"), "inside the wall"),
-        (("--start", "0.8 mm,0,0,0"), "inside the wall"),
-        (("--start", "nan,0,0,0"), "--start = nan"),
         (("--start", "0,0,inf,0"), "--start = inf"),
-        (("--start", "1 s,0,0,0"), "--start = 1 s"),
         (("--start", "0,0,1 mm,0"), "--start = 1 mm"),
         (("--kick", "fast"), "--kick = fast"),
-        (("--kick", "1,2,3"), "SPEED"),
-        (("--kick", "nan"), "--kick = nan"),
         (("--kick", "13 mm/s", "--set", "gamma=0.01"), "--kick = 13 mm/s"),
         (("--kick", "1 m/s", "--until", "0"), "--until = 0"),
-        (("--kick", "1 m/s", "--until", "-1"), "--until = -1"),
-        (("--kick", "1 m/s", "--until", "nan"), "--until = nan"),
-        (("--kick", "1 m/s", "--until", "inf"), "--until = inf"),
         (("--kick", "1 m/s", "--until", "2 m"), "--until = 2 m"),
-        (("--kick", "1 m/s", "--until", ""), "--until"),
     ],
 )
 def test_wrong_start(carom, machine, arguments, words):
@@ -141,28 +82,30 @@ def test_units_need_a_machine(carom, dimensionless):
         (("study", "a", "b"), "b"),
         (("study", "a", "--nonsense"), "--nonsense"),
         (("study", "a", "--set"), "--set"),
-        (("--nonsense",), "--nonsense"),
         (("orbits", "MACHINE", "--longest-period", "long"), "--longest-period"),
         (("orbits", "MACHINE", "--longest-period", "0"), "--longest-period"),
-        (("orbits", "MACHINE", "--longest-period", "nan"), "--longest-period"),
     ],
 )
 def test_wrong_usage(carom, machine, arguments, words):
     assert_refused(carom(*(machine if word == "MACHINE" else word for word in arguments)), words)
 
 
-def test_all_errors_of_a_file_are_told_a_line_each(carom, tmp_path):
+def test_all_errors_of_a_file_are_told_a_line_each_or_as_objects_of_json(carom, tmp_path):
     path = tmp_path / "machine.toml"
-    path.write_text(toml(good() | {"mass": "1 m", "color": "red", "speed": -1}), encoding="utf-8")
-    code, out, err = carom("orbits", path, "--set", "gama=1")
+    path.write_text(MACHINE.replace("50 kg", "1 m").replace("184.2", "-1") + 'color = "red"\n', encoding="utf-8")
+    command = ("study", path, "--set", "gama=1", "--out", tmp_path / "out")
+    code, out, err = carom(*command)
 
     assert (code, out) == (BAD_INPUT, "")
     assert [line.split(" = ")[0] for line in err.splitlines()] == [
-        "carom: color",
-        "carom: mass",
-        "carom: speed",
-        "carom: gama",
+        f"carom: {name}" for name in ("color", "mass", "speed", "gama")
     ]
+    code, out, again = carom(*command, "--json")
+    document = json.loads(out)
+    assert (code, again) == (BAD_INPUT, err)
+    assert [f"carom: {entry['message']}" for entry in document["errors"]] == err.splitlines()
+    assert document["error"] == document["errors"][0] | {"code": BAD_INPUT}
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_an_error_is_an_object_of_json_too(carom, machine):
@@ -176,37 +119,33 @@ def test_an_error_is_an_object_of_json_too(carom, machine):
     assert set(json.loads(out)) == {"error"}
 
 
-def test_all_errors_of_a_file_are_objects_of_json(carom, tmp_path):
-    path = tmp_path / "machine.toml"
-    path.write_text(toml(good() | {"mass": "1 m", "speed": -1}), encoding="utf-8")
-    code, out, err = carom("orbits", path, "--set", "gama=1", "--json")
-    document = json.loads(out)
-
-    assert code == BAD_INPUT
-    assert [entry["field"] for entry in document["errors"]] == ["mass", "speed", "gama"]
-    assert [f"carom: {entry['message']}" for entry in document["errors"]] == err.splitlines()
-    assert document["error"] == document["errors"][0] | {"code": BAD_INPUT}
-
-
 @pytest.mark.parametrize(
     ("problem", "code", "message"),
     [
-        (ZeroDivisionError("first\nsecond"), FAILURE, "unexpected ZeroDivisionError, please report it"),
+        (
+            ZeroDivisionError("first\nsecond"),
+            FAILURE,
+            "unexpected ZeroDivisionError, please report it (CAROM_DEBUG=1 shows more): first second",
+        ),
+        (EOFError("Ran out of input"), FAILURE, "unexpected EOFError, please report it"),
+        (ZeroDivisionError("\x1b[31m\u202e\x07\x9b"), FAILURE, "unexpected ZeroDivisionError, please report it"),
         (OSError(28, "No space left on device"), FAILURE, "cannot read or write: No space left on device"),
         (CaromError("no orbit"), BAD_INPUT, "no orbit"),
         (KeyboardInterrupt(), INTERRUPTED, "interrupted"),
         (InputError("mass", None, "\x1b[31m\u202e"), BAD_INPUT, "mass = nothing given"),
     ],
 )
-def test_other_failures_are_objects_of_json(monkeypatch, carom, machine, problem, code, message):
+def test_other_failures_are_one_line_and_objects_of_json(monkeypatch, carom, machine, problem, code, message):
     monkeypatch.setattr("carom.loading.load", _raise(problem))
     answer, out, err = carom("study", machine, "--json")
     error = json.loads(out)["error"]
 
     assert answer == error["code"] == code
     assert error["message"].startswith(message)
-    assert err == f"carom: {error['message']}\n"
+    assert err.lstrip("\n") == f"carom: {error['message']}\n"  # the end of data leaves a prompt
+    assert err.strip("\n").isprintable()
     assert out.replace("\n", "").isprintable()
+    assert carom("study", machine) == (code, "", err)
 
 
 NEEDED = {
@@ -295,12 +234,6 @@ def test_no_control_character_of_an_option_is_told(carom, machine, arguments):
     assert err[:-1].isprintable()
 
 
-def test_no_control_character_of_an_error_nobody_thought_of_is_told(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.loading.load", _raise(ZeroDivisionError(EVIL)))
-
-    assert carom("study", machine)[2][:-1].isprintable()
-
-
 @pytest.mark.parametrize("option", ["--csv", "--netcdf"])
 def test_logs_that_cannot_be_written(carom, machine, option, tmp_path, monkeypatch):
     monkeypatch.setattr("carom.motions.simulation.simulate", _raise(AssertionError("simulated in vain")))
@@ -329,24 +262,6 @@ def _raise(error):
     return fail
 
 
-def test_unexpected_error_is_one_line(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.loading.load", _raise(ZeroDivisionError("first\nsecond")))
-
-    code, out, err = carom("study", machine)
-
-    assert (code, out) == (FAILURE, "")
-    assert err == "carom: unexpected ZeroDivisionError, please report it (CAROM_DEBUG=1 shows more): first second\n"
-
-
-def test_end_of_data_is_no_interruption(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.loading.load", _raise(EOFError("Ran out of input")))
-
-    code, out, err = carom("study", machine)
-
-    assert (code, out) == (FAILURE, "")
-    assert err.strip() == "carom: unexpected EOFError, please report it (CAROM_DEBUG=1 shows more): Ran out of input"
-
-
 def test_warning_is_one_line_and_no_error(monkeypatch, carom, machine):
     def warn(*_, **__):
         warnings.warn("the disk\nis full", CaromWarning, stacklevel=1)
@@ -368,12 +283,6 @@ def test_unexpected_error_shows_more_on_demand(monkeypatch, machine):
         main(["study", machine])
 
 
-def test_interrupt(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.loading.load", _raise(KeyboardInterrupt))
-
-    assert carom("study", machine) == (INTERRUPTED, "", "carom: interrupted\n")
-
-
 def test_interrupt_in_a_place_that_hands_nothing_on(monkeypatch, carom, machine):
     """Python ignores what is raised in the callback of a weak reference."""
 
@@ -393,12 +302,3 @@ def test_interrupt_in_a_place_that_hands_nothing_on(monkeypatch, carom, machine)
 
     assert carom("study", machine)[:2] == (INTERRUPTED, "")
     assert sys.unraisablehook is hook
-
-
-def test_file_system_error_is_one_line(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.loading.load", _raise(OSError(28, "No space left on device")))
-
-    code, _, err = carom("study", machine)
-
-    assert code == FAILURE
-    assert err == "carom: cannot read or write: No space left on device\n"

@@ -1,7 +1,5 @@
 """``carom basins`` as a user calls it."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np
@@ -94,26 +92,19 @@ def test_gravities_are_not_grams(carom, machine):
     ("words", "complaint"),
     [
         (("--grid", "10"), "--grid = 10: must be 2 whole numbers of at least 1, such as 60x60"),
-        (("--grid", "0x5"), "--grid = 0x5"),
         (("--grid", "99999x99999"), "at most"),
         (("--grid", "5x5", "--starts", "10"), "--starts = 10: not allowed"),
-        (("--starts", "0"), "--starts = 0"),
         (("--starts", "10", "--seed", "-1"), "'--seed'"),
         (("--disturbance", "hammer"), "--disturbance = hammer: must be one of: kick-plane[,SPEED]"),
-        (("--disturbance", "slice, 5 mm"), "--disturbance = slice, 5 mm: must be one of"),
-        (("--shock", "5 kg, 1 ms"), "--shock = 5 kg"),
         (("--shock", "5 g, 1 ms, 30 deg"), "--shock = 5 g, 1 ms, 30 deg: must be without an angle"),
         (("--shock", "5 g", "--kick", "5 mm/s"), "--shock = 5 g: not allowed with --kick"),
         (("--disturbance", "release, up"), "--disturbance = release, up: must be release,fixed|rotating|rolling"),
         (("--disturbance", "state, 5 mm"), "--disturbance = 5 mm"),
         (("--disturbance", "state", "--grid", "5x5"), "--grid = 5x5"),
         (("--kick", "0 mm/s"), "--kick = 0 mm/s: must be a velocity above 0"),
-        (("--kick", "5 mm"), "--kick = 5 mm"),
         (("--gains", "1x5"), "--gains = 1x5"),
-        (("--gains", "5x5", "--plane", "damping"), "--plane = damping"),
         (("--gains", "5x5", "--plane", "dampin,stiffness"), "did you mean damping"),
         (("--gains", "5x5", "--x", "1e6 N/m,1e6 N/m"), "--x = 1e6 N/m,1e6 N/m"),
-        (("--out", ""), "--out"),
         (("--set", "gamma=0.05"), "disturbance = |U*|"),
     ],
 )

@@ -1,7 +1,5 @@
 """``carom bifurcations`` and ``carom regions`` as a user calls them."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every command that draws writes SVG and PNG, with the name of the machine and its present values."""
 
-from __future__ import annotations
-
 import pytest
 from drawn_legends import fits
 

@@ -1,7 +1,5 @@
 """``carom import-rotor``: matrices, ROSS in a process of its own, and the machine file that is printed."""
 
-from __future__ import annotations
-
 import json
 import sys
 

@@ -1,7 +1,5 @@
 """``carom paper`` as a user calls it."""
 
-from __future__ import annotations
-
 import json
 import re
 

@@ -1,7 +1,5 @@
 """Tables of motions show every state that a motion can have."""
 
-from __future__ import annotations
-
 from typing import get_args
 
 from linear_rotors import single

@@ -1,7 +1,5 @@
 """``carom template``: a file that loads and drops as it is, whose entries are all there are."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """One name for each motion: what the commands print, draw and write as JSON keeps to docs/reference/motions.md."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The proven neighbourhood of the synchronous rub."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

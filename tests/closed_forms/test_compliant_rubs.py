@@ -1,7 +1,5 @@
 """Rubs in compliant walls, against their equations of motion written down a second time."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from yielding_rotors import Yielding, packed, two_planes

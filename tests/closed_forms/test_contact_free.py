@@ -1,7 +1,5 @@
 """Sizes of disturbances that never bring a linear rotor to the wall: against its exact flight, and where nothing is known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import bending, single, tilting

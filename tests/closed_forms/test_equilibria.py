@@ -1,7 +1,5 @@
 """Equilibria against the closed forms of the planar rotor and against integration of the sliding equation."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

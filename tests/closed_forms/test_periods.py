@@ -1,7 +1,5 @@
 """The period condition ``F₁``, its bounds, and the completeness of its roots."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

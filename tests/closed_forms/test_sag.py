@@ -1,7 +1,5 @@
 """Levitation as a circle about the static sag, against the matrices of the fixed frame and against simulation."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is born where levitation meets a wall: against the planar theory, orbits on both sides, simulation, and degenerate limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from boundary_rotors import touching

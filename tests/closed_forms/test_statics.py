@@ -1,7 +1,5 @@
 """Equilibria of any linear rotor: residuals in high precision, all of them against blind searches, and motions that end there."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import mpmath

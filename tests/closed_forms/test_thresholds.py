@@ -1,7 +1,5 @@
 """Thresholds in closed form: against equilibria, high precision and general solvers, also in their degenerate limits."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath

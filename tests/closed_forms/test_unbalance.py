@@ -1,7 +1,5 @@
 """Steady motions in contact over the speed of the shaft, against those at each speed alone."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 

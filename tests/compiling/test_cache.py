@@ -1,7 +1,5 @@
 """Compiled kernels on the disk: damage heals, what cannot be kept is done without, and never a wrong machine code runs."""
 
-from __future__ import annotations
-
 import random
 import warnings
 

@@ -1,7 +1,5 @@
 """Which compiler kernels go through: carom's where it has been tried, Numba's alone where it has not or where one asks for it."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

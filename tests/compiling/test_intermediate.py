@@ -1,7 +1,5 @@
 """Kernels that other kernels call are not compiled to machine code for that."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

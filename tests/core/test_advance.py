@@ -1,7 +1,5 @@
 """The loop of a motion: what ends it, that it can be interrupted, and what it does on the wall."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

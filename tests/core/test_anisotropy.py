@@ -1,7 +1,5 @@
 """What contact forces do where bearings are anisotropic, against the equations of motion in the fixed frame."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

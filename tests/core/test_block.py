@@ -1,7 +1,5 @@
 """The parts of the crossing search on a block, each alone, against numpy and closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flights import inside_task, rotors

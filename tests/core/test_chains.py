@@ -1,7 +1,5 @@
 """Chains of modes with one exponent, as in free fall, against the matrix exponential."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.linalg import expm

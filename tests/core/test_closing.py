@@ -1,7 +1,5 @@
 """The impacts of a period: by the orbit that closes, however slowly a motion draws near, by both ways to follow one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

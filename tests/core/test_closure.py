@@ -1,7 +1,5 @@
 """The linear equations of Newton's method; the iteration is tested with orbits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Contact with compliant walls: series and steps against the equations in polar coordinates with many digits."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

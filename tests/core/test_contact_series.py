@@ -1,7 +1,5 @@
 """Lasting contact at several planes at once: its series, and the loop that follows it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import tilting

@@ -1,7 +1,5 @@
 """The counter that threads share."""
 
-from __future__ import annotations
-
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np

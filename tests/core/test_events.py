@@ -1,7 +1,5 @@
 """No crossing is missed and none invented: the kernel against the high-precision reference."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

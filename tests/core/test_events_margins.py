@@ -1,7 +1,5 @@
 """How near to the wall, and how slow, a flight may be for the search to say that it crosses, grazes or is clear."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Exact flight against the matrix exponential and against many digits."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Arrivals at a rigid wall and their derivatives, against the law written with many digits; the same for one motion and for lanes."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath

@@ -1,7 +1,5 @@
 """Impacts of several planes in one instant: the laws that the impulses obey, and the energy that they take."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

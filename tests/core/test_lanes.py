@@ -1,7 +1,5 @@
 """Motions side by side: no crossing missed or invented, no lane disturbed by another."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

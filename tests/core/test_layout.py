@@ -1,7 +1,5 @@
 """Records that kernels take."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from carom.core import layout

@@ -1,7 +1,5 @@
 """The highest point of a flight."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq

@@ -1,7 +1,5 @@
 """Sums over the modes, their bounds and the search for roots, against many digits and for any number of modes."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Closed forms of the planar rotor against many digits and dense sampling."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

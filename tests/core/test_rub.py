@@ -1,7 +1,5 @@
 """Lasting contact: Taylor series, transitions and lift-off against other integrators with more digits."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from functools import partial

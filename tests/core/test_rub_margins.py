@@ -1,7 +1,5 @@
 """The parts of lasting contact that decide how long it lasts, each alone, on series written down for it."""
 
-from __future__ import annotations
-
 import cmath
 import itertools
 import math

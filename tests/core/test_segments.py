@@ -1,7 +1,5 @@
 """Segment maps: their derivatives against differences."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Derivatives of the equations of shooting by parameters, against differences and in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Where motions end: the proof that a rotor levitates, the search for what recurs, and that what has settled stays so."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """Flights at the speed that the shaft has, and what changes it in an impact."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

@@ -1,7 +1,5 @@
 """The constants of a block of flight: its polynomial is as near as its error bound says, its derivatives below theirs."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath

@@ -1,7 +1,5 @@
 """Changes of a state through impact, flight and arrival, against differences of the motion itself."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flights import parameters

@@ -1,7 +1,5 @@
 """Planes at their walls."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Stored energies of walls, against the laws written out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from yielding_walls import free_mass

@@ -1,7 +1,5 @@
 """The loss of a blade: its start, and the motion after it, integrated by SciPy in the fixed frame and in SI units."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

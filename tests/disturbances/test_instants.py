@@ -1,7 +1,5 @@
 """Where something stands in the fixed frame the instant of the turn is part of a disturbance."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

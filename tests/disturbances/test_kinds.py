@@ -1,7 +1,5 @@
 """Disturbances in the engineer's terms give the states that mechanics says."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

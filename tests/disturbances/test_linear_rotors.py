@@ -1,7 +1,5 @@
 """Disturbances of any linear rotor: shocks against integration of its matrices in the fixed frame, starts against its planes."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from dataclasses import dataclass

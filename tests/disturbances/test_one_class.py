@@ -1,7 +1,5 @@
 """A new disturbance enters by one class: maps, single motions, and its text."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """A disturbance of a user's own can be used wherever one of carom can."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

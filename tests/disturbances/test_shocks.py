@@ -1,7 +1,5 @@
 """The levitating rotor through a half-sine shock of its housing, against a general solver in the fixed frame."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """Texts of single disturbances in Python: the same motion as by numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

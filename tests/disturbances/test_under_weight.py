@@ -1,7 +1,5 @@
 """Shocks and losses of a blade of machines that weigh something, against a general solver in SI units."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """The page in a real browser, opened once for the tests of a file, whose ``MACHINE`` it shows."""
 
-from __future__ import annotations
-
 import pytest
 from browsing import DESK, SOON, answered, said, served
 

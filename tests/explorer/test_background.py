@@ -1,7 +1,5 @@
 """Work beside the page: the newest counts."""
 
-from __future__ import annotations
-
 import threading
 
 from carom.base.progress import Progress

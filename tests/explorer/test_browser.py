@@ -1,7 +1,5 @@
 """The page in a real browser: loaded, dragged, typed into, copied from, restarted, and attacked."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The machine of the page is one file, in a checkout and in an installed package."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import zipfile

@@ -1,7 +1,5 @@
 """The page of a flexible machine, in a real browser."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The figure for notebooks: what it sends and takes, and how it is drawn in a real browser, without a notebook."""
 
-from __future__ import annotations
-
 import base64
 import queue
 import sys

@@ -1,7 +1,5 @@
 """Who is let in, and where the page is served: without a browser."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import json

@@ -1,7 +1,5 @@
 """The pictures of the page in a real browser: two flights, the ring, the range, what is undone and kept, and what moves by itself."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The page of a machine whose touchdown bearing is compliant: controls, pictures, what is copied, and what is left out."""
 
-from __future__ import annotations
-
 import shlex
 
 import numpy as np

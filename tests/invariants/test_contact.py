@@ -1,7 +1,5 @@
 """What physics demands of every contact, whatever the machine."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

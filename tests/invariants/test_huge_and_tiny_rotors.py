@@ -4,8 +4,6 @@ Everywhere ``U`` is the position in the co-rotating frame, ``Z = Ue^{it}`` that 
 speed in the fixed frame and ``x = θ − φ``.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

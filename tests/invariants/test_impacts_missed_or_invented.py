@@ -3,8 +3,6 @@
 Every flight is compared with the high-precision reference, as the event loop of single motions flies it and as lanes do.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -6,8 +6,6 @@ Bounded work means
 - and stretches of contact in proportion to the impacts before them and the turns along the wall.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A symmetric rotor on two equal bearings, kicked through its centre, moves as the planar rotor: it does not tilt."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

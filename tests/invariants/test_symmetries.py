@@ -1,7 +1,5 @@
 """What must not matter: the direction of the axes, the units; and what an ideal machine conserves."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

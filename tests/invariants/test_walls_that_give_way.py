@@ -1,7 +1,5 @@
 """Compliant walls: nothing prefers a direction, and stiff ones are the rigid wall."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -5,8 +5,6 @@ machinery, Proc. R. Soc. A 470 (2014).  Numbers that the paper prints are named 
 with more digits, each of them computed here from public functions and compared to half a unit of the last digit.
 """
 
-from __future__ import annotations
-
 from decimal import Decimal
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rotors whose bearings are anisotropic, against the plain equations of motion in the fixed frame."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from limited_reference import follow, struck

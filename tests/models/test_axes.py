@@ -1,7 +1,5 @@
 """Parameters that are varied, against the machine they belong to."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Linear rotors with coordinates without mass, as the states of a controller are, and what is left of them without levitation."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import touchdowns

@@ -1,7 +1,5 @@
 """Forces that change with time, against the matrix exponential and known motions."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

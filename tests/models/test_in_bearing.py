@@ -1,7 +1,5 @@
 """The planar rotor in a compliant touchdown bearing: units, restitution, mount, names."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

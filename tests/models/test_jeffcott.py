@@ -1,7 +1,5 @@
 """The planar rotor: what its parameters make of it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Named parameters of linear rotors, against the planar rotor and the matrices of the fixed frame."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import touchdowns

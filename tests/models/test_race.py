@@ -1,7 +1,5 @@
 """Races that turn: motions against a general integrator, momentum, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Shafts whose speed changes: motions against a general integrator, momentum, a heavy rotor that stops, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from turning_reference import SLIDES, Turning

@@ -1,7 +1,5 @@
 """The one door for rotors: every verb takes a machine, a case, parameters or a model."""
 
-from __future__ import annotations
-
 import pytest
 from machines import PAPER
 

@@ -1,7 +1,5 @@
 """Systems: arrays of any linear rotor, and the way between states and amplitudes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import random_parameters

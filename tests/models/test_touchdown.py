@@ -1,7 +1,5 @@
 """Contact planes and the laws of their walls: a second law beside the rigid one runs through everything general."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -61,8 +59,6 @@ def test_a_wall_that_hardly_yields_is_rigid():
         (lambda: FallingRestitution(0.5, 0.0), "speed = 0.0"),
         (lambda: Touchdown([1.0], Rigid(0.5), -0.1, 2.0), "friction = -0.1"),
         (lambda: Touchdown([1.0], Rigid(0.5), 0.1, 0.5), "surface_speed = 0.5"),
-        (lambda: Touchdown([1.0], 0.5, 0.1, 2.0), "law = 0.5"),
-        (lambda: Touchdown("ab", Rigid(0.5), 0.1, 2.0), "plane = ab"),
         (lambda: Touchdown([], Rigid(0.5), 0.1, 2.0), "plane = "),
     ],
 )
@@ -133,21 +129,13 @@ def velocity_in_fixed(motion):
 @pytest.mark.parametrize(
     ("make", "named"),
     [
-        (lambda: KelvinVoigt(-1.0, 0.0), "stiffness = -1.0: "),
         (lambda: KelvinVoigt(0.0, 0.0), "stiffness = 0.0: "),
         (lambda: KelvinVoigt(1e4, -0.1), "damping = -0.1: "),
-        (lambda: KelvinVoigt(float("nan"), 0.0), "stiffness = nan: "),
         (lambda: KelvinVoigt(float("inf"), 0.0), "stiffness = inf: "),
-        (lambda: KelvinVoigt("hard", 0.0), "stiffness = hard: "),
-        (lambda: HuntCrossley(-2.0, 0.0), "stiffness = -2.0: "),
         (lambda: HuntCrossley(1e4, -0.1), "dissipation = -0.1: "),
-        (lambda: HuntCrossley(1e4, float("nan")), "dissipation = nan: "),
         (lambda: HuntCrossley(1e4, 0.1, 0.9), "exponent = 0.9: "),
         (lambda: HuntCrossley(1e4, 0.1, 2.5), "exponent = 2.5: "),
-        (lambda: HuntCrossley(1e4, 0.1, float("nan")), "exponent = nan: "),
-        (lambda: HuntCrossley(1e4, 0.1, "3/2"), "exponent = 3/2: "),
         (lambda: paper(SPRING).replace(wall_stiffness=-1.0), "wall_stiffness = -1.0: "),
-        (lambda: paper(SPRING).replace(wall_damping="soft"), "wall_damping = soft: "),
         (lambda: paper(BALLS).replace(wall_dissipation=float("nan")), "wall_dissipation = nan: "),
         (lambda: paper(BALLS).replace(wall_damping=1.0), "wall_damping = 1.0: "),
     ],

@@ -1,7 +1,5 @@
 """Loads of drops over all stages: against closed forms of a mass on a spring, momentum of the race, the ledger and rolling."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """What the touchdown bearing gets: the log of impacts, its units, and the forces of lasting contact at every instant."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from dataclasses import replace

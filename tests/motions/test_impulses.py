@@ -1,7 +1,5 @@
 """Impulses and forces at planes that feel a part of the mass: against momentum and energy of the whole rotor."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

@@ -1,7 +1,5 @@
 """Energy ledger: every energy is booked, through ten thousand contacts and through each kind of contact."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

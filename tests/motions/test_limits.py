@@ -1,7 +1,5 @@
 """Limits of magnetic bearings in the motion of the planar rotor, against a general integrator that clips what the axes get."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Loads of touchdowns: against the ledger, and against equations of sliding and of impacts integrated a second time."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """What the reduction of a flexible machine changes along a motion, against the motion of all modes."""
 
-from __future__ import annotations
-
 import pytest
 from flexible_machines import munich
 

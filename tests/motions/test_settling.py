@@ -1,7 +1,5 @@
 """Motions of ensembles end where their end is proven, and nothing else changes."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

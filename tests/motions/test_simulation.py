@@ -1,7 +1,5 @@
 """Slices of a motion: no compiled call lasts for long, and what stalls is stated."""
 
-from __future__ import annotations
-
 import pytest
 
 import carom as cm

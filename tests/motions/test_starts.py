@@ -1,7 +1,5 @@
 """Starts: on the wall or inside it, kicks, and sizes with units."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Motions as datasets and files: nothing is lost, and nothing is read that was not written so."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

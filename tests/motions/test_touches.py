@@ -1,7 +1,5 @@
 """Contacts with compliant walls: closed forms of a free mass, and the reference."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Motions as results: starts, frames, samples, and that long ones are joined without a seam."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER, fly, strike
@@ -190,11 +188,7 @@ class TestLastingContact:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"max_events": "many"}, "max_events = many: a whole number of at least 1"),
         ({"max_events": 2.5}, "max_events = 2.5: a whole number of at least 1"),
-        ({"max_events": None}, "max_events = nothing given: a whole number"),
-        ({"max_events": True}, "max_events = true: a whole number"),
-        ({"patience": "long"}, "patience = long: a whole number of at least 0"),
         ({"patience": -1}, "patience = -1: a whole number of at least 0"),
         ({"until": [1.0, 2.0]}, "until = .*: a finite time above 0, in 1/Omega or with a unit"),
         ({"until": "2 kg"}, "until = 2 kg: must be a time"),

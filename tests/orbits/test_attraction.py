@@ -1,7 +1,5 @@
 """Every orbit reported stable attracts a disturbed simulation, and every unstable one repels it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 import numpy as np

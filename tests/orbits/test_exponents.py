@@ -1,7 +1,5 @@
 """Lyapunov exponents: volumes, multipliers of orbits, nearby motions, and a variational integration written down again."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Derivatives of the flow: exact through impacts, by differences elsewhere, and none where a motion has none."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

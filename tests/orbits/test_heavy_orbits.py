@@ -1,7 +1,5 @@
 """Periodic motions of rotors that weigh something: whole turns of the shaft, closed on the flow, and compared with other routes."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

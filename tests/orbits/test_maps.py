@@ -1,7 +1,5 @@
 """The impact map against simulation, matrix exponentials, many digits and finite differences."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

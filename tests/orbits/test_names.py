@@ -1,7 +1,5 @@
 """Names of orbits: a text, and what it says."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 

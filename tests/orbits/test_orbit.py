@@ -1,7 +1,5 @@
 """Orbits of any word: closure, multipliers, margins and admissibility, each against an independent route."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Orbits on which simulated motions with lasting contact settle."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import touchdowns

@@ -1,7 +1,5 @@
 """The search for orbits with any number of impacts: what it finds is right, and what is known it finds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

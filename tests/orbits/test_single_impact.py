@@ -1,7 +1,5 @@
 """Single-impact orbits against independent routes: matrix exponentials, simulation, many digits, dense sampling."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

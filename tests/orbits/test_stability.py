@@ -1,7 +1,5 @@
 """Multipliers: order, kind and what is made of them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The table ``[drive]``: what it says and what it refuses in one line; and a drop that brakes the shaft."""
 
-from __future__ import annotations
-
 import pytest
 
 import carom as cm

@@ -1,7 +1,5 @@
 """Values in the terms of a machine's file."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

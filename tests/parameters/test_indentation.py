@@ -1,7 +1,5 @@
 """What steel gives way by at least: against Hertz's line contact and against a mass on a spring."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -227,10 +227,7 @@ def test_a_dimensionless_change_moves_its_partner_alone(name, number):
         ({"gamma": 2000}, "gamma = 2000: must be a number, -1000 to 1000"),
         ({"omega": 1, "gamma": 0}, "gamma = 0: gives damping = 0 N s/m, which gives gamma"),
         ({"damping": 0, "omega": 1}, "damping = 0: gives gamma"),
-        ({"omega": 0}, "omega = 0: must be a number, > 0"),
         ({"gama": 1}, "gama = 1: unknown name in a machine or its parameters; did you mean gamma?"),
-        ({"mass": "3 m"}, "mass = 3 m: must be a mass in kg"),
-        ({"damping": "1e9 N s/m"}, "damping = 1e9 N s/m: gives gamma"),
     ],
 )
 def test_a_change_that_cannot_be_made_is_named(changes, start):

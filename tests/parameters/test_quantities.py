@@ -94,37 +94,18 @@ def test_angles_and_speeds_are_rounded_once(field, unit, in_si, number):
     assert read_quantity(MACHINE_FIELDS[field], f"{number!r} {unit}") == expected
 
 
-@pytest.mark.parametrize("text", ["30 1/s", "30 s^-1", "1759 min^-1", "0.03 1/ms"])
-def test_speed_without_turns_or_radians_is_ambiguous(text):
-    error = error_of(lambda: read_quantity(MACHINE_FIELDS["speed"], text))
-
-    assert text.split()[1] in str(error)
-    assert "rpm" in error.allowed
-    assert "rad/s" in error.allowed
-
-
 @pytest.mark.parametrize(
     ("field", "text"),
     [
         ("mass", "3 m"),
-        ("mass", "490 N"),
         ("mass", "20 degC"),
         ("mass", "3 dB"),
-        ("damping", "1400 N/m"),
         ("damping", "1400 N s/(m rad)"),
-        ("stiffness", "1400 N s/m"),
-        ("eccentricity", "0.3 kg"),
         ("eccentricity", "0.3 mm/rev"),
-        ("clearance", "0.7 mm^2"),
-        ("rotor_radius", "40 s"),
-        ("speed", "184.2 m/s"),
         ("speed", "30 Bq"),
         ("unbalance_phase", "12 %"),
         ("unbalance_phase", "12 sr"),
-        ("friction", "0.15 rad"),
-        ("friction", "3 dB"),
         ("friction", "20 degC"),
-        ("restitution", "0.95 m/s"),
     ],
 )
 def test_wrong_dimension_names_unit_and_what_is_allowed(field, text):
@@ -263,17 +244,10 @@ def test_what_carom_writes_can_be_read(name, value):
     ("name", "text", "advice"),
     [
         ("speed", "12,000 rad/s", "a comma may mark decimals or thousands: write 12.000 rad/s or 12 000 rad/s"),
-        ("mass", "1,500 kg", "a comma may mark decimals or thousands: write 1.500 kg or 1 500 kg"),
-        ("clearance", "1,400 mm", "a comma may mark decimals or thousands: write 1.400 mm or 1 400 mm"),
-        ("unbalance", "1,500 g mm", "a comma may mark decimals or thousands: write 1.500 g mm or 1 500 g mm"),
-        ("natural_frequency", "1,500 Hz", "a comma may mark decimals or thousands: write 1.500 Hz or 1 500 Hz"),
         ("damping", "50,540", "a comma may mark decimals or thousands: write 50.540 or 50 540"),
-        ("speed", "12,00 rpm", "decimals take a point, not a comma: write 12.00 rpm"),
         ("speed", "12,0000 rpm", "decimals take a point, not a comma: write 12.0000 rpm"),
         ("speed", "1,5 rpm", "decimals take a point, not a comma: write 1.5 rpm"),
-        ("clearance", "0,7 mm", "decimals take a point, not a comma: write 0.7 mm"),
         ("mass", "1 234,5 kg", "decimals take a point, not a comma: write 1234.5 kg"),
-        ("friction", "0,15", "decimals take a point, not a comma: write 0.15"),
         ("friction", ",15", "decimals take a point, not a comma: write 0.15"),
         ("balance_grade", "G 2,5", "decimals take a point, not a comma: write 2.5"),
         ("mass", "1.234,5 kg", "decimals take a point, and spaces separate thousands: 12 345.6"),

@@ -78,39 +78,19 @@ def test_physical_settings_change_what_depends_on_them():
     ("settings", "start"),
     [
         (["gamma"], "--set = gamma: must be name=value"),
-        ([""], "--set = '': must be name=value"),
         (["=0.1"], "--set = =0.1: must be name=value"),
         (["gamma="], "gamma = '': must be a number"),
-        (["gamma=abc"], "gamma = abc: must be a number"),
         (["gamma=nan"], "gamma = nan: must be a number"),
-        (["gamma=inf"], "gamma = inf: must be a number"),
         (["gamma=1e400"], "gamma = 1e400: must be a number"),
         (["gamma=0.1=0.2"], "gamma = 0.1=0.2: must be a number"),
         (["gamma=0.1 kg"], "gamma = 0.1 kg: must be a number"),
-        (["gamma=[1]"], "gamma = [1]: must be a number"),
         (["omega=0"], "omega = 0: must be a number, > 0"),
         (["d=2"], "d = 2: must be a number, 0 to 1"),
         (["gama=0.1"], "gama = 0.1: unknown name in a machine or its parameters; did you mean gamma?"),
-        (["dampin=3 N s/m"], "dampin = 3 N s/m: unknown name in a machine or its parameters; did you mean damping?"),
         (["gamma=0.1", "gamma=0.2"], "gamma = 0.2: is set twice"),
         (["damping=3 N s/m", "gamma=0.1"], "gamma = 0.1: sets damping, which is set too"),
-        (["radius_ratio=50", "rotor_radius=3 mm"], "radius_ratio = 50: sets rotor_radius, which is set too"),
         (["omega=1", "gamma=0"], "gamma = 0"),
     ],
 )
 def test_nonsense_settings_are_named(path, settings, start):
     assert str(error_of(path, *settings)).startswith(start)
-
-
-@pytest.mark.parametrize(
-    ("setting", "start"),
-    [
-        ("mass=3 m", "mass = 3 m: must be a mass"),
-        ("damping=-3 N s/m", "damping = -3 N s/m: must be a damping in N s/m, >= 0"),
-        ("damping=many", "damping = many: must be a damping"),
-        ("speed=30 1/s", "speed = 30 1/s: must be an angular speed"),
-        ("gamma=-0.1", "gamma = -0.1: sets damping to -921.0, which must be a damping"),
-    ],
-)
-def test_settings_that_no_machine_can_have_are_named(setting, start):
-    assert str(error_of(REAL, setting)).startswith(start)

@@ -1,7 +1,5 @@
 """The table ``[touchdown]``: what it says, what it refuses in one line, and settings."""
 
-from __future__ import annotations
-
 import pytest
 
 import carom as cm
@@ -69,18 +67,15 @@ def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
         ("", "damping = nothing given"),
         ("damping = 500\ndissipation = 0.3", "dissipation = 0.3: must be left out: the law kelvin-voigt has a damping"),
         ("damping = -500", "damping = -500"),
-        ("damping = 500\nexponent = 1.5", "exponent = 1.5: must be left out"),
         ("damping = 500\nexponent = 0.5", "exponent = 0.5: must be a number, > 0 (1 to 2)"),
         ("damping = 500\nmount_mass = 2", "mount_stiffness = nothing given: a mount needs mount_mass and mount_stiffness"),
         ("damping = 500\nmount_damping = 2", "mount_mass = nothing given: a mount needs"),
         ("damping = 500\nrace_drag = 2", "race_inertia = nothing given: a race with drag needs it"),
         ("restitution = 0.9\nrestitution_speed = 0.1", "restitution_speed = 0.1: must be left out: the restitution of kelvin-voigt"),
-        ("restitution = 0.0", "restitution = 0.0"),
         ("restitution = 0.9\nmount_mass = 2\nmount_stiffness = 1e7", "restitution = 0.9: must be left out: it is that of the rotor on a fixed"),
         ("damping = 500\nstiffnes = 3", "stiffnes = 3"),
         ("damping = 500\nballs = 8", "ball_diameter = nothing given: the pressure of balls needs balls, ball_diameter, race_diameter"),
         ("damping = 500\nconformity = 0.52", "balls = nothing given: the pressure of balls needs"),
-        ("damping = 500\nballs = 8.5", "balls = 8.5: must be a whole number"),
         ("damping = 500\nconformity = 0.5", "conformity = 0.5: must be a number, > 0 (0.501 to 1)"),
     ],
 )  # fmt: skip

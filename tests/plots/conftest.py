@@ -1,7 +1,5 @@
 """The machine of the source paper where its motions differ most, and what it does there."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import pytest

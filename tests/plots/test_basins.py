@@ -1,7 +1,5 @@
 """Figures of basins and gain maps show what the results hold, in words and with units."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from drawn_legends import fits

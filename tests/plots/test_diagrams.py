@@ -1,7 +1,5 @@
 """Diagrams of bifurcations: what is drawn, in which look, and under which words."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from drawn_legends import legend_words

@@ -1,7 +1,5 @@
 """Figures of basins of drops: what they must show."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.path import Path

@@ -1,7 +1,5 @@
 """Figures of a drop: what they must show."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

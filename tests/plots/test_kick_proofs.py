@@ -1,7 +1,5 @@
 """What is proven of kicks, cell by cell."""
 
-from __future__ import annotations
-
 import pytest
 from drawn_legends import fits, legend_words
 from matplotlib.collections import PolyCollection

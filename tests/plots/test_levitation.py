@@ -1,7 +1,5 @@
 """Figures of levitating flexible rotors: what is drawn where."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figures of results of rotors with several coordinates and planes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from linear_rotors import single, tilting

@@ -1,7 +1,5 @@
 """Maps of a plane: what is drawn, under which words and numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from drawn_legends import legend_words

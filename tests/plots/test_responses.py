@@ -1,7 +1,5 @@
 """The figure of the response over speed: what is drawn, and in which look."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

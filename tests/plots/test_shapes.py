@@ -1,7 +1,5 @@
 """Shapes of free whirls along the shaft: what is drawn where."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flexible_machines import munich

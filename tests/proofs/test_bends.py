@@ -1,7 +1,5 @@
 """Second derivatives at the wall, and the forms made with them, against single flights in double precision."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

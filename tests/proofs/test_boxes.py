@@ -1,7 +1,5 @@
 """Kicks that are proven to come back for all machines of a box do so for machines drawn from it; certificates of boxes stand alone."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A certificate is verified by itself, and one that was changed is refused."""
 
-from __future__ import annotations
-
 import copy
 import json
 import random

@@ -1,7 +1,5 @@
 """Orbits in ball arithmetic with derivatives, beside the closed forms in balls, the kernels and differences."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

@@ -1,7 +1,5 @@
 """The numbers of a proof are those that were given, to the last digit."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from pathlib import Path
 
@@ -78,18 +76,15 @@ def test_document_reads_back_and_a_changed_digit_is_refused():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"gamma": "one"}, "gamma = one"),
         ({"gamma": "1/0"}, "gamma = 1/0"),
         ({"omega": "1e-999999999"}, "out of range"),
         ({"gamma": "9" * 300}, "too long"),
-        ({"gamma": "double x"}, "not a number"),
         ({"gamma": "double 1_0"}, "not a number"),
         ({"gamma": "double ٣"}, "not a number"),
         ({"gamma": ("0.2", "0.1")}, "must increase"),
         ({"rho": "-0.1"}, "rho = -0.1"),
         ({"d": "1.0000000000000000001"}, "out of range"),
         ({"speed": "1"}, "unknown name"),
-        ({"gamma": "1e300"}, "out of range"),
     ],
 )
 def test_numbers_that_cannot_be_used_are_named(changes, words):

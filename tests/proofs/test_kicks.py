@@ -1,7 +1,5 @@
 """Kicks that are proven to come back do, in programs that share nothing with the proof; certificates stand alone."""
 
-from __future__ import annotations
-
 import json
 import random
 

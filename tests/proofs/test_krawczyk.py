@@ -1,7 +1,5 @@
 """Krawczyk's operator shows zeros where they are, and none where there is none."""
 
-from __future__ import annotations
-
 from flint import arb
 
 from carom.proofs.balls import at_precision

@@ -1,7 +1,5 @@
 """Any rotor: levitation, and kicks and steps of the unbalance that never touch, attacked by simulations and forgeries."""
 
-from __future__ import annotations
-
 import copy
 
 import numpy as np

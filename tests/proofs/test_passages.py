@@ -1,7 +1,5 @@
 """The lemmas about flights of a patch, against single flights by the exponential of a matrix and the impact law in polar coordinates."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

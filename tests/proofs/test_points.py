@@ -1,7 +1,5 @@
 """Bifurcation points beside fifty digits, and what is claimed of them beside differences and simulation."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """What a proof of kicks shows, for figures: each kick belongs to the part of its cell, and words say no more than is proven."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

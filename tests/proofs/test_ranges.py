@@ -1,7 +1,5 @@
 """Orbits on intervals of a parameter: beside the usual search at fresh values, and where nothing can be shown."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cells whose kicks surely do not return: simulated kicks in them end in the rub, and what is forged is refused."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

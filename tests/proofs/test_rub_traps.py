@@ -1,7 +1,5 @@
 """The region around a rub that holds its bounces, beside bounces that a general integrator follows."""
 
-from __future__ import annotations
-
 import cmath
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What acts along the wall next to a rub, beside arithmetic of many digits."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import mpmath

@@ -1,7 +1,5 @@
 """Periodic motions with several impacts a period, beside simulation and the kernels."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 from functools import partial

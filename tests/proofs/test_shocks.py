@@ -1,7 +1,5 @@
 """Shocks and steps of the unbalance that are proven to come back do, by simulations that share nothing with the proof."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Claims about orbits with one impact a period beside arithmetic of fifty digits, simulation and the usual search."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import mpmath

@@ -1,7 +1,5 @@
 """Responses of a rotor to disturbances of the unit size, against a general integrator in the fixed frame."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

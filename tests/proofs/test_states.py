@@ -1,7 +1,5 @@
 """All states up to the proven speed return in the simulator; the lemmas hold of states drawn at random; certificates stand alone."""
 
-from __future__ import annotations
-
 import copy
 import json
 

@@ -1,7 +1,5 @@
 """Levitation, rubs and harmless kicks along a parameter, against closed forms in double precision at values drawn from the interval."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import sized

@@ -1,7 +1,5 @@
 """Claims about whirl in lasting contact beside a general integrator of the equations on the wall, and at limits."""
 
-from __future__ import annotations
-
 import copy
 import json
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The page of a drop stands alone and says what the numbers say."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

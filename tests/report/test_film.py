@@ -1,7 +1,5 @@
 """The film of a drop: what it shows is the motion, and it plays in a browser without any other file."""
 
-from __future__ import annotations
-
 import json
 import re
 

@@ -1,7 +1,5 @@
 """Limits of the magnetic bearings of flexible machines, against a general integrator with a controller of its own that clips."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

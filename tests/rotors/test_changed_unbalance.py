@@ -1,7 +1,5 @@
 """The loss of a blade of a flexible machine changes the unbalance at its own node."""
 
-from __future__ import annotations
-
 import cmath
 import dataclasses
 import math

@@ -1,7 +1,5 @@
 """Touchdown bearings with different clearances: results of each plane in SI units."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Controllers in all forms, against SciPy and the quotients that define them."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 
@@ -82,25 +80,14 @@ def bearing(**changes):
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: PID("5 kg"), r"^proportional = 5 kg: must be a gain"),
         (lambda: PID(1.0, derivative=1.0), r"^filter_time = nothing given: a derivative needs the time of its filter"),
         (
             lambda: TransferFunction([1.0, 0.0, 0.0], [1.0, 1.0]),
             r"^controller numerator = a polynomial of degree 2: a proper transfer function, degree of the numerator at most 1",
         ),
         (lambda: TransferFunction([1.0], [0.0]), r"^controller denominator = \[0.0\]: a polynomial that is not zero"),
-        (lambda: TransferFunction([math.nan], [1.0]), r"^controller numerator = \[nan\]: finite real numbers"),
         (lambda: StateSpace(np.eye(2), [1.0], [1.0, 1.0], 0.0), r"^controller B = an array of shape \(1,\): 2 numbers"),
-        (
-            lambda: StateSpace(np.ones((1, 2)), [1.0], [1.0], 0.0),
-            r"^controller A = an array of shape \(1, 2\): a square",
-        ),
-        (
-            lambda: StateSpace([[1.0]], [1.0], [1.0], [1.0, 2.0]),
-            r"^controller D = an array of shape \(2,\): one number",
-        ),
         (lambda: StateSpace([[1j]], [1.0], [1.0], 0.0), r"^controller A = \[\[1j\]\]: finite real numbers"),
-        (lambda: bearing(controller="PID"), r"^controller = PID: a PID, a TransferFunction"),
         (
             lambda: bearing(controller=signal.TransferFunction([1.0], [1.0, 0.5], dt=1e-4)),
             r"^controller = a system with a time step of 0.0001",
@@ -109,11 +96,8 @@ def bearing(**changes):
             lambda: bearing(controller=SimpleNamespace(num=[[[1], [2]]], den=[[[1], [2]]])),
             r"^controller = several inputs or outputs: one input and one output",
         ),
-        (lambda: bearing(node="left"), r"^bearing node = left: the number of a node"),
-        (lambda: bearing(sensor_nodes=4), r"^sensor_nodes = 4: a sequence of numbers of nodes"),
         (lambda: bearing(sensor_nodes=[True]), r"^sensor node = true: the number of a node"),
         (lambda: bearing(ks=1e5), r"^ks = 100000.0: must be a stiffness"),
-        (lambda: bearing(delay=-1.0), r"^delay = -1.0: must be a time"),
     ],
 )
 def test_what_cannot_be_used_is_refused_in_one_line(make, says):

@@ -1,18 +1,16 @@
 """Flexible rotors on magnetic bearings: closed loops, reduction, drops, and the limit of a rigid rotor."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
-from flexible_machines import SOFT, munich, munich_rotor, replaced, symmetric
+from flexible_machines import munich, munich_rotor, replaced, symmetric
 
 import carom as cm
 from carom.base.outcome import InputError, Outcome
 from carom.models.weight import levitation_of
 from carom.parameters import Gravity, TouchdownBearing
-from carom.rotors import PID, FlexibleMachine, MagneticBearing, TouchdownPlane, Unbalance
+from carom.rotors import PID, MagneticBearing, TouchdownPlane, Unbalance
 from carom.rotors.reduction import contact_error
 
 MACHINE = munich()
@@ -124,27 +122,12 @@ def test_mounts_and_races_are_those_of_the_touchdown_bearing():
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: munich(speed="3000 kg"), r"^speed = 3000 kg: must be an angular speed"),
-        (lambda: munich(bearings=None), r"^bearings = None: a sequence of carom.rotors.MagneticBearing$"),
         (lambda: munich(touchdowns=[]), r"^touchdowns = \[\]: a sequence of carom.rotors.TouchdownPlane, one or more$"),
-        (lambda: munich(gravity=9.81), r"^gravity = 9.81: carom.parameters.Gravity, or None$"),
-        (
-            lambda: FlexibleMachine(1, 1.0, 1.0, [], []),
-            r"^rotor = 1: carom.rotors.FlexibleRotor, MatrixRotor or RigidRotor$",
-        ),
-        (
-            lambda: munich(bearings=[MagneticBearing(15, 50.0, -1e5, PID(1.0))]),
-            r"^bearing node = 15: a node of the shaft: 0 to 14, its end at 702 mm$",
-        ),
         (
             lambda: munich(bearings=[MagneticBearing(3, 50.0, -1e5, PID(1.0), (3, 16))]),
             r"^sensor node = 16: a node of the shaft: 0 to 14",
         ),
         (lambda: munich(unbalances=[Unbalance(20, 1e-5)]), r"^unbalance node = 20: a node of the shaft: 0 to 14"),
-        (
-            lambda: munich(touchdowns=[TouchdownPlane(20, SOFT, 0.01, 0.1)]),
-            r"^touchdown node = 20: a node of the shaft",
-        ),
         (
             lambda: TouchdownPlane(0, TouchdownBearing(), 0.01, 0.1),
             r"^restitution = nothing given: the law rigid needs it",
@@ -153,14 +136,11 @@ def test_mounts_and_races_are_those_of_the_touchdown_bearing():
             lambda: munich(touchdown=TouchdownBearing(restitution=0.8)),
             r"^law = rigid: 'kelvin-voigt' or 'hunt-crossley'",
         ),
-        (lambda: TouchdownPlane(0, "soft", 0.01, 0.1), r"^bearing = soft: carom.parameters.TouchdownBearing$"),
-        (lambda: TouchdownPlane(0, SOFT, 0.01, -0.1), r"^friction = -0.1: must be a number"),
         (
             lambda: TouchdownPlane(0, TouchdownBearing("kelvin-voigt", 1e8, 1.0, offset=1e-5), 0.01, 0.1),
             r"^offset = 1e-05: 0: bearings of a flexible rotor are centred where it levitates$",
         ),
         (lambda: Unbalance(0, "10 mm"), r"^size = 10 mm: must be an unbalance"),
-        (lambda: MACHINE.reduce(-1.0), r"^accuracy = -1.0: a finite number above 0$"),
         (lambda: MACHINE.with_modes(0), r"^modes = 0: a whole number of at least 1$"),
     ],
 )

@@ -1,7 +1,5 @@
 """Orbits of a flexible machine and their branches over a gain of its controllers, against motions simulated anew."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

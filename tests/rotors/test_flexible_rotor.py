@@ -1,7 +1,5 @@
 """Shafts with discs as finite elements, against exact solutions of the beam and closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -169,26 +167,10 @@ def test_long_sections_are_divided_and_nodes_stay_where_they_are():
     [
         (lambda: ShaftSection("94", "8 kg"), r"^outer_diameter = 8 kg: must be a length"),
         (lambda: ShaftSection(0.1, 0.01, 0.01), r"^inner_diameter = 0.01: a length below the outer diameter, 0.01 m$"),
-        (lambda: ShaftSection(math.nan, 0.01), r"^length = nan: must be a length"),
-        (lambda: ShaftSection(0.1, 0.01, 0.0, "steel"), r"^material = steel: carom.rotors.Material$"),
-        (lambda: Material(density=-1.0), r"^density = -1.0: must be a density"),
-        (lambda: Disc(1.5, 1.0, 1.0, 1.0), r"^disc node = 1.5: the number of a node"),
         (lambda: Disc(-1, 1.0, 1.0, 1.0), r"^disc node = -1: the number of a node"),
         (lambda: Disc(0, 1.0, 1.0, 2.1), r"^polar_inertia = 2.1: at most twice the diametral inertia, 1 kg m\^2$"),
         (lambda: ModalDamping(-0.1), r"^ratio = -0.1: must be a number"),
-        (
-            lambda: plain(discs=[Disc(2, 1.0, 1.0, 1.0)]),
-            r"^disc node = 2: a node of the shaft: 0 to 1, its end at 1000 mm$",
-        ),
         (lambda: FlexibleRotor([], [], UNDAMPED), r"^sections = \[\]: a sequence of carom.rotors.ShaftSection$"),
-        (
-            lambda: FlexibleRotor([ShaftSection(1.0, 0.1)], None, UNDAMPED),
-            r"^discs = None: a sequence of carom.rotors.Disc$",
-        ),
-        (
-            lambda: FlexibleRotor([ShaftSection(1.0, 0.1)], [], None),
-            r"^damping = None: carom.rotors.ModalDamping, such as",
-        ),
         (lambda: plain(elements=-3), r"^longest_element = -0.333"),
         (
             lambda: plain(elements=501),

@@ -1,7 +1,5 @@
 """All modes decide whether a machine levitates: against a generalized eigenvalue problem written down anew, and never by the reduced rotor."""
 
-from __future__ import annotations
-
 import math
 import re
 

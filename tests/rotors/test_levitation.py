@@ -1,7 +1,5 @@
 """Linear results of levitating rotors: whirls, response to unbalance and sensitivity, against finite elements written down anew and closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flexible_machines import munich, symmetric

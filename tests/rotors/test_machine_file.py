@@ -1,7 +1,5 @@
 """Flexible machines in machine files: what they say, what may be set, and errors that name the table."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -105,49 +103,28 @@ def without(text, line):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (
-            SMALL.replace('length = "0.4 m"', 'length = "0.4 kg"'),
-            r"^\[\[section\]\] 2: length = 0.4 kg: must be a length",
-        ),
         (SMALL.replace('length = "0.4 m"', 'lenght = "0.4 m"'), r"\[\[section\]\] 2: lenght = .*did you mean length"),
         (without(SMALL, "node = 3\n"), r"^\[\[disc\]\] 1: node = nothing given: must be stated$"),
         (SMALL.replace("node = 3", "node = 4"), r"^disc node = 4: a node of the shaft: 0 to 3"),
         (SMALL.replace("node = 2", "node = 7"), r"^\[\[magnetic_bearing\]\] 2: node = 7: a node of the shaft: 0 to 3"),
         (
-            without(SMALL, "proportional = 9000\n"),
-            r"^\[\[magnetic_bearing\]\] 1: proportional = nothing given: must be",
-        ),
-        (
-            without(SMALL, 'filter_time = "0.1 ms"\n'),
-            r"^\[\[magnetic_bearing\]\] 1: filter_time = nothing given: a deriv",
-        ),
-        (
-            SMALL.replace("denominator = [1e-4, 1]", "denominator = [1]"),
-            r"^\[\[magnetic_bearing\]\] 2: controller numerator = a polynomial of degree 1: a proper transfer function",
-        ),
-        (
             SMALL.replace("proportional = 9000", "proportional = 9000\nA = [[1]]"),
             r"^\[\[magnetic_bearing\]\] 1: controller = proportional, A: one of: proportional",
         ),
-        (without(SMALL, "ki = 50\n"), r"\[\[magnetic_bearing\]\] 1: ki = nothing given: must be stated"),
         (SMALL.replace("friction = 0.1", "friction = -1"), r"^\[\[touchdown\]\] 1: friction = -1: must be a number"),
         (
             SMALL.replace('law = "kelvin-voigt"', 'law = "rigid"'),
             r"^\[\[touchdown\]\] 1: law = rigid: must be one of kelvin-v",
         ),
-        (SMALL.replace('"0.2 mm"', '"-0.2 mm"'), r"^\[\[touchdown\]\] 1: clearance = -0.2 mm: must be a length"),
         (SMALL[: SMALL.index("[[touchdown]]")], r"^\[\[touchdown\]\] = nothing given: one or more tables"),
         (
             SMALL[: SMALL.index("[[section]]")] + SMALL[SMALL.index("[[disc]]") :],
             r"^\[\[section\]\] = nothing given: one",
         ),
-        (SMALL.replace("damping_ratio = 0.01", "damping_ratio = 5"), r"^damping_ratio = 5: must be a number"),
         (SMALL.replace("-1e5 N/m", "1e5 N/m"), r"1: ks = 1e5 N/m: must be a stiffness in N/m, <= 0 \(0, or -1e"),
         (SMALL.replace("damping_ratio = 0.01", ""), r"^damping = nothing given: one of: damping_ratio"),
         (SMALL.replace("accuracy = 0.5", "damping_of_mass = 1"), r"^damping = both: one of: damping_ratio"),
-        (without(SMALL, 'speed = "3000 rpm"\n'), r"^speed = nothing given: must be an angular speed"),
         (SMALL.replace("accuracy", "acuracy"), r"^acuracy = 0.5: .*did you mean accuracy"),
-        (SMALL.replace("accuracy = 0.5", "accuracy = -1"), r"^accuracy = -1: must be a number"),
         (SMALL + "[drive]\npolar_inertia = 1\n", r"^drive = .*: not allowed beside \[rotor\]"),
         (
             SMALL + "[machine]\nmass = 1\n",

@@ -1,7 +1,5 @@
 """Machine files that cases write: what is read from them is the same case, to the last bit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

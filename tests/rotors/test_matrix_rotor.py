@@ -1,7 +1,5 @@
 """Rotors by matrices: the same as those of sections, in all forms that other programs write, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flexible_machines import munich, munich_rotor
@@ -110,10 +108,6 @@ def given(**changes):
         ),
         (lambda: given(K=changed(K, 0, 3, np.nan)), r"^K = .*: finite real numbers"),
         (lambda: given(K=changed(K, 0, 1, 3.0)), r"^K = unsymmetric: 3 in row 0, column 1; .* opposite: a symmetric"),
-        (
-            lambda: given(M=changed(M, 3, 3, -1.0)),
-            r"^M = indefinite: -1 on the diagonal in row 3: .* the tilt at node 1",
-        ),
         (lambda: given(M=M + changed(changed(0 * M, 0, 2, 50.0), 2, 0, 50.0)), r"^M = indefinite: eigenvalue -"),
         (
             lambda: given(K=changed(K, 4, 4, K[4, 4] + 1e6)),
@@ -126,22 +120,11 @@ def given(**changes):
             r"^K = has tilts of the other sign: tilts dx/ds$",
         ),
         (lambda: given(K=-K), r"^K = indefinite: .* on the diagonal in row"),
-        (lambda: given(K=K.round(-4)), r"^K = (three lowest eigenvalues|holds the rotor|indefinite)"),
         (lambda: given(G=M), r"^G = acts on a rotor that does not tilt"),
         (lambda: given(G=-G), r"^G = polar inertia -.* kg m\^2: above zero"),
         (lambda: given(damping=-K), r"^D = indefinite: it feeds a motion"),
-        (lambda: given(damping=None), r"^damping = nothing given: carom.rotors.ModalDamping, such as"),
         (lambda: given(nodes=NODES[::-1]), r"^nodes = .*: increasing numbers in m"),
         (lambda: given(names=["a", "a"]), r"^names = .*: \d+ texts, one for each node, no name twice$"),
-        (lambda: given(discs=[1]), r"^discs = \[1\]: a sequence of carom.rotors.Disc$"),
-        (
-            lambda: given(discs=[Disc(99, 1.0, 1.0, 1.0)]),
-            r"^disc node = 99: a node of the shaft: 0 to \d+, its end at 702 mm$",
-        ),
-        (
-            lambda: MatrixRotor.of_planes(M, K, G, NODES[:4], DAMPING),
-            r"^M = an array of shape .*: 2 \(complex\), 4 or 6 coord",
-        ),
         (
             lambda: MatrixRotor.of_planes(M, K, G, NODES, DAMPING, ("x", "y")),
             r"^coordinates = x, y: .* that name x, y, alpha and beta$",

@@ -1,7 +1,5 @@
 """The table of the parts of a flexible machine: every part, where it is, and its entries as the file has them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import carom as cm

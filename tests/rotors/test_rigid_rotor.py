@@ -1,7 +1,5 @@
 """The rigid rotor with four degrees of freedom: closed forms, NumPy, the planar rotor, and machine files."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

@@ -1,7 +1,5 @@
 """A flexible rotor that is made stiffer and stiffer moves as the planar rotor of its mass, through contact too."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

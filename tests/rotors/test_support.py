@@ -1,7 +1,5 @@
 """Anisotropic supports, against the equations of two real planes written down anew."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What motions ask of magnetic bearings: against the equations in SI units, integrated in the fixed frame."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a study says of the completeness of its orbits."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import pytest

@@ -1,7 +1,5 @@
 """A drop in words and as JSON, against the limits of the touchdown bearing."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

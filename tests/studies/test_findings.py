@@ -1,7 +1,5 @@
 """What a study says of backward whirl: one limit of the damping or two, each for what it is."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

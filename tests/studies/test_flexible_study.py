@@ -1,7 +1,5 @@
 """The study of a flexible machine: its sentences against fresh simulations and independent numbers."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Loads against the limits of a touchdown bearing."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Studies of rotors given by their matrices: what a search and simulation find, stated by the words of every study."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import partial

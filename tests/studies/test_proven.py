@@ -1,7 +1,5 @@
 """A study calls proven only what a proof has decided."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Response over speed: limits, margins, words, and whether simulated motions do what is said of each speed."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from itertools import pairwise

@@ -74,21 +74,3 @@ def test_file_and_python_give_the_same_in_a_store_and_in_memory(tmp_path, machin
 def test_what_cannot_be_planned(machine, axes, more, words):
     with pytest.raises(InputError, match=words):
         plan_sweep(machine, axes, StudyTask(), **more)
-
-
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (lambda: GridAxis.between("dampin", 1, 2, 3), "damping"),
-        (lambda: GridAxis.between("damping", "1 kg", 2, 3), r"axes\.damping\.from = "),
-        (lambda: GridAxis.between("damping", 1, 1, 3), r"axes\.damping\.to = 1: must be another value"),
-        (lambda: GridAxis.between("damping", 1, 2, 1), r"axes\.damping\.count = 1"),
-        (lambda: GridAxis.between("gamma", 0, 2, 3, "log"), "needs ends above 0"),
-        (lambda: GridAxis.between("gamma", 1, 2, 3, "cubic"), "spacing = cubic: one of: linear, log"),
-        (lambda: GridAxis.of("gamma", []), r"axes\.gamma\.values"),
-        (lambda: GridAxis.of("gamma", [0.1, 0.1]), "must be different values"),
-    ],
-)
-def test_what_is_no_axis_or_work(make, words):
-    with pytest.raises(InputError, match=words):
-        make()

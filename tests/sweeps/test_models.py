@@ -1,7 +1,5 @@
 """Sweeps of any model over any of its parameters, against the same disturbances followed one machine after another."""
 
-from __future__ import annotations
-
 import pytest
 from compilation import sized
 from linear_rotors import tilting

@@ -1,7 +1,5 @@
 """The program that checks certificates by itself confirms what carom proves, and refuses what was forged."""
 
-from __future__ import annotations
-
 import ast
 import copy
 import importlib.util

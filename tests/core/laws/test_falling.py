@@ -1,7 +1,5 @@
 """A restitution that falls with speed: its derivatives, and its limits."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Derivatives of the force of each compliant law, against differences of the force."""
 
-from __future__ import annotations
-
 import math
 from importlib import import_module
 

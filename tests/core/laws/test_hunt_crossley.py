@@ -1,7 +1,5 @@
 """A Hunt–Crossley wall: force, series, energy and the parabola at the onset against the power in many digits."""
 
-from __future__ import annotations
-
 from math import factorial
 
 import mpmath

@@ -1,7 +1,5 @@
 """A Kelvin–Voigt wall: force, series, stored energy and bounds of rounding errors against the formula in many digits."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """A law enters by one file: a spring that hardens with the cube of the depth, against SciPy."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Every operator and function gives in each lane what NumPy's scalars give, and no lane sees another."""
 
-from __future__ import annotations
-
 import itertools
 from typing import NamedTuple
 

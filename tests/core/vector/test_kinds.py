@@ -1,7 +1,5 @@
 """What makes no sense on lanes is refused by the compiler."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from lane_programs import program

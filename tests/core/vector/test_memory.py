@@ -1,7 +1,5 @@
 """Lanes come from where they are said to, go there and nowhere else, and rows are looked up at every place."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from compilation import COMPILED

@@ -1,7 +1,5 @@
 """A processor without wide registers and without fused multiplication and addition finds the same motions."""
 
-from __future__ import annotations
-
 import os
 import platform
 import subprocess

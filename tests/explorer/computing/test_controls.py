@@ -1,7 +1,5 @@
 """Controls of a machine, and what people type into their boxes."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is copied from the page leads to the machine on the page."""
 
-from __future__ import annotations
-
 import json
 import shlex
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Smallest loss, hardest impulse and verdict are those of the library."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

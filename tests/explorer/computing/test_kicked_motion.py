@@ -1,7 +1,5 @@
 """The motion after a kick: that of the library, sampled."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

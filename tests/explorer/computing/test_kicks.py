@@ -1,7 +1,5 @@
 """Pictures of kicks: the basin of the library, with the look of its figures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

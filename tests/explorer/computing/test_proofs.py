@@ -1,7 +1,5 @@
 """What is proven of the kicks of a picture lies where the picture has them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Table of motions, and diagram along a slider."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How hard a rotor strikes: impulses at a rigid wall, peak forces and depths in a compliant one."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """The document of a page, without a browser."""
 
-from __future__ import annotations
-
 import re
 import threading
 from pathlib import Path

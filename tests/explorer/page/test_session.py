@@ -1,7 +1,5 @@
 """Requests of a page and the answers to them, without a browser."""
 
-from __future__ import annotations
-
 import queue
 import threading
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The reproduction, computed once for all tests."""
 
-from __future__ import annotations
-
 import pytest
 
 from carom.reproductions import mora2014

@@ -1,7 +1,5 @@
 """Which statements of the source paper hold."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from machines import PAPER

@@ -1,7 +1,5 @@
 """Figures of the source paper: what is drawn, in which look, under which words, and that nothing lies on anything."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

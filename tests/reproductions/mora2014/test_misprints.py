@@ -1,7 +1,5 @@
 """Misprints: the printed and the right form, both evaluated here by routes that share nothing with the package."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

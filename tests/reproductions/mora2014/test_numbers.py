@@ -1,7 +1,5 @@
 """Printed numbers beside ours, against the values of :mod:`literature.test_source_paper` and routes of their own."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 

@@ -1,7 +1,5 @@
 """What holds of Propositions 4.1 and 4.3 of the source paper."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the figures show, by routes of their own."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """``paper.json``, ``table.md`` and the figures on disk."""
 
-from __future__ import annotations
-
 import json
 
 import pytest
