@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which question is answered for which machine, and in how many seconds of a processor: a table in Markdown.
 
-    python tools/matrix.py                       # all of it, some twenty minutes
+    python tools/matrix.py                       # all of it, some eight minutes
     python tools/matrix.py --machine rigid,real --question orbits,study
 
 Every cell is one command in a process of its own.  A cell has the seconds, ``refused`` where it still is, ``—`` where the command says that the question has no meaning
