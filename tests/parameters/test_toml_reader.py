@@ -63,7 +63,7 @@ def test_all_errors_are_told_at_once(error_of):
     content = 'title = "mine"\n' + content.replace("\nclearance", '\ncolor = "red" #') + "\nlimit = 4\n"
     error = error_of(content, "gama=1", "restitution=2", "mass=1 s", "x")
 
-    file = ["title", "limit", "color", "spede", "clearance", "mass", "friction"]
+    file = ["title", "limit", "limits", "color", "spede", "clearance", "mass", "friction"]
     assert sorted(one.field for one in error.errors) == sorted([*file, "--set", "gama"])
     assert (error.field, error.value) == ("title", "mine")
     assert str(error).split("\n") == [str(one) for one in error.errors]

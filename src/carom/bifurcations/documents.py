@@ -70,12 +70,12 @@ def _period(point: Any, found: RegionMap) -> str:
 
 
 POINT = (
-    Column("value", "{parameter}", lambda point, found: f"{found.axis.field.in_usual_unit(point.value):.10g}"),
+    Column("value", "{0.parameter}", lambda point, found: f"{found.axis.field.in_usual_unit(point.value):.10g}"),
     Column("kind", "what happens", lambda point, _: kind_words(point.kind)),
     Column("branch=name", "to", lambda point, _: STEADY_WORDS.get(point.name, point.name)),
     Column("parameter"),
-    Column("period", "period ({time_unit})", _period_of_point),
-    Column("radial_speed", "radial speed ({speed_unit})", _speed),
+    Column("period", "period ({0.time_unit})", _period_of_point),
+    Column("radial_speed", "radial speed ({0.speed_unit})", _speed),
     Column("admissible", "possible", _possible),
     Column("detail", "more"),
 )
@@ -83,7 +83,9 @@ BRANCH = "values period admissible stable ends=stops"
 CURVE = (
     Column("kind", "bifurcation", lambda curve, _: kind_words(curve.kind)),
     Column("orbits", "of", lambda curve, _: curve.subject),
-    Column("points", "from {axes[0].heading}, {axes[1].heading}", lambda curve, found: _place(found, curve.points[0])),
+    Column(
+        "points", "from {0.axes[0].heading}, {0.axes[1].heading}", lambda curve, found: _place(found, curve.points[0])
+    ),
     Column("", "to", lambda curve, found: _place(found, curve.points[-1])),
     Column(
         "ends=stops",
@@ -96,8 +98,8 @@ CURVE = (
 )
 CODIMENSION2 = (
     Column("kind", "kinds", lambda point, _: " + ".join(map(kind_words, point.kinds))),
-    Column("value", "{axes[0].heading}", _coordinate(0)),
-    Column("", "{axes[1].heading}", _coordinate(1)),
+    Column("value", "{0.axes[0].heading}", _coordinate(0)),
+    Column("", "{0.axes[1].heading}", _coordinate(1)),
     Column("period", "period", _period),
     Column("radial_speed"),
     Column("admissible", "possible", _possible),
@@ -107,7 +109,7 @@ REGION = (
     Column("share", "share", lambda region, _: f"{100 * region.share:.1f} %" if region.share else "thin"),
     Column(
         "point",
-        "for example at {axes[0].heading}, {axes[1].heading}",
+        "for example at {0.axes[0].heading}, {0.axes[1].heading}",
         lambda region, found: _place(found, region.point),
     ),
     Column("", "region", lambda region, _: region.motions.region),
@@ -118,7 +120,7 @@ REGION = (
     ),
 )
 CHANGE = (
-    Column("point", "at {axes[0].heading}, {axes[1].heading}", lambda change, found: _place(found, change.point)),
+    Column("point", "at {0.axes[0].heading}, {0.axes[1].heading}", lambda change, found: _place(found, change.point)),
     Column("", "what changes", lambda change, _: change.words),
     Column("reason", "why no curve"),
     Column("before=before.words"),

@@ -4,7 +4,7 @@
 ``fields``                names, symbols, units and ranges of all numbers
 ``common_units``          units of machine files as pint converts them
 ``terms``                 terms that stand for the numbers of a machine, with their formulas
-``tables``                tables that files of all machines share, each entry declared once: :class:`Gravity`, :class:`Drive`, :class:`LoadLimits`
+``tables``                tables that files of all machines share, each entry declared once: :class:`Zones`, :class:`Gravity` and the like
 ``quantities``            text with units -> float in SI units
 ``exact``                 text with units -> exact numbers, for proofs
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
@@ -36,7 +36,7 @@ from carom.parameters.fields import (
 )
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.machine import ControlLimit, Machine
-from carom.parameters.machine_file import Case, Zones
+from carom.parameters.machine_file import Case
 from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import (
@@ -51,7 +51,7 @@ from carom.parameters.requirement import (
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.settings import SETTINGS, field_to_set
 from carom.parameters.sizes import Size, own_size, own_time, own_unbalance, read_size, read_unbalance
-from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits
+from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits, Zones
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_vary
 from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 

@@ -15,7 +15,7 @@ class Column(NamedTuple):
     key : str
         Its key in JSON as :func:`carom.base.results.record` reads it: ``"branch=name"``, ``"period:"``; empty if it is not there.
     heading : str
-        What heads it in tables; empty if it is in none.  Names in braces are attributes of the result: ``"{parameter}"``.
+        What heads it in tables; empty if it is in none.  Braces stand for attributes of the result: ``"{0.parameter}"``.
     text : callable, optional
         What stands in its cells, from the entry and the result; by default the attribute.
     """
@@ -33,17 +33,8 @@ def keys_of(columns: Iterable[Column]) -> str:
 def table_of(columns: Iterable[Column], entries: Iterable[object], result: object) -> tuple[list[str], list[list[str]]]:
     """Headings, and a row of texts for each entry of a result."""
     shown = [column for column in columns if column.heading]
-    headings = [column.heading.format_map(_Attributes(result)) for column in shown]
+    headings = [column.heading.format(result) for column in shown]
     return headings, [[_text(column, entry, result) for column in shown] for entry in entries]
-
-
-class _Attributes(dict[str, object]):
-    def __init__(self, result: object) -> None:
-        super().__init__()
-        self._result = result
-
-    def __missing__(self, name: str) -> object:
-        return getattr(self._result, name)
 
 
 def _text(column: Column, entry: object, result: object) -> str:

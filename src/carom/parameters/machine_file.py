@@ -14,11 +14,11 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_e
 from carom.parameters.formats import format_quantity, number, shown_in
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.numbers import Named, Parameters, own_numbers
-from carom.parameters.quantities import Written, read_quantity
+from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
 from carom.parameters.settings import GRAVITY_NAME, SETTINGS
-from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits
+from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits, Table, Zones
 from carom.parameters.terms import ENTRIES, check_names
 from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
@@ -29,57 +29,6 @@ UNUSED = 0.0
 """Restitution of a machine whose touchdown bearing is compliant."""
 _UNITS_SHOWN = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
-
-
-@dataclass(frozen=True)
-class Zones:
-    """Zones of the vibration amplitude of a rotor on magnetic bearings.
-
-    Parameters
-    ----------
-    limits : tuple of float
-        Largest radius, in units of the clearance, in zone A, B and C; above the last one lies zone D. The default
-        are the limits of ISO 14839-2:2004 for the displacement of a rotor on active magnetic bearings.
-
-    Raises
-    ------
-    InputError
-        If the limits are not three numbers that increase from above 0 to at most 1.
-    """
-
-    limits: tuple[float, float, float] = (0.3, 0.4, 0.5)
-
-    def __post_init__(self) -> None:
-        given: Any = self.limits
-        numbers = (
-            [each for each in given if type(each) in (int, float, Written)] if isinstance(given, list | tuple) else []
-        )
-        if len(numbers) != 3 or len(given) != 3 or not 0 < numbers[0] < numbers[1] < numbers[2] <= 1:
-            words = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5], in [zones]"
-            raise InputError("limits", shown(given), words)
-        object.__setattr__(self, "limits", tuple(map(float, given)))
-
-    @classmethod
-    def of(cls, table: Mapping[str, Any]) -> Zones:
-        """Read a table ``[zones]``; what cannot be used is refused."""
-        if unknown := unknown_names(table, {"limits": None}, "[zones]"):
-            raise together(unknown)
-        return cls(**table)
-
-    @property
-    def labels(self) -> tuple[str, str, str, str]:
-        """Names of the zones, from the smallest amplitude to the largest."""
-        return ("A", "B", "C", "D")
-
-    @checked
-    def zone(self, radius: float) -> str:
-        """Return the zone of an amplitude: the largest distance of the rotor centre from the bearing centre, in clearances.
-
-        A radius equal to a limit belongs to the zone below it.  A negative radius, or one that is not a number, is refused.
-        """
-        if not radius >= 0:
-            raise InputError("radius", shown(radius), "must be >= 0, in units of the clearance")
-        return self.labels[sum(radius > limit for limit in self.limits)]
 
 
 @checked
@@ -226,10 +175,9 @@ class Case(Tabular):
             text = ""
         if not text:
             return ""
-        zones = f"[zones]\nlimits = {list(self.zones.limits)}\n"
         tables = [table.to_toml() for table in (self.limits, self.touchdown, self.drive, self.gravity) if table]
         required = self.requirement.to_toml(has_scales=numbers.scales is not None)
-        return "\n".join(filter(None, [text, zones, required, *tables]))
+        return "\n".join(filter(None, [text, self.zones.to_toml(), required, *tables]))
 
     def _required(self) -> str:
         scales, stated = self.parameters.scales, self.requirement
@@ -296,14 +244,10 @@ Fields = dict[str, Any]
 
 def read_beside(tables: MachineTables, problems: Problems, has_scales: bool = True) -> Fields:
     """What all kinds of files state beside their machine: ``[zones]``, ``[limits]``, ``[gravity]`` and ``[drive]``; errors are added to those before."""
-    found = {
-        "zones": problems.attempt(Zones.of, tables.zones) or Zones(),
-        "limits": problems.attempt(LoadLimits.of, tables.limits, has_scales) or LoadLimits(),
-    }
-    for kind in (Gravity, Drive):
-        table = getattr(tables, kind.heading)
-        found[kind.heading] = None if table is None else problems.attempt(kind.of, table, has_scales)
-    return found
+    defaults: dict[type[Table], Table | None] = {Zones: Zones(), LoadLimits: LoadLimits(), Gravity: None, Drive: None}
+    stated = {kind: tables.beside.get(kind.heading) for kind in defaults}
+    found = {kind: problems.attempt(kind.of, table, has_scales) for kind, table in stated.items() if table is not None}
+    return {kind.heading: found.get(kind) or default for kind, default in defaults.items()}
 
 
 def read_case(
@@ -332,7 +276,9 @@ def read_case(
     scales = Scales(1.0, 1.0, 1.0) if has_scales else None
     if found["parameters"] is not None:
         scales = found["parameters"].scales
-    found["requirement"] = problems.attempt(Requirement.of_table, tables.survive, scales) or Requirement()
+    found["requirement"] = (
+        problems.attempt(Requirement.of_table, tables.beside.get("survive", {}), scales) or Requirement()
+    )
     if not of_parts:
         problems.attempt(check_names, {each: texts[each] for each in texts if not each.startswith(PREFIX)}, SETTINGS)
     problems.raise_all()
@@ -346,7 +292,8 @@ def read_case(
 def _read_planar(tables: MachineTables, problems: Problems) -> Fields:
     """Of ``[machine]`` or ``[dimensionless]``, and ``[touchdown]``."""
     of_machine = tables.kind == "machine"
-    values, bearing = problems.attempt(_with_restitution, tables.values, tables.touchdown) or (tables.values, {})
+    stated = tables.beside.get("touchdown", {})
+    values, bearing = problems.attempt(_with_restitution, tables.values, stated) or (tables.values, {})
     touchdown = problems.attempt(TouchdownBearing.of, bearing, of_machine) if bearing else None
     if of_machine:
         machine = problems.attempt(Machine, **values)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, Self, runtime_checkable
 
@@ -198,7 +198,9 @@ class Numbers(NamedTuple):
 
     def value(self, name: str) -> float:
         """Value of a parameter, in SI units if it is a physical one; those need units."""
-        return _READ[name](self)
+        number = _NUMBER_OF.get(name)
+        value: float = getattr(self.units if name in Units._fields else self, number or name)
+        return value if number is None else CONVERSIONS[number].value(value, self.units)
 
     def moved(self, name: str, value: float) -> Numbers:
         """Numbers with another value of one parameter; an analytic function of it.
@@ -206,7 +208,18 @@ class Numbers(NamedTuple):
         A dimensionless parameter moves alone.  A physical one, in SI units, moves whatever depends on it while the
         other physical ones stay: the shaft speed ``Ω`` moves ``γ = c/(mΩ)`` and ``ω = √(k/m)/Ω``, and not ``ρ``.
         """
-        return _MOVES[name](self, value)
+        units: Any = self.units
+        moved: dict[str, Any] = {name: value}
+        if number := _NUMBER_OF.get(name):
+            moved = {number: CONVERSIONS[number].number(value, units)}
+        elif name in Units._fields:
+            ratio = getattr(units, name) / value
+            factors = dict.fromkeys(_FOLLOWING[name], ratio)
+            if name == "mass":
+                factors["omega"] = root(ratio)
+            moved = {number: getattr(self, number) * factor for number, factor in factors.items()}
+            moved["units"] = units._replace(**{name: value})
+        return self._replace(**moved)
 
     def rates(self, name: str) -> list[float]:
         """Derivatives of the seven numbers by a parameter: imaginary parts after a tiny imaginary step, exact but for rounding."""
@@ -216,52 +229,9 @@ class Numbers(NamedTuple):
         return [complex(number).imag / _STEP for number in moved[:7]]
 
 
-def _with_speed(numbers: Any, speed: float) -> Numbers:
-    mass, clearance, present = numbers.units
-    ratio = present / speed
-    gamma, omega = numbers.gamma * ratio, numbers.omega * ratio
-    return Numbers._make((gamma, omega, *numbers[2:7], Units(mass, clearance, speed)))
-
-
-def _with_mass(numbers: Any, mass: float) -> Numbers:
-    present, clearance, speed = numbers.units
-    ratio = present / mass
-    gamma, omega = numbers.gamma * ratio, numbers.omega * root(ratio)
-    return Numbers._make((gamma, omega, *numbers[2:7], Units(mass, clearance, speed)))
-
-
-def _with_clearance(numbers: Any, clearance: float) -> Numbers:
-    gamma, omega, rho, phi, mu, d, radius_ratio, (mass, present, speed) = numbers
-    ratio = present / clearance
-    return Numbers(gamma, omega, rho * ratio, phi, mu, d, radius_ratio * ratio, Units(mass, clearance, speed))
-
-
-_MOVES: dict[str, Callable[[Numbers, float], Numbers]] = {
-    "speed": _with_speed,
-    "mass": _with_mass,
-    "clearance": _with_clearance,
-}
-_READ: dict[str, Callable[[Any], float]] = {
-    "speed": lambda numbers: numbers.units.speed,
-    "mass": lambda numbers: numbers.units.mass,
-    "clearance": lambda numbers: numbers.units.clearance,
-}
-
-
-def _add(name: str) -> None:
-    """Add a dimensionless parameter and its partner."""
-    place, conversion = Numbers._fields.index(name), CONVERSIONS[name]
-
-    def move(numbers: Any, value: float) -> Numbers:
-        return Numbers._make((*numbers[:place], value, *numbers[place + 1 :]))
-
-    _MOVES[name], _READ[name] = move, lambda numbers: numbers[place]
-    _MOVES[PHYSICAL_PARTNER[name]] = lambda numbers, value: move(numbers, conversion.number(value, numbers.units))
-    _READ[PHYSICAL_PARTNER[name]] = lambda numbers: conversion.value(numbers[place], numbers.units)
-
-
-for _name in DIMENSIONLESS_FIELDS:
-    _add(_name)
+_NUMBER_OF = {partner: name for name, partner in PHYSICAL_PARTNER.items()}
+_FOLLOWING = {"speed": ("gamma", "omega"), "mass": ("gamma", "omega"), "clearance": ("rho", "radius_ratio")}
+"""Numbers that change with each of the units: as its reciprocal does, only the frequency as the root of that of the mass."""
 
 
 @runtime_checkable

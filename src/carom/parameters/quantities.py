@@ -8,7 +8,6 @@ import re
 from decimal import Decimal
 from functools import cache
 from numbers import Real
-from tokenize import TokenError
 from typing import Any
 
 from carom.base.arguments import checked
@@ -45,18 +44,6 @@ _MEANT = {
 """Units that pint takes for others in a field of this unit: 1 Hz for 1 rad/s, the U (turn) of German papers for an amount
 of an enzyme, a mil for an angle, the g of accelerations for a gram."""
 _DIGITS = decimal.Context(prec=40)
-# Errors that pint raises besides its own, which derive from some of these.
-_PARSER_ERRORS = (
-    ArithmeticError,
-    AssertionError,
-    AttributeError,
-    LookupError,
-    RecursionError,
-    SyntaxError,
-    TokenError,
-    TypeError,
-    ValueError,
-)
 
 
 class Written(float):
@@ -195,7 +182,7 @@ def unit_factor(field: Field, unit: str, text: str) -> Decimal:
             raise ValueError(unit)
         scale, roots = _roots(_MEANT.get(field.unit, {}).get(unit) or _HYPHEN.sub("*", unit))
         field_scale, field_roots = _roots(field.unit)
-    except _PARSER_ERRORS:
+    except Exception:  # noqa: BLE001  (pint raises errors of its own and of all kinds)
         raise field.error(text, f"{unit!r} is not a unit that can be used here") from None
     if roots == field_roots:
         return scale / field_scale
@@ -210,7 +197,7 @@ def unit_factor(field: Field, unit: str, text: str) -> Decimal:
 def _roots(unit: str) -> tuple[Decimal, Roots]:
     """Factor and root units of a unit.
 
-    Raises one of `_PARSER_ERRORS` for text that is no unit, or a unit with an offset or a logarithm.
+    Raises an exception of any kind for text that is no unit, or a unit with an offset or a logarithm.
     """
     return COMMON_UNITS.get(unit) or _roots_by_pint(unit)
 

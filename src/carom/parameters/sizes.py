@@ -124,11 +124,7 @@ def read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
 @checked
 def own_unbalance(name: str, given: object, scales: Scales | None) -> float:
     """Convert text with a unit of an unbalance or an eccentricity to clearances; a number is already in these."""
-    return (
-        read_unbalance(name, given, scales).own(scales)
-        if isinstance(given, str)
-        else own_size(name, given, "unbalance", scales)
-    )
+    return read_unbalance(name, given, scales).own(scales)
 
 
 @checked

@@ -14,7 +14,7 @@ from carom.base.arguments import Count, Infinity, checked
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, unknown_names
 from carom.parameters.formats import format_angle, number
-from carom.parameters.quantities import read_quantity
+from carom.parameters.quantities import Written, read_quantity
 from carom.parameters.scaling import Scales
 
 DOWN = -0.5 * math.pi
@@ -87,7 +87,7 @@ def toml_line(name: str, value: Any, unit: str = "") -> str:
 
 @dataclasses.dataclass(frozen=True)
 class Table:
-    """Base class of a table of a machine file in SI units: a frozen dataclass whose attributes are its entries.
+    """Base class of a table of a machine file: a frozen dataclass whose attributes are its entries.
 
     Attributes
     ----------
@@ -95,13 +95,13 @@ class Table:
         Name of the table.
     texts : tuple of str
         Entries that are no numbers.
-    means_something_empty : bool
-        Whether a table without entries says something, as that of weight does.
+    is_in_si : bool
+        Whether it needs a machine in SI units.
     """
 
     heading: ClassVar[str]
     texts: ClassVar[tuple[str, ...]] = ()
-    means_something_empty: ClassVar[bool] = True
+    is_in_si: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         read_entries(self, self.entries)
@@ -145,7 +145,7 @@ class Table:
         own: Any = cls
         problems, known = Problems(), dict.fromkeys(cls.texts) | dict[str, Any](entries_of(own))
         problems.errors += unknown_names(table, known, f"[{cls.heading}]")
-        if not has_scales and (table or cls.means_something_empty):
+        if cls.is_in_si and not has_scales:
             problems.errors.append(cls.without_scales(shown(dict(table))))
         found = problems.attempt(cls, **{name: value for name, value in table.items() if name in known})
         problems.raise_all()
@@ -271,7 +271,6 @@ class LoadLimits(Table):
     )
 
     heading: ClassVar = "limits"
-    means_something_empty: ClassVar = False
 
     @staticmethod
     @checked
@@ -294,6 +293,54 @@ class LoadLimits(Table):
             raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a compliant bearing")
         if self.pressure is not None and (bearing is None or bearing.balls is None):
             raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")
+
+
+@dataclasses.dataclass(frozen=True)
+class Zones(Table):
+    """Zones of the vibration amplitude of a rotor on magnetic bearings.
+
+    Parameters
+    ----------
+    limits : tuple of float
+        Largest radius, in units of the clearance, in zone A, B and C; above the last one lies zone D. The default
+        are the limits of ISO 14839-2:2004 for the displacement of a rotor on active magnetic bearings.
+
+    Raises
+    ------
+    InputError
+        If the limits are not three numbers that increase from above 0 to at most 1.
+    """
+
+    limits: tuple[float, float, float] = (0.3, 0.4, 0.5)
+
+    heading: ClassVar = "zones"
+    texts: ClassVar = ("limits",)
+    is_in_si: ClassVar = False
+
+    def __post_init__(self) -> None:
+        given: Any = self.limits
+        numbers = (
+            [each for each in given if type(each) in (int, float, Written)] if isinstance(given, list | tuple) else []
+        )
+        if len(numbers) != 3 or len(given) != 3 or not 0 < numbers[0] < numbers[1] < numbers[2] <= 1:
+            words = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5], in [zones]"
+            raise InputError("limits", shown(given), words)
+        object.__setattr__(self, "limits", tuple(map(float, given)))
+
+    @property
+    def labels(self) -> tuple[str, str, str, str]:
+        """Names of the zones, from the smallest amplitude to the largest."""
+        return ("A", "B", "C", "D")
+
+    @checked
+    def zone(self, radius: float) -> str:
+        """Return the zone of an amplitude: the largest distance of the rotor centre from the bearing centre, in clearances.
+
+        A radius equal to a limit belongs to the zone below it.  A negative radius, or one that is not a number, is refused.
+        """
+        if not radius >= 0:
+            raise InputError("radius", shown(radius), "must be >= 0, in units of the clearance")
+        return self.labels[sum(radius > limit for limit in self.limits)]
 
 
 GRAVITY_FIELDS, DRIVE_FIELDS, LIMIT_FIELDS = map(entries_of, (Gravity, Drive, LoadLimits))

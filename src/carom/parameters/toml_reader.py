@@ -36,18 +36,8 @@ class MachineTables:
     """``"machine"``, ``"dimensionless"`` or ``"rotor"``: the table the file holds."""
     values: Mapping[str, Any]
     """Entries of that table, as TOML gives them."""
-    zones: Mapping[str, Any] = field(default_factory=dict)
-    """Entries of the optional table ``[zones]``."""
-    limits: Mapping[str, Any] = field(default_factory=dict)
-    """Entries of the optional table ``[limits]``."""
-    survive: Mapping[str, Any] = field(default_factory=dict)
-    """Entries of the optional table ``[survive]``."""
-    gravity: Mapping[str, Any] | None = None
-    """Entries of the optional table ``[gravity]``, of which an empty one means something too."""
-    touchdown: Mapping[str, Any] = field(default_factory=dict)
-    """Entries of the optional table ``[touchdown]``."""
-    drive: Mapping[str, Any] | None = None
-    """Entries of the optional table ``[drive]``."""
+    beside: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    """Entries of the optional tables that there are, by their names; an empty one may mean something too."""
     parts: Mapping[str, list[Mapping[str, Any]]] = field(default_factory=dict)
     """Tables for each part of a flexible rotor by their name, such as ``[[section]]``."""
     folder: Path = Path()
@@ -80,12 +70,10 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
         problems.raise_all()
-    optional = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
+    beside = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
     listed = {name: content[name] if isinstance(content.get(name), list) else [] for name in lists}
-    parts: dict[str, list[Mapping[str, Any]]] = {
-        name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()
-    }
-    return MachineTables(kinds[0], content[kinds[0]], **optional, parts=parts, folder=Path(name).parent)
+    parts: Any = {name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()}
+    return MachineTables(kinds[0], content[kinds[0]], beside, parts, Path(name).parent)
 
 
 def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:

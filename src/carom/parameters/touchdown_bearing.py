@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -27,6 +27,10 @@ _TOGETHER = (
     (OF_BALLS, _OF_BALLS, f"the pressure of balls needs {', '.join(_OF_BALLS)}"),
 )
 """Entries any of which needs others, and why."""
+_ON_MOUNT = "it is that of the rotor on a fixed bearing; on a mount give the damping or dissipation of the bearing"
+_AT_WHICH_SPEED = "the restitution of hunt-crossley changes with the speed of the impact: state that of this one"
+_Rule = tuple[str, str, bool]
+"""An entry, why it must be left out or given, and whether that applies."""
 PREFIX = "touchdown_"
 """Before the names of these entries where they stand beside those of the machine, as in ``--set touchdown_stiffness=1e8 N/m``."""
 _POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
@@ -137,56 +141,41 @@ class TouchdownBearing(Table):
         return self.exponent not in (1, "1")
 
     def _wrong(self) -> list[InputError]:
-        """What does not fit together."""
+        """What does not fit together: entries that must be left out, and those that are missing."""
         present = self.given.keys()
-        if self.law == "rigid":
-            others = sorted(name for name in present if name in OF_BALLS or (name in OF_LAW and name != "restitution"))
-            refused = [self._not_of_law(name, "the law of a rigid wall has none") for name in others]
-            return refused + self._missing()
-        own, other = ("damping", "dissipation") if self.law == "kelvin-voigt" else ("dissipation", "damping")
-        errors = []
-        if self.stiffness is None:
-            errors.append(InputError("stiffness", None, f"the law {self.law} needs it, such as stiffness = '1e8 N/m'"))
-        if other in present:
-            errors.append(self._not_of_law(other, f"the law {self.law} has a {own}"))
-        if {own, "restitution"} <= present:
-            errors.append(self._not_of_law("restitution", f"give {own} or restitution, not both"))
-        elif not {own, "restitution"} & present:
-            errors.append(InputError(own, None, f"the law {self.law} needs it, or a restitution"))
-        if self.law == "kelvin-voigt" and self.exponent != 1.0:
-            errors.append(self._not_of_law("exponent", "the law kelvin-voigt has the exponent 1"))
-        return errors + self._wrong_restitution() + self._missing()
-
-    def _wrong_restitution(self) -> list[InputError]:
-        """What does not fit to a restitution, or to none."""
-        speed, has_speed = "restitution_speed", self.restitution_speed is not None
-        if self.restitution is None:
-            return [self._not_of_law(speed, "it belongs to a restitution")] if has_speed else []
-        if self.law == "hunt-crossley" and not has_speed:
-            words = "the restitution of hunt-crossley changes with the speed of the impact: state that of this one"
-            return [InputError(speed, None, words)]
-        if self.law == "kelvin-voigt" and has_speed:
-            return [self._not_of_law(speed, "the restitution of kelvin-voigt is the same at all speeds")]
-        if self.given.keys() & {"mount_mass", "mount_stiffness"}:
-            fixed = "it is that of the rotor on a fixed bearing"
-            return [
-                self._not_of_law("restitution", f"{fixed}; on a mount give the damping or dissipation of the bearing")
-            ]
-        return []
-
-    def _missing(self) -> list[InputError]:
-        """Entries without which others that are given mean nothing."""
-        present = self.given.keys()
-        return [
-            InputError(name, None, words)
-            for others, needed, words in _TOGETHER
-            if not present.isdisjoint(others)
-            for name in needed
-            if name not in present
+        refused, needed = self._rules(present) if self.is_compliant else (self._rules_of_rigid(), [])
+        needed += [
+            (name, words, not present.isdisjoint(others)) for others, names, words in _TOGETHER for name in names
         ]
+        return [
+            InputError(name, getattr(self, name), f"must be left out: {words}")
+            for name, words, applies in refused
+            if applies and name in present
+        ] + [InputError(name, None, words) for name, words, applies in needed if applies and name not in present]
 
-    def _not_of_law(self, name: str, words: str) -> InputError:
-        return InputError(name, getattr(self, name), f"must be left out: {words}")
+    def _rules_of_rigid(self) -> list[_Rule]:
+        others = sorted({*OF_LAW, *OF_BALLS} - {"restitution"})
+        return [(name, "the law of a rigid wall has none", True) for name in others]
+
+    def _rules(self, present: Set[str]) -> tuple[list[_Rule], list[_Rule]]:
+        """Entries that a compliant bearing must not have, and those that it needs."""
+        law, is_linear = self.law, self.law == "kelvin-voigt"
+        own, other = ("damping", "dissipation") if is_linear else ("dissipation", "damping")
+        restitutes, speed = "restitution" in present, "restitution_speed"
+        refused = [
+            (other, f"the law {law} has a {own}", True),
+            ("restitution", f"give {own} or restitution, not both", own in present),
+            ("exponent", "the law kelvin-voigt has the exponent 1", is_linear),
+            (speed, "it belongs to a restitution", not restitutes),
+            (speed, "the restitution of kelvin-voigt is the same at all speeds", is_linear and restitutes),
+            ("restitution", _ON_MOUNT, not present.isdisjoint(_OF_MOUNT)),
+        ]
+        needed = [
+            ("stiffness", f"the law {law} needs it, such as stiffness = '1e8 N/m'", True),
+            (own, f"the law {law} needs it, or a restitution", not restitutes),
+            (speed, _AT_WHICH_SPEED, restitutes and not is_linear),
+        ]
+        return refused, needed
 
     @property
     def is_compliant(self) -> bool:
