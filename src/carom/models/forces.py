@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.base.arguments import kind_of_numbers
 from carom.base.outcome import InputError, shown
 from carom.models.forcing import Force
 from carom.models.mode_arrays import EQUAL, STEADY
@@ -33,11 +34,7 @@ def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
 
 def complex_numbers(given: Any) -> np.ndarray | None:
     """Array of finite numbers, a copy; ``None`` if they are no such numbers."""
-    try:
-        values = np.array(given)
-    except (TypeError, ValueError, OverflowError):
-        return None
-    return values.astype(complex) if values.dtype.kind in "iufc" and np.isfinite(values).all() else None
+    return None if kind_of_numbers(given) == "-" else np.array(given, complex)
 
 
 def gravity_among(forces: Sequence[Force], along: np.ndarray, scales: Scales | None) -> tuple[int, float] | None:

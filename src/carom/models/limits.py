@@ -11,7 +11,6 @@ import numpy as np
 
 from carom.base.outcome import InputError, shown
 from carom.core.layout import rotor_record
-from carom.core.wall import Wall
 from carom.models.matrices import Matrices
 from carom.models.system import System
 from carom.parameters import ControlLimit, Scales
@@ -19,22 +18,6 @@ from carom.parameters import ControlLimit, Scales
 if TYPE_CHECKING:
     from carom.models.definition import Definition
 
-_KEPT = (
-    "exponents",
-    "driven",
-    "offsets",
-    "rows",
-    "columns",
-    *Wall._fields,
-    "race",
-    "race_gain",
-    "masses",
-    "free",
-    "gap_rows",
-    "gap_offsets",
-    "anisotropy",
-    "conjugate_columns",
-)
 _VECTORS = ("displacement", "velocity", "accelerations", "rates")
 
 
@@ -137,7 +120,9 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
     }
     if system.is_anisotropic:
         own["limit_conjugates"] = system.conjugate_modes @ pushes.conj()
-    return replace(system, arrays=rotor_record(**{name: arrays[name] for name in _KEPT}, **own))
+    # Of the unbalance only a shaft has entries; what follows from limits is made anew.
+    kept = {name: arrays[name] for name in arrays.dtype.names or () if name != "unbalance"}
+    return replace(system, arrays=rotor_record(**kept | own))
 
 
 def limits_by(control: ControlLimit, matrices: Matrices, scales: Scales) -> tuple[Limit, ...]:

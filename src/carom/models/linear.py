@@ -14,6 +14,7 @@ from carom.base.outcome import InputError, shown
 from carom.base.results import Result
 from carom.models import linear_parameters
 from carom.models.definition import Definition
+from carom.models.forces import complex_numbers
 from carom.models.linear_system import system_of
 from carom.models.matrices import Matrices, is_singular
 from carom.models.shaft import Shaft
@@ -92,16 +93,14 @@ class LinearEquations(Definition, Result):
             raise InputError("shaft", shown(self.shaft), "carom.models.Shaft, or None")
         n = _numbers("forcing", self.forcing).size
         if self.translation is None:
-            object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing).shape))
+            object.__setattr__(self, "translation", np.ones(n))
         shapes: dict[str, tuple[int, ...]] = dict.fromkeys(("mass", "damping", "stiffness"), (n, n))
         shapes |= dict.fromkeys(("forcing", "translation", "carried", "regained"), (n,))
         shapes |= dict.fromkeys(("unlevitated", "conjugate"), (2, n, n))
         shapes["magnets"] = (len(np.atleast_1d(self.magnets)) if self.magnets is not None else 0, n)
         for name, shape in shapes.items():
             if getattr(self, name) is not None:
-                values = _numbers(name, getattr(self, name))
-                if values.shape != shape or not values.size or not np.isfinite(values).all():
-                    raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
+                values = _numbers(name, getattr(self, name), shape)
                 values.flags.writeable = False
                 object.__setattr__(self, name, values)
         if self.conjugate is not None and not self.conjugate.any():
@@ -171,19 +170,14 @@ class LinearEquations(Definition, Result):
         Raises
         ------
         InputError
-            A matrix is not of the shape of ``M``, or see :class:`LinearEquations`.
+            See :class:`LinearEquations`.
         """
-        mass = _numbers("mass", mass)
-        if gyroscopic is None:
-            gyroscopic = np.zeros_like(mass)
-        given = {"mass": mass, "damping": damping, "stiffness": stiffness, "gyroscopic": gyroscopic}
-        matrices = {name: _numbers(name, values) for name, values in given.items()}
-        for name, values in matrices.items():
-            if values.ndim != 2 or values.shape != mass.shape:
-                shape = mass.shape if mass.ndim == 2 else "(n, n)"
-                raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
-        spin = matrices["damping"] - 1j * matrices["gyroscopic"]
-        return cls(mass, spin + 2j * mass, matrices["stiffness"] - mass + 1j * spin, forcing, **others)
+        shape = (_numbers("forcing", forcing).size,) * 2
+        given = {"mass": mass, "damping": damping, "stiffness": stiffness}
+        given["gyroscopic"] = np.zeros(shape) if gyroscopic is None else gyroscopic
+        mass, damping, stiffness, gyroscopic = (_numbers(name, values, shape) for name, values in given.items())
+        spin = damping - 1j * gyroscopic
+        return cls(mass, spin + 2j * mass, stiffness - mass + 1j * spin, forcing, **others)
 
     @cached_property
     def system(self) -> System:
@@ -260,12 +254,9 @@ class LinearEquations(Definition, Result):
         return rotor
 
 
-def _numbers(name: str, values: Any) -> np.ndarray:
-    """Array of the given numbers, a copy."""
-    try:
-        given = np.array(values)
-    except (TypeError, ValueError, OverflowError):
-        given = np.array("ragged")
-    if given.dtype.kind not in "iufc":  # NumPy makes numbers of True and text too
-        raise InputError(name, values, "an array of numbers")
-    return given.astype(complex)
+def _numbers(name: str, given: Any, shape: tuple[int, ...] | None = None) -> np.ndarray:
+    """Array of the given numbers, a copy; refuse what is none, and one of another shape."""
+    values = complex_numbers(given)
+    if values is None or not values.size or shape not in (None, values.shape):
+        raise InputError(name, shown(given), f"finite numbers{f' of shape {shape}' if shape else ''}")
+    return values

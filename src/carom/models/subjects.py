@@ -36,9 +36,9 @@ def rotor_of(subject: Subject) -> Rotor:
         return subject
     if isinstance(subject, Parameters):
         return jeffcott(subject)
-    case = Case("machine", subject.parameters, subject, Zones()) if isinstance(subject, Machine) else subject
-    if not isinstance(case, Case):
+    if not isinstance(subject, Machine | Case):
         raise InputError("machine", shown(subject), _ALLOWED)
+    case = case_of(subject)
     rotor, limits = rotor_of(case.parameters), case.machine.control_limit if case.machine else None
     if (case.touchdown or case.drive) and rotor.has_closed_forms:
         rotor = jeffcott(rotor.parameters, case.touchdown or RIGID, drive=case.drive, air_gap=case.si.get("air_gap"))

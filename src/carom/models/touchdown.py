@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from carom.base.arguments import ArgumentKind, NotNegative, Positive, checked
+from carom.base.arguments import ArgumentKind, NotNegative, Positive, checked, kind_of_numbers
 from carom.base.outcome import InputError, shown
 from carom.core.laws.law import Law
 from carom.core.wall import Wall
@@ -66,8 +66,8 @@ class Touchdown:
     farthest: Positive = FARTHEST
 
     def __post_init__(self) -> None:
-        row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
-        if row.ndim != 1 or not row.size or not np.isfinite(row).all():
+        row = np.empty(0) if kind_of_numbers(self.plane) == "-" else np.array(self.plane, complex)
+        if row.ndim != 1 or not row.size:
             raise InputError("plane", shown(self.plane), "finite numbers, one for each coordinate of the rotor")
         object.__setattr__(self, "plane", tuple(row.tolist()))
 
@@ -100,10 +100,3 @@ class Touchdown:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""
         found = self.law.wall(self.friction, self.surface_speed, mass)
         return found._replace(farthest=self.farthest) if found.stiffness else found
-
-
-def _are_numbers(values: Any) -> bool:
-    try:
-        return np.array(values).dtype.kind in "iufc"
-    except (TypeError, ValueError, OverflowError):
-        return False
