@@ -145,5 +145,5 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     for failure in failures[:_SHOWN]:
         screen.print(f"Failed at {_place(failure)}: {failure['error']}", soft_wrap=True)
     if tally.failed:
-        screen.print(f"All failures: {tally.store}/failures; try them again with --retry-failed", soft_wrap=True)
+        screen.print(f"All failures: {tally.store}/records; try them again with --retry-failed", soft_wrap=True)
     screen.print(f"Results: {tally.store} (carom.open_sweep in Python)", soft_wrap=True)

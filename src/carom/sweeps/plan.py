@@ -7,11 +7,11 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from carom.base.arguments import Count, Seed, Whole, checked
+from carom.base.arguments import Count, Whole, checked, whole
 from carom.base.outcome import InputError, shown
 from carom.disturbances import Grid, Plan, Sample
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Parameters, Zones
@@ -23,7 +23,7 @@ from carom.sweeps.studies import StudyTask
 from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
-    from carom.models import Rotor, Subject
+    from carom.models import Axis, Rotor, Subject
     from carom.sweeps.variables import Variable
 else:
     Rotor = Subject = object  # imported when a plan is made, and refused there
@@ -152,42 +152,30 @@ class SweepPlan:
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the plan: two plans with the same description have the same results."""
-        machine: dict[str, Any]
+        machine: dict[str, Any] = {}
         if isinstance(self.case, Case):
-            numbers = self.case.parameters
-            machine = _described(numbers) | self._terms(self.case)
             tables = {name: getattr(self.case, name) for name in ("gravity", "touchdown", "drive")}
-            machine |= {name: asdict(table) for name, table in tables.items() if table is not None}
-        else:
-            machine = self.case.attributes()
-        return machine | {
-            "fixed": dict(self.fixed),
-            "axes": [axis.describe() for axis in self.axes],
-            "task": self.task.describe(),
-            "chunk": list(self.chunk_shape),
-            "seed": self.seed,
-        }
-
-    def _terms(self, case: Case) -> dict[str, Any]:
-        """Return how the machine was given, if axes or settings are in terms whose effect depends on that."""
-        names = {*self.fixed, *(axis.name for axis in self.axes)}
-        if not case.given or names.isdisjoint(TERM_FIELDS.keys() | HELPER_FIELDS.keys()):
-            return {}
-        return {"given": case.given_texts}
+            machine = {name: asdict(table) for name, table in tables.items() if table is not None}
+            varied = {*self.fixed, *(axis.name for axis in self.axes)}
+            if self.case.given and varied & {*TERM_FIELDS, *HELPER_FIELDS}:  # whose effect depends on how it was given
+                machine["given"] = self.case.given_texts
+        numbers = self.case.parameters if isinstance(self.case, Case) else self.case
+        return (
+            numbers.attributes()
+            | machine
+            | {
+                "fixed": dict(self.fixed),
+                "axes": [axis.describe() for axis in self.axes],
+                "task": self.task.describe(),
+                "chunk": list(self.chunk_shape),
+                "seed": self.seed,
+            }
+        )
 
     @property
     def digest(self) -> str:
         """Hash of the description."""
         return hashlib.sha256(json.dumps(self.describe(), sort_keys=True).encode()).hexdigest()
-
-
-def _described(numbers: Parameters | Rotor) -> dict[str, Any]:
-    """What identifies the parameters of a case, or its model."""
-    if not isinstance(numbers, Parameters):
-        return numbers.attributes()
-    scales = numbers.scales
-    own = None if scales is None else [scales.mass, scales.clearance, scales.speed]
-    return {"parameters": numbers.as_dict(), "scales": own}
 
 
 def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...]:
@@ -216,23 +204,25 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     return tuple(sizes)
 
 
-def check_varied(case: Case | Rotor, name: str) -> None:
-    """Refuse to vary a parameter that the machine does not have."""
+def parameter_of(case: Case | Rotor, name: str) -> Axis | str:
+    """The parameter that an axis varies: that of a model, or the name of the planar rotor's; refuse one that the machine does not have."""
     if not isinstance(case, Case) or not isinstance(case.parameters, Parameters):
         from carom.models.axes import axis
 
         try:
-            axis(case, name)
+            return axis(case, name)
         except InputError as problem:
             raise InputError(f"axes.{name}", shown(name), problem.allowed) from None
-    elif name not in DIMENSIONLESS_FIELDS and not case.si:
+    allowed = ""
+    if name not in DIMENSIONLESS_FIELDS and not case.si:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
-        raise InputError(f"axes.{name}", shown(name), allowed)
     elif name in OF_TABLES and name != GRAVITY_NAME and case.touchdown is None:
-        raise InputError(f"axes.{name}", shown(name), "the machine has no table [touchdown]")
+        allowed = "the machine has no table [touchdown]"
     elif name in ("d", "restitution") and case.touchdown is not None and case.touchdown.is_compliant:
         allowed = "the touchdown bearing is compliant: vary touchdown_restitution, or its damping or dissipation"
+    if allowed:
         raise InputError(f"axes.{name}", shown(name), allowed)
+    return name
 
 
 @checked
@@ -241,7 +231,7 @@ def plan_sweep(
     axes: Sequence[GridAxis],
     work: Plan | StudyTask,
     *,
-    seed: Seed | None = None,
+    seed: Annotated[int, whole(0, 2**63 - 1)] | None = None,
     chunk: Count | None = None,
 ) -> SweepPlan:
     """Plan a sweep in Python; a sweep file is read by :func:`~carom.sweeps.load_sweep`.
@@ -290,7 +280,7 @@ def plan_sweep(
     if isinstance(case, Case) and isinstance(case.parameters, Parameters):
         check_names(dict.fromkeys(names, "varied"), SETTINGS)
     for name in names:
-        check_varied(case, name)
+        parameter_of(case, name)
     scales = rotor_of(case).scales
     if seed is None:
         seed = work.seed if isinstance(work, Sample) else 0
@@ -301,8 +291,4 @@ def plan_sweep(
     else:
         limits = case.zones.limits if isinstance(case, Case) else Zones().limits
         task = replace(work, zone_limits=limits, has_scales=scales is not None)
-    if not 0 <= seed < 2**63:
-        raise InputError("seed", seed, "must be a whole number from 0 to 2^63 - 1")
-    if chunk is not None and chunk < 1:
-        raise InputError("chunk", chunk, "must be a whole number of at least 1")
     return SweepPlan(case, tuple(axes), task, cut(tuple(axis.count for axis in axes), task, chunk), seed)

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from carom.base.progress import Reporter, ShowProgress, duration_words, shows_pr
 from carom.core.processors import available_cores
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.plan import SweepPlan
-from carom.sweeps.store import SweepStore
+from carom.sweeps.store import SweepStore, open_sweep
 
 if TYPE_CHECKING:
     import xarray
@@ -171,7 +172,7 @@ def run_sweep(
         return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged))
 
     def end() -> Tally:
-        return replace(tally(), failures=book.failures(), read=book.dataset)
+        return replace(tally(), failures=book.failures(), read=partial(open_sweep, book.path))
 
     if next(book.waiting(retry_failed), None) is None:
         return end()

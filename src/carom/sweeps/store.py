@@ -12,8 +12,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from dataclasses import asdict
+from functools import reduce
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -62,7 +63,7 @@ class SweepStore:
     def __init__(self, path: str | os.PathLike[str], plan: SweepPlan) -> None:
         self.path, self.plan = Path(path), plan
         self.damaged: list[int] = []
-        self._finished = np.zeros(plan.chunks, bool)
+        self._finished, self._sizes = np.zeros(plan.chunks, bool), _sizes(plan)
         self._failed: dict[int, int] = {}
         self._digest = plan.digest
         try:
@@ -80,16 +81,14 @@ class SweepStore:
     def _scan(self) -> None:
         """Find the finished chunks by their status files, and compare newly found ones with their records."""
         self.damaged = []
-        for number in np.flatnonzero(
-            _chunks_with_status(self.path / STATUS.name / "c", self.plan) & ~self._finished
-        ).tolist():
+        there = _chunks_with_status(self.path / STATUS.name / "c", self.plan)
+        for number in np.flatnonzero(there & ~self._finished).tolist():
             found = self._record(number)
             if found is None:
                 self.damaged.append(number)
                 continue
             self._finished[number] = True
             self._note(found)
-        self._points = _points(self._finished, self.plan)
 
     def _record(self, number: int) -> ChunkRecord | None:
         """Return the record of a finished chunk, or None if it or a file of the chunk is damaged, missing or another's."""
@@ -117,7 +116,7 @@ class SweepStore:
     @property
     def done(self) -> int:
         """Number of points that were computed without failure."""
-        return self._points - self.failed
+        return int(self._sizes[self._finished].sum()) - self.failed
 
     @property
     def failed(self) -> int:
@@ -127,8 +126,7 @@ class SweepStore:
     def waiting(self, retry_failed: bool = False) -> Iterator[int]:
         """Yield the chunks that are not finished, in order; then those with failures, if they are to be tried again."""
         again = sorted(self._failed) if retry_failed else []
-        yield from (int(number) for number in np.flatnonzero(self._finished == 0))
-        yield from again
+        yield from (*np.flatnonzero(~self._finished).tolist(), *again)
 
     def failures(self) -> list[dict[str, Any]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
@@ -139,10 +137,6 @@ class SweepStore:
             if len(found) >= MOST_FAILURES:
                 break
         return found[:MOST_FAILURES]
-
-    def dataset(self) -> xarray.Dataset:
-        """Return the results stored so far; see :func:`open_sweep`."""
-        return open_sweep(self.path)
 
     # ------------------------------------------------------------------------------------------------- writing
 
@@ -199,16 +193,13 @@ class SweepStore:
         except OSError as problem:
             raise self._refusal(problem, shown=True) from None
         self._finished[number] = True
-        self._points += plan.size(number)
         self._note(kept)
 
     def _let_wait(self, number: int) -> None:
         """Make a chunk that is computed again wait until all its files are new, so that nobody reads a mixture."""
         list(self._files(number).values())[-1].unlink(missing_ok=True)
-        if self._finished[number]:
-            self._finished[number] = False
-            self._points -= self.plan.size(number)
-            self._failed.pop(number, None)
+        self._finished[number] = False
+        self._failed.pop(number, None)
 
     def _write_file(self, target: Path, data: bytes) -> None:
         write_whole(target, data, self.path / PARTS)
@@ -277,30 +268,18 @@ def _chunks_with_status(directory: Path, plan: SweepPlan) -> np.ndarray:
     """Return which chunks have a status file, shape (chunks,); only the names of files are read."""
     found = np.zeros(plan.chunk_grid, bool)
     names = [{str(place) for place in range(count)} for count in plan.chunk_grid]
-
-    def look(place: Path, index: tuple[int, ...]) -> None:
-        with suppress(FileNotFoundError), os.scandir(place) as entries:
-            for entry in entries:
-                if entry.name not in names[len(index)]:
-                    continue
-                inner = (*index, int(entry.name))
-                if len(inner) == len(names):
-                    found[inner] = True
-                else:
-                    look(Path(entry.path), inner)
-
-    look(directory, ())
+    for file in directory.glob("/".join("*" * len(names))):
+        places = file.parts[-len(names) :]
+        if all(place in known for place, known in zip(places, names, strict=True)):
+            found[tuple(map(int, places))] = True
     return found.ravel()
 
 
-def _points(finished: np.ndarray, plan: SweepPlan) -> int:
-    """Return the number of points of the finished chunks; the last chunks along an axis may be smaller."""
-    weights = finished.reshape(plan.chunk_grid).astype(np.int64)
-    for count, chunk, chunks in reversed(list(zip(plan.shape, plan.chunk_shape, plan.chunk_grid, strict=True))):
-        sizes = np.full(chunks, chunk)
-        sizes[-1] = count - chunk * (chunks - 1)
-        weights = weights @ sizes
-    return int(weights)
+def _sizes(plan: SweepPlan) -> np.ndarray:
+    """Return the number of points of each chunk, shape (chunks,); the last chunks along an axis may be smaller."""
+    along = zip(plan.shape, plan.chunk_shape, plan.chunk_grid, strict=True)
+    sizes = [np.minimum(chunk, count - chunk * np.arange(chunks)) for count, chunk, chunks in along]
+    return reduce(np.multiply.outer, sizes).ravel()
 
 
 def _sealed(data: bytes) -> bytes:
@@ -311,8 +290,5 @@ def _sealed(data: bytes) -> bytes:
 def _padded(plan: SweepPlan, values: np.ndarray, fill: float) -> bytes:
     """Return the bytes of a Zarr chunk; all have the same size, so chunks at the ends of the grid are padded."""
     whole = plan.chunk_shape + values.shape[len(plan.shape) :]
-    if values.shape == whole:
-        return np.ascontiguousarray(values).tobytes()
-    padded = np.full(whole, fill, values.dtype)
-    padded[tuple(slice(size) for size in values.shape)] = values
-    return padded.tobytes()
+    missing = [(0, most - size) for most, size in zip(whole, values.shape, strict=True)]
+    return np.pad(values, missing, constant_values=fill).tobytes()

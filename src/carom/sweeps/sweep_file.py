@@ -5,9 +5,8 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterable, Mapping
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 import pydantic
 
@@ -22,6 +21,7 @@ from carom.parameters import (
     Case,
     Parameters,
     Scales,
+    Size,
     Zones,
     read_size,
     read_unbalance,
@@ -33,10 +33,11 @@ from carom.parameters.terms import check_names
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis
 from carom.sweeps.basins import BasinsTask
-from carom.sweeps.plan import SweepPlan, Task, check_varied, cut
+from carom.sweeps.plan import SweepPlan, Task, cut, parameter_of
 from carom.sweeps.studies import StudyTask
 
 if TYPE_CHECKING:
+    from carom.disturbances import Disturbance
     from carom.models import Axis
 
 _WHAT = "sweep file"
@@ -78,7 +79,6 @@ class _Top(_Table):
 
 
 _TABLES = ("axes", "study", "basins")
-_Sizes: TypeAlias = dict[str, tuple[Any, bool]]
 _Model = TypeVar("_Model", bound=_Table)
 _ALLOWED = {
     "machine": 'must be the path of a machine file, from the folder of the sweep file, such as "keogh-cole.toml"',
@@ -171,7 +171,7 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
     planar = case is None or isinstance(case.parameters, Parameters)
     problems.attempt(_check_varied, list(tables), settings, planar)
     wanted = [name for name in tables if not planar or name in SETTINGS]
-    axes = [problems.attempt(_axis, case, name, tables[name], planar) for name in wanted]
+    axes = [problems.attempt(_axis, case, name, tables[name]) for name in wanted]
     problems.raise_all()
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
@@ -193,26 +193,19 @@ def _check_varied(axes: list[str], settings: list[str], planar: bool) -> None:
     problems.raise_all()
 
 
-def _axis(case: Case | None, name: str, given: object, planar: bool) -> GridAxis:
-    where = f"axes.{name}"
+def _axis(case: Case | None, name: str, given: object) -> GridAxis:
     problems = Problems()
-    if case is not None:
-        problems.attempt(check_varied, case, name)
-    table = problems.attempt(_read, _Axis, given, where)
-    if not planar:
-        problems.raise_all()
-    axis = problems.attempt(_values, name, table, None if planar else case) if table else None
+    parameter = problems.attempt(parameter_of, case, name) if case is not None else name
+    table = problems.attempt(_read, _Axis, given, f"axes.{name}")
+    # Values of the planar rotor's parameters are known by their names.
+    known = parameter or (name if name in SETTINGS else None)
+    axis = problems.attempt(_values, known, name, table) if table and known else None
     problems.raise_all()
     return cast("GridAxis", axis)
 
 
-def _values(name: str, table: _Axis, of: Case | None) -> GridAxis:
-    """Values of a parameter, which a case of a model knows; the planar rotor's are known by their names."""
-    where, parameter = f"axes.{name}", cast("Axis | str", name)
-    if of is not None:
-        from carom.models import axis as axis_of  # only here: models and kernels take time to load
-
-        parameter = axis_of(of, name)
+def _values(parameter: Axis | str, name: str, table: _Axis) -> GridAxis:
+    where = f"axes.{name}"
     ends = {"from": table.start, "to": table.end, "count": table.count}
     problems = Problems()
     if table.values is not None:
@@ -259,18 +252,12 @@ def _basins(given: object, scales: Scales | None) -> BasinsTask:
     table = given.get("disturbance") if isinstance(given, dict) else None
     found = problems.attempt(_disturbance, table, scales) if isinstance(table, dict) else None
     problems.raise_all()
-    basins, (kind, sizes) = cast("tuple[_Basins, tuple[str, _Sizes]]", (basins, found))
-    units = MODELS[kind].measured_in
-    own = {name: value / getattr(scales, units[name]) if si else value for name, (value, si) in sizes.items()}
-    try:
-        model = MODELS[kind](**own)
-    except InputError as problem:
-        raise InputError(f"basins.disturbance.{problem.field}", problem.value, problem.allowed) from None
-    return BasinsTask(Sample(model, basins.starts), tuple(name for name, (_, si) in sizes.items() if si), scales)
+    basins, (model, in_si) = cast("tuple[_Basins, tuple[Disturbance, tuple[str, ...]]]", (basins, found))
+    return BasinsTask(Sample(model, basins.starts), in_si, scales)
 
 
-def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, _Sizes]:
-    """Read the kind and the sizes of a disturbance."""
+def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[Disturbance, tuple[str, ...]]:
+    """Read a disturbance; return the names of its sizes that are in SI units too."""
     where = "basins.disturbance"
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in MODELS:
@@ -278,32 +265,32 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
         if kind is not None:
             allowed = unknown_name(shown(kind), kind, MODELS, f"{where}.kind").allowed
         raise InputError(f"{where}.kind", None if kind is None else shown(kind), allowed)
+    model = MODELS[kind]
     # The velocity of a slice has two parts, and stays zero here.
-    fields = {each.name: each for each in dataclasses.fields(MODELS[kind]) if not isinstance(each.default, complex)}
+    fields = {each.name: each for each in dataclasses.fields(model) if not isinstance(each.default, complex)}
     problems = Problems()
     problems.errors += unknown_names(table, {"kind": None, **fields}, f"[{where}] of a {kind}")
     meant = {nearest_name(name, fields) for name in table if name not in fields}
+    if "fastest" in fields:
+        usual = usual_kick(scales)
+        table = {"fastest": f"{usual * scales.velocity!r} m/s" if scales else usual, **table}
     sizes = {}
     for name, field in fields.items():
         if name in table:
-            sizes[name] = problems.attempt(_size, f"{where}.{name}", table[name], kind, field, scales)
-        elif name == "fastest":
-            sizes[name] = usual_kick(scales) * (scales.velocity if scales else 1.0), scales is not None
-        elif field.default is not dataclasses.MISSING:
-            sizes[name] = field.default, False
-        elif name not in meant:
+            sizes[name] = problems.attempt(_size, f"{where}.{name}", table[name], model.measured_in.get(name), scales)
+        elif field.default is dataclasses.MISSING and name not in meant:
             problems.errors.append(InputError(f"{where}.{name}", None, f"missing; a {kind} needs it"))
     problems.raise_all()
-    return kind, cast("_Sizes", sizes)
+    own = {name: size.own(scales) if isinstance(size, Size) else size for name, size in sizes.items()}
+    try:
+        made = model(**own)
+    except InputError as problem:
+        raise InputError(f"{where}.{problem.field}", problem.value, problem.allowed) from None
+    return made, tuple(name for name, size in sizes.items() if isinstance(size, Size) and size.in_si)
 
 
-def _size(
-    where: str, given: object, kind: str, field: dataclasses.Field[Any], scales: Scales | None
-) -> tuple[Any, bool]:
-    """Read a size: its value, and whether it is in SI units."""
-    scale = MODELS[kind].measured_in.get(field.name, "")
-    if not scale:
-        return given, False
-    read = read_unbalance if scale == "unbalance" else partial(read_size, kind=scale)
-    size = read(where, given, scales=scales)
-    return size.value, size.in_si
+def _size(where: str, given: object, scale: str | None, scales: Scales | None) -> object:
+    """Read a size; what has no unit stays as it is."""
+    if scale is None:
+        return given
+    return read_unbalance(where, given, scales) if scale == "unbalance" else read_size(where, given, scale, scales)

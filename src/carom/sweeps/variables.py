@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -94,12 +94,8 @@ def with_si(variables: Sequence[Variable], has_scales: bool) -> tuple[Variable, 
     """Return variables with their units and, if scales are known, a second one ``name_si`` in SI units for each."""
     found = []
     for variable in variables:
-        if not variable.scale:
-            found.append(variable)
-            continue
-        name, words, scale = variable.name, variable.words, variable.scale
-        own, si = UNITS[scale]
-        found.append(Variable(name, words, unit=own, scale=scale))
-        if has_scales:
-            found.append(Variable(f"{name}_si", words, unit=si, si_of=name))
+        own, si = UNITS.get(variable.scale, (variable.unit, ""))
+        found.append(replace(variable, unit=own))
+        if si and has_scales:
+            found.append(Variable(f"{variable.name}_si", variable.words, unit=si, si_of=variable.name))
     return tuple(found)
