@@ -154,13 +154,6 @@ class DisturbanceSet:
             found += f", each {ITS_INSTANT}"
         return f"{self.count} disturbances (seed {self.seed}): {found}"
 
-    def general_words(self, scales: Scales | None) -> str:
-        """Describe the disturbances for rotors in general, whether they can levitate or not."""
-        return (
-            f"{self.count} disturbances (seed {self.seed}): kicks of the levitating rotor and starts anywhere in the clearance, "
-            f"at up to {format_quantity(self.fastest, 'velocity', scales)} in the fixed frame"
-        )
-
 
 def starts_at(rotor: Rotor, states: Sequence[State]) -> Starts:
     """States as arrays of starts."""

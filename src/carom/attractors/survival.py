@@ -131,8 +131,7 @@ def still_irregular(endings: Endings) -> np.ndarray:
 
 def stay_low(endings: Endings) -> np.ndarray:
     """Which motions stay at the wall in low bounces: in a chatter, or in bounces that hardly fade."""
-    low: np.ndarray = endings.outcomes == Outcome.LOW_BOUNCES
-    return low
+    return endings.outcomes == Outcome.LOW_BOUNCES
 
 
 def measure_survival(

@@ -120,8 +120,7 @@ class DropMap(OverPlane):
     def exceeding(self, limit: str) -> np.ndarray:
         """Which drops exceed a limit that is stated, bool; none does what it has not."""
         values = self.dataset[LIMITED.get(limit, limit)].values
-        over: np.ndarray = np.nan_to_num(values) > self.limits[limit]
-        return over
+        return np.nan_to_num(values) > self.limits[limit]
 
     @property
     def hardest(self) -> str:

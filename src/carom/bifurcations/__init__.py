@@ -13,7 +13,8 @@
 ``boundary``            where levitation meets the wall
 ``windows``             ranges of a parameter in which orbits are motions
 ``curve_results``       a curve of bifurcations in two parameters, and points on it
-``curves``              following such a curve
+``curve_equations``     what the equations of all such curves have in common
+``curves``              following one of a bifurcation that has a closed form
 ``conditions``          orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
 ``passing``             whether a known curve passes through a point
 ``planes``              the plane of two parameters

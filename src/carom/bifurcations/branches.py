@@ -140,8 +140,7 @@ class OrbitBranch(Result):
     @property
     def period(self) -> np.ndarray:
         """Periods in ``1/Ω``, shape (m,)."""
-        total: np.ndarray = self.unknowns.reshape(len(self), len(self.word), -1)[:, :, -1].sum(axis=1)
-        return total
+        return self.unknowns.reshape(len(self), len(self.word), -1)[:, :, -1].sum(axis=1)
 
     @cached_property
     def _at_wall(self) -> np.ndarray:

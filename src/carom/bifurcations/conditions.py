@@ -93,8 +93,7 @@ def spectral_radii(orbits: Sequence[tuple[Numbers, float, float]]) -> list[float
     """Largest modulus of the non-trivial multipliers of each orbit; it is stable where that is below 1."""
     if not orbits:
         return []
-    radii: list[float] = np.abs(np.linalg.eigvals([jacobian_at(*orbit) for orbit in orbits])).max(axis=1).tolist()
-    return radii
+    return np.abs(np.linalg.eigvals([jacobian_at(*orbit) for orbit in orbits])).max(axis=1).tolist()
 
 
 def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, Literal
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -14,27 +12,24 @@ from carom.bifurcations.conditions import (
     BOUNDLESS,
     ENDING,
     FASTEST,
-    RESONANCES,
     TESTS,
     conditions_at,
     grazing_equations,
     orbits_on_curve,
     profile_at,
 )
-from carom.bifurcations.curve_results import Codimension2Point, Curve
-from carom.bifurcations.planes import EDGE, Plane
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.curve_equations import CurveEquations, Place
+from carom.bifurcations.curve_results import Curve
+from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import STEADY, Bifurcation
 from carom.bifurcations.simulated_curves import KINDS as SIMULATED_KINDS
 from carom.bifurcations.simulated_curves import SimulatedCurve
 from carom.closed_forms.thresholds import happens_to_rubs
-from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
+from carom.continuation import Steps, Watch
 from carom.orbits.flow import FlowBudget
+from carom.orbits.names import OrbitName
 from carom.parameters import Numbers
 
-Function = Callable[[np.ndarray, float], np.ndarray]
-STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
-BEND = 5e-5
-"""Largest distance of a curve from the straight lines between its points, in widths of the plane."""
 SHORTEST = 1e-4
 """Period, in ``1/Ω``, below which test functions may be only rounding; with ``d = 1`` the period of a pair can vanish.
 
@@ -42,44 +37,22 @@ That of a Neimark–Sacker bifurcation then falls with the cube of the period: i
 """
 VANISHING = 1e-2
 """Period, or fraction of a period, that counts as vanished where the equations end."""
-
-
-@dataclass(frozen=True)
-class _Kind:
-    """Number of unknowns of a bifurcation, and the test functions to watch along its curve.
-
-    ``unknowns`` does not count the first parameter: 0 for equilibria, 2 for orbits (period and radial speed), and 3 for
-    grazing (also its time).
-    """
-
-    unknowns: int
-    watched: tuple[str, ...]
-    ends: tuple[str, ...] = ()
-
-
-KINDS: dict[str, _Kind] = {
-    "fold": _Kind(
-        2, ("boundary-equilibrium", "period-doubling", "grazing", "speed-fold", "slip-stop", "resonance-1:1")
-    ),
-    "speed-fold": _Kind(2, ("fold", "grazing", "period-doubling", "resonance-1:1")),
-    "period-doubling": _Kind(
-        2, ("grazing", "fold", "speed-fold", "slip-stop", "boundary-equilibrium", "resonance-1:2")
-    ),
-    "neimark-sacker": _Kind(
-        2,
-        ("grazing", "boundary-equilibrium", "slip-stop", "resonance-1:3", "resonance-1:4"),
-        ENDING,
-    ),
-    "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
-    "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),
-    "contact-onset": _Kind(2, ("fold", "period-doubling", "grazing", "slip-stop")),
+KINDS = {
+    "fold": ("boundary-equilibrium", "period-doubling", "grazing", "speed-fold", "slip-stop", "resonance-1:1"),
+    "speed-fold": ("fold", "grazing", "period-doubling", "resonance-1:1"),
+    "period-doubling": ("grazing", "fold", "speed-fold", "slip-stop", "boundary-equilibrium", "resonance-1:2"),
+    # It ends at the last two.
+    "neimark-sacker": ("grazing", "boundary-equilibrium", "slip-stop", "resonance-1:3", "resonance-1:4", *ENDING),
+    "grazing": ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop"),
+    "slip-stop": ("fold", "period-doubling", "grazing"),
+    "contact-onset": ("fold", "period-doubling", "grazing", "slip-stop"),
     # Not grazing: the orbit is a point on the wall here, and the height of its radius is rounding.
-    "non-smooth-hopf": _Kind(2, ("fold", "period-doubling", "neimark-sacker", "slip-stop")),
-    "boundary-equilibrium": _Kind(0, ("rub-fold",)),
-    "rub-fold": _Kind(0, ("boundary-equilibrium",)),
-    "rolling-limit": _Kind(0, ("boundary-equilibrium", "rub-fold")),
+    "non-smooth-hopf": ("fold", "period-doubling", "neimark-sacker", "slip-stop"),
+    "boundary-equilibrium": ("rub-fold",),
+    "rub-fold": ("boundary-equilibrium",),
+    "rolling-limit": ("boundary-equilibrium", "rub-fold"),
 }
-"""Bifurcations that can be followed in two parameters."""
+"""Bifurcations that can be followed in two parameters, and the test functions that are watched along each curve."""
 
 
 def can_be_followed(point: Bifurcation) -> bool:
@@ -128,33 +101,15 @@ def continue_curve(
     >>> cm.continue_curve(branch.special[0], plane).stops
     ('edge of the plane', 'edge of the plane')
     """
-    equations: Any = (ClosedFormCurve if bifurcation.shot is None else SimulatedCurve)(bifurcation, plane, budget)
-    start, sizes = plane.start_at(equations.base)
-    steps = steps or equations.steps
-    known = len(equations.guess)
-    scales = np.array([*np.ones(known), *sizes])
-    branch = continue_branch(
-        equations.residual,
-        np.array([*equations.guess, start[0]]),
-        float(start[1]),
-        plane.second_range,
-        watches=[plane.edge, *equations.watches],
-        steps=steps,
-        scales=scales,
-        reach=equations.reach,
-        # A fold in the second parameter is only a turning point of the curve.
-        folds="turning point",
-        crossings="",
-    )
-    shown = np.array([*np.full(known, np.inf), *plane.widths])
-    rows = refined_points(equations.residual, branch, scales=scales, widths=shown, bend=equations.bend, steps=steps)
-    return equations.curve(branch, rows)
+    equations = ClosedFormCurve if bifurcation.shot is None else SimulatedCurve
+    return equations(bifurcation, plane, budget).followed(steps)
 
 
-class ClosedFormCurve:
-    """The equations of a bifurcation that has a closed form, its unknowns at the start, and what is watched along its curve."""
+class ClosedFormCurve(CurveEquations):
+    """The equations of a bifurcation that has a closed form; of an orbit period and radial speed are unknown, of grazing also its time."""
 
-    bend, steps = BEND, STEPS
+    base: Numbers
+    bend, usual_steps = 5e-5, Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 
     def __init__(self, point: Bifurcation, plane: Plane, _: FlowBudget | None = None) -> None:
         self.kind, self.base, self.plane = point.kind, point.numbers, plane
@@ -164,113 +119,62 @@ class ClosedFormCurve:
         plane.start_at(self.base)
         if self.kind not in KINDS:
             raise InputError("kind", self.kind, f"one of: {', '.join(KINDS)}")
-        definition, guess = KINDS[self.kind], [point.period, point.radial_speed]
-        if not definition.unknowns:
-            guess = []
-        elif not np.isfinite(guess).all():
+        self.guess, self.watches = [], [self._watch(name) for name in KINDS[self.kind]]
+        if self.kind in STEADY:
+            return
+        self.guess = [point.period, point.radial_speed]
+        if not np.isfinite(self.guess).all():
             raise InputError(
                 "bifurcation", f"{self.kind} without them", "the period and radial speed of the orbit are needed"
             )
         if self.kind == "grazing":
-            guess.append(profile_at(self.base, *guess).top)
-        self.guess = guess
+            self.guess.append(profile_at(self.base, *self.guess).top)
+        if self.kind in ("grazing", "slip-stop", "contact-onset", "non-smooth-hopf"):
+            self.slack = 1e-9
         # Where the radial speed grows without bound, the curve becomes straight.
-        self.reach = (lambda u: max(1.0, abs(float(u[1])))) if guess else None
-        bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end")] if guess else []
-        self.watches = [*bounds, *(self._watch(name) for name in (*definition.watched, *definition.ends))]
-        self.residual = _equations(self.kind, self.numbers_at)
+        self.reach = lambda u: max(1.0, abs(float(u[1])))
+        self.watches.insert(0, Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end"))
 
-    def numbers_at(self, x: float, y: float) -> Numbers:
-        """Numbers at a point of the plane."""
-        return self.plane.numbers_at(self.base, x, y)
-
-    def _numbers(self, u: np.ndarray, p: float) -> Numbers:
-        return self.numbers_at(float(u[-1]), p)
+    def _at(self, u: np.ndarray, p: float) -> tuple[Numbers, float, float]:
+        """Numbers, period and radial speed; the last two mean nothing where there is no orbit."""
+        speeds = (1.0, 0.0) if self.kind in STEADY else (float(u[0]), float(u[1]))
+        return self.plane.numbers_at(self.base, float(u[-1]), p), *speeds
 
     def _watch(self, name: str) -> Watch:
-        test, ends = TESTS[name], name in KINDS[self.kind].ends
-        return Watch(
-            name, lambda u, p: test(self._numbers(u, p), *_orbit(self.kind, u)), at_zero="end" if ends else "pass"
-        )
+        ends = self.kind == "neimark-sacker" and name in ENDING
+        return Watch(name, lambda u, p: TESTS[name](*self._at(u, p)), at_zero="end" if ends else "pass")
 
-    def curve(self, branch: Branch, rows: np.ndarray) -> Curve:
-        """The curve with the names and speeds of its orbits."""
-        return _curve(self.kind, self.plane, branch, rows, self._numbers)
-
-
-def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:
-    """Period and radial speed among the unknowns; placeholders where there is no orbit."""
-    return (float(unknowns[0]), float(unknowns[1])) if KINDS[kind].unknowns else (1.0, 0.0)
-
-
-def _equations(kind: str, numbers_at: Callable[..., Numbers]) -> Function:
-    """Equations of a curve."""
-    test = TESTS[kind]
-
-    def equilibrium(u: np.ndarray, p: float) -> np.ndarray:
-        return np.array([test(numbers_at(float(u[0]), p), 1.0, 0.0)])
-
-    def orbit(u: np.ndarray, p: float) -> np.ndarray:
-        period, speed, *time, x = u.tolist()
+    def residual(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Left sides of the equations; ``nan`` where they are not defined."""
+        test = TESTS[self.kind]
+        if self.kind in STEADY:
+            return np.array([test(*self._at(u, p))])
+        period, _, *time, _ = u.tolist()
         if not (period > SHORTEST and all(0.0 < each < period for each in time)):
             return np.full(len(u), np.nan)
-        at = numbers_at(x, p), period, speed
+        at = self._at(u, p)
         return np.array([*conditions_at(*at)[:2], *(grazing_equations(*at, *time) if time else (test(*at),))])
 
-    return orbit if KINDS[kind].unknowns else equilibrium
+    def orbit(self, u: np.ndarray, p: float) -> tuple[float, float]:
+        """Period and radial speed; ``nan`` for equilibria."""
+        return (np.nan, np.nan) if self.kind in STEADY else self._at(u, p)[1:]
 
-
-def _curve(
-    kind: str, plane: Plane, branch: Branch, rows: np.ndarray, numbers: Callable[[np.ndarray, float], Numbers]
-) -> Curve:
-    """Build the curve from rows of unknowns and second parameter."""
-    of_orbits = KINDS[kind].unknowns > 0
-
-    def happens(u: np.ndarray, p: float, slack: float) -> bool:
-        at, (period, speed) = numbers(u, p), _orbit(kind, u)
-        if not of_orbits:
-            return kind != "rub-fold" or happens_to_rubs(at)
+    def happens(self, u: np.ndarray, p: float, slack: float) -> bool:
+        """Whether it happens to a motion of the machine."""
+        at, period, speed = self._at(u, p)
+        if self.kind in STEADY:
+            return self.kind != "rub-fold" or happens_to_rubs(at)
         slips = at.mu == 0.0 or conditions_at(at, period, speed).slip_stop > -slack
         return speed > -slack and slips and not profile_at(at, period, max(speed, 1e-4)).height >= slack
 
-    absent = np.full(len(rows), np.nan)
-    slack = 1e-9 if kind in ("grazing", "slip-stop", "contact-onset", "non-smooth-hopf") else 0.0
-    admissible = np.array([happens(row[:-1], float(row[-1]), slack) for row in rows])
-    named = [
-        (numbers(row[:-1], float(row[-1])), *_orbit(kind, row)) for row in rows[admissible if admissible.any() else ...]
-    ]
-    return Curve(
-        kind=kind,
-        plane=plane,
-        points=rows[:, -2:],
-        periods=rows[:, 0] if of_orbits else absent,
-        radial_speeds=rows[:, 1] if of_orbits else absent,
-        admissible=admissible,
-        orbits=orbits_on_curve(kind, named) if of_orbits else (),
-        codimension2=tuple(
-            Codimension2Point(
-                (point.kind,) if point.kind in RESONANCES else (kind, point.kind),
-                (float(point.unknowns[-1]), point.parameter),
-                *(_orbit(kind, point.unknowns) if of_orbits else (np.nan, np.nan)),
-                happens(point.unknowns, point.parameter, 1e-6),
-            )
-            for point in branch.special
-            if point.kind in (*KINDS[kind].watched, *KINDS[kind].ends)
-        ),
-        stops=(_stop(kind, branch, 0), _stop(kind, branch, -1)),
-    )
+    def names(self, places: Sequence[Place]) -> tuple[OrbitName, ...]:
+        """Names of the orbits that bifurcate at places of the curve; none of equilibria."""
+        return () if self.kind in STEADY else orbits_on_curve(self.kind, [self._at(*place) for place in places])
 
-
-def _stop(kind: str, branch: Branch, end: Literal[0, -1]) -> str:
-    """Reason why a curve ends at its first or last point."""
-    reason = branch.stops[end]
-    if reason == "parameter limit":
-        return EDGE
-    if reason not in ("end of domain", "step too small"):
+    def gives_up(self, reason: str, u: np.ndarray) -> str:
+        """Why the continuation gave up, in terms of the motion."""
+        if self.kind not in STEADY and u[0] < VANISHING:
+            return "period vanishes"
+        if self.kind == "grazing" and min(u[2], u[0] - u[2]) < VANISHING * u[0]:
+            return "grazing meets the impact"
         return reason
-    unknowns = branch.unknowns[end]
-    if KINDS[kind].unknowns and unknowns[0] < VANISHING:
-        return "period vanishes"
-    if kind == "grazing" and min(unknowns[2], unknowns[0] - unknowns[2]) < VANISHING * unknowns[0]:
-        return "grazing meets the impact"
-    return reason

@@ -20,10 +20,10 @@ from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.orbit import Orbit, numbered, orbit_near
 from carom.orbits.search import OrbitSearch
 from carom.orbits.searched import Searched
-from carom.orbits.simulated import SimulatedOrbit, numbered
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.simulated_search import search_simulated
 
 VALUES = 9

@@ -213,7 +213,6 @@ def continue_simulated(
         watches=family.watches(),
         steps=steps or STEPS,
         scales=scales,
-        crossings="",
     )
     orbits: list[SimulatedOrbit] = []
     values: list[float] = []
@@ -311,7 +310,7 @@ def switch_simulated(point: Bifurcation, interval: Ends, budget: FlowBudget | No
     CaromError
         No such motion is found beside it.
     """
-    orbit: Any = point.orbit
+    orbit: SimulatedOrbit = point.shot
     budget = budget or FlowBudget()
     along = axis(orbit.rotor, point.parameter)
     vector = Flow.vector(orbit.start)

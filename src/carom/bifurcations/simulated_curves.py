@@ -5,37 +5,37 @@ The equations are those of the closed path and the function that vanishes at the
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from carom.base.outcome import InputError
-from carom.bifurcations.curve_results import Codimension2Point, Curve
-from carom.bifurcations.planes import EDGE, Plane
+from carom.bifurcations.curve_equations import CurveEquations, Place
+from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.simulated import MOST_NUMBERS, begun_at_least_radius
-from carom.bifurcations.simulated_family import Place, SimulatedFamily
-from carom.continuation import Branch, Steps, Watch
+from carom.bifurcations.simulated_family import Place as Values
+from carom.bifurcations.simulated_family import SimulatedFamily
+from carom.continuation import Steps, Watch
 from carom.orbits.flow import Flow, FlowBudget
+from carom.orbits.names import CountedName
+from carom.orbits.simulated import SimulatedOrbit
 
-STEPS = Steps(
-    first=0.02, largest=0.2, smallest=1e-3, sharpest_turn=0.4, most_points=80, tolerance=1e-7, resolution=1e-8
-)
 KINDS = ("fold", "period-doubling", "neimark-sacker")
 
 
-class SimulatedCurve:
-    """The equations of one of these bifurcations, its unknowns at the start, and what is watched along its curve."""
+class SimulatedCurve(CurveEquations):
+    """The equations of one of these bifurcations."""
 
     bend = np.inf
-    steps = STEPS
-    reach = None
+    usual_steps = Steps(
+        first=0.02, largest=0.2, smallest=1e-3, sharpest_turn=0.4, most_points=80, tolerance=1e-7, resolution=1e-8
+    )
 
     def __init__(self, point: Bifurcation, plane: Plane, budget: FlowBudget | None) -> None:
         if point.kind not in KINDS:
             raise InputError("kind", point.kind, f"one of: {', '.join(KINDS)}")
-        orbit: Any = point.orbit
+        orbit: SimulatedOrbit = point.shot
         numbers = len(Flow.vector(orbit.start))
         if numbers > MOST_NUMBERS:
             raise InputError(
@@ -53,7 +53,7 @@ class SimulatedCurve:
         self.watches = [Watch(name, self._over_plane(tests[name])) for name in others]
 
     @staticmethod
-    def _over_plane(test: Callable[[np.ndarray, Place], float]) -> Callable[[np.ndarray, float], float]:
+    def _over_plane(test: Callable[[np.ndarray, Values], float]) -> Callable[[np.ndarray, float], float]:
         """A test of a family as a function of the unknowns of a curve and the second parameter."""
         return lambda u, p: test(u[:-1], (float(u[-1]), p))
 
@@ -63,41 +63,27 @@ class SimulatedCurve:
         closing = self.family.residual(unknowns, place)
         return np.append(closing, self.test(unknowns, place) if np.isfinite(closing).all() else np.nan)
 
-    def curve(self, branch: Branch, rows: np.ndarray) -> Curve:
-        """The curve with the period and speed of its orbits."""
-        orbits = [self._orbit(row) for row in rows]
-        return Curve(
-            kind=self.kind,
-            plane=self.plane,
-            points=rows[:, -2:],
-            periods=np.array([orbit.period for orbit in orbits]),
-            radial_speeds=np.array([orbit.radial_speed for orbit in orbits]),
-            admissible=np.ones(len(rows), bool),
-            orbits=(self.name,),
-            codimension2=tuple(
-                Codimension2Point(
-                    (self.kind, point.kind),
-                    (float(point.unknowns[-1]), point.parameter),
-                    *self._speeds(np.append(point.unknowns, point.parameter)),
-                    True,
-                )
-                for point in branch.special
-                if point.kind in KINDS
-            ),
-            stops=(self._stop(branch.stops[0]), self._stop(branch.stops[1])),
-        )
+    def _moved(self, u: np.ndarray, p: float) -> SimulatedOrbit:
+        """The orbit at a place of the curve."""
+        place = float(u[-1]), p
+        flow = self.family.flow(place)
+        if flow is None:
+            raise RuntimeError("a curve is followed where there is a rotor")
+        return self.family.orbit.moved(flow, *self.family.split(u[:-1]), np.empty(0), self.name)
 
-    def _orbit(self, row: np.ndarray) -> Any:
-        place = float(row[-2]), float(row[-1])
-        vector, period = self.family.split(row[:-2])
-        flow: Any = self.family.flow(place)
-        return self.family.orbit.moved(flow, vector, period, np.empty(0), self.name)
-
-    def _speeds(self, row: np.ndarray) -> tuple[float, float]:
-        orbit = self._orbit(row)
+    def orbit(self, u: np.ndarray, p: float) -> tuple[float, float]:
+        """Period and radial speed."""
+        orbit = self._moved(u, p)
         return orbit.period, orbit.radial_speed
 
-    def _stop(self, reason: str) -> str:
-        if self.family.budget.spent and reason in ("end of domain", "step too small"):
-            return "more would take too long"
-        return EDGE if reason == "parameter limit" else reason
+    def happens(self, u: np.ndarray, p: float, slack: float) -> bool:
+        """All are motions of the machine."""
+        return True
+
+    def names(self, places: Sequence[Place]) -> tuple[CountedName, ...]:
+        """Name of the orbit that was followed."""
+        return (self.name,)
+
+    def gives_up(self, reason: str, u: np.ndarray) -> str:
+        """Why the continuation gave up: its budget may be spent."""
+        return "more would take too long" if self.family.budget.spent else reason

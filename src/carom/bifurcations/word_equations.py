@@ -15,8 +15,8 @@ from carom.base.outcome import CaromError, InputError
 from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET
-from carom.continuation import Watch
-from carom.continuation.equations import applied
+from carom.continuation import Steps, Watch
+from carom.continuation.equations import Equations
 from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
 from carom.core.variation import apply_impact
@@ -180,25 +180,18 @@ class WordFamily:
 
     def beside(self, doubled: np.ndarray, p: float, tangent: np.ndarray) -> tuple[np.ndarray, float]:
         """Point of the branch in the hyperplane at a distance along a direction from a point."""
-        u = doubled + FROM_DOUBLING * tangent
-        for _ in range(CORRECTIONS):
-            residual = self.residual(u, p)
-            if not np.isfinite(residual).all():
-                break
-            slopes = self.jacobian(u, p) * np.append(np.ones(len(u)), self.size)
-            misses = np.append(-residual, FROM_DOUBLING - tangent @ (u - doubled))
-            change = applied(np.linalg.solve, slopes, np.append(tangent, 0.0), misses)
-            if change is None:
-                break
-            u, p = u + change[:-1], p + self.size * float(change[-1])
-            if np.abs(change).max() < 1e-12:
-                return u, min(max(p, self.limits[0]), self.limits[1])
-        raise CaromError("no orbit of twice the period was found beside the period doubling")
+        sizes, normal = np.append(np.ones(len(doubled)), self.size), np.append(tangent, 0.0)
+        equations = Equations(self.residual, self.jacobian, sizes, Steps(iterations=CORRECTIONS))
+        guess = np.append(doubled, p / self.size) + FROM_DOUBLING * normal
+        found = equations.correct(guess, normal, equations.inverse(guess, normal))
+        if found is None:
+            raise CaromError("no orbit of twice the period was found beside the period doubling")
+        u, p = equations.plain(found)
+        return u, min(max(p, self.limits[0]), self.limits[1])
 
     def speeds(self, u: np.ndarray) -> list[complex]:
         """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` before each impact, as real and imaginary part."""
-        speeds: list[complex] = speeds_at(unpack(u, len(self.word)).nodes).tolist()
-        return speeds
+        return speeds_at(unpack(u, len(self.word)).nodes).tolist()
 
     def fastest(self, u: np.ndarray) -> float:
         """Largest radial speed before an impact."""

@@ -179,8 +179,7 @@ def _alternating(word: Word, links: Links) -> np.ndarray:
         change = passage @ change
     once = np.ravel(rows)
     both = np.concatenate([once, -once])
-    whole: np.ndarray = both / np.linalg.norm(both)
-    return whole
+    return both / np.linalg.norm(both)
 
 
 def _follow(
@@ -204,7 +203,6 @@ def _follow(
         steps=steps or (CLOSE_STEPS if isinstance(name, OrbitName) else STEPS),
         scales=np.append(np.ones(len(start)), family.size),
         reach=family.reach,
-        crossings="",
     )
     wanted = [point for point in branch.special if _is_special(family, branch, point)]
     special = [found for point in wanted if (found := _special_point(family, branch, point, name)) is not None]

@@ -82,14 +82,12 @@ class Pieces:
     @cached_property
     def force(self) -> np.ndarray:
         """Normal force per state, beside that of the gap."""
-        found: np.ndarray = self.stiffness * self.depth + self.loss * self.speed
-        return found
+        return self.stiffness * self.depth + self.loss * self.speed
 
     @cached_property
     def contact(self) -> np.ndarray:
         """Rates per state in contact, shape (2N, 2N)."""
-        found: np.ndarray = self.flight + np.outer(self.push, self.force)
-        return found
+        return self.flight + np.outer(self.push, self.force)
 
     @cached_property
     def compliance(self) -> float:
@@ -99,16 +97,14 @@ class Pieces:
 
     def in_flight(self, time: float) -> np.ndarray:
         """State after a flight per state before it."""
-        moved: np.ndarray = expm(self.flight * time)
-        return moved
+        return expm(self.flight * time)
 
     def before_impact(self, state: np.ndarray) -> np.ndarray:
         """Derivative of the state after an impact by that before it, as it happens earlier or later, shape (2N, 2N)."""
         unit, ahead = np.eye(len(state)), self.depth / (self.speed @ state)
         before = self.flight @ state
         reset = unit + np.outer(self.impact_column, self.speed)
-        after_impact: np.ndarray = reset + np.outer(self.flight @ reset @ state - reset @ before, ahead)
-        return after_impact
+        return reset + np.outer(self.flight @ reset @ state - reset @ before, ahead)
 
 
 def _read(row: np.ndarray) -> np.ndarray:

@@ -98,8 +98,7 @@ class Levitation(Result):
         """Coordinates in the fixed frame at times in ``1/Ω``, of their shape; of several coordinates with a last axis of these."""
         turns = np.exp(1j * np.asarray(times))
         turned = np.multiply.outer(turns, self.whirl) + np.multiply.outer(turns.conj(), self.opposite)
-        placed: np.ndarray = self.sag + turned
-        return placed
+        return self.sag + turned
 
 
 @checked

@@ -220,8 +220,7 @@ def _resultant(first: list[Polynomial], second: list[Polynomial]) -> Polynomial:
 
 def _anywhere(planes: int) -> np.ndarray:
     """Starts of Newton's method for three planes and more: pushing forces of all sizes that matter, shape (m, C)."""
-    starts: np.ndarray = 10.0 ** np.random.default_rng(0).uniform(-3.0, 1.0, (STARTS, planes))
-    return starts
+    return 10.0 ** np.random.default_rng(0).uniform(-3.0, 1.0, (STARTS, planes))
 
 
 def _balanced(h: np.ndarray, rest: np.ndarray, starts: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -62,7 +62,7 @@ def contact_changes(machine: Subject) -> tuple[float, ...]:
     """
     at, natural, damping_ratio = _over_speed(machine)
     rigidity, rate, excitation = natural**2, 2.0 * damping_ratio * natural, largest_excitation(at)
-    found = list(_range(natural, damping_ratio, at.rho) or ())
+    found = _edges(natural, damping_ratio, at.rho)
     for edge in (excitation, -excitation):
         found += _inverses(-at.mu * rigidity, rate, at.mu - edge)
     slip = at.radius_ratio
@@ -79,24 +79,16 @@ def _over_speed(machine: Subject) -> tuple[Parameters, float, float]:
     return at, at.omega * at.scales.speed, 0.5 * at.gamma / at.omega
 
 
-def _range(natural: float, ratio: float, factor: float) -> tuple[float, float] | None:
-    """Speeds between which ``y² − 2by + 1`` is less than the square of a factor."""
+def _edges(natural: float, ratio: float, factor: float) -> list[float]:
+    """Speeds at the ends of the range in which ``y² − 2by + 1`` is less than the square of a factor."""
     middle = 1.0 - 2.0 * ratio * ratio
-    depth = 4.0 * ratio * ratio * (1.0 - ratio) * (1.0 + ratio)
-    inside = factor * factor - depth
+    inside = factor * factor - 4.0 * ratio * ratio * (1.0 - ratio) * (1.0 + ratio)
     if inside <= 0.0:
-        return None
-    reach, product = math.sqrt(inside), (1.0 - factor) * (1.0 + factor)
+        return []
     # The root of larger modulus, and the other one from their product: without cancellation.
-    if middle >= 0.0:
-        upper = middle + reach
-        lower = product / upper
-    else:
-        lower = middle - reach
-        upper = product / lower
-    if upper <= 0.0:
-        return None
-    return natural / math.sqrt(upper), natural / math.sqrt(lower) if lower > 0.0 else math.inf
+    larger = middle + math.copysign(math.sqrt(inside), middle)
+    roots = larger, (1.0 - factor) * (1.0 + factor) / larger
+    return [natural / math.sqrt(root) for root in roots if root > 0.0]
 
 
 def _inverses(square: float, linear: float, constant: float) -> list[float]:

@@ -22,7 +22,7 @@ import numpy as np
 from carom.base.outcome import CaromError, InputError
 from carom.base.roots import HALVINGS, bracketed_root, narrowed, sign_change
 from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
-from carom.continuation.equations import DIFFERENCE, Equations, Function, Point, Solver, applied, bordered
+from carom.continuation.equations import DIFFERENCE, Equations, Function, Point, Solver, applied
 
 STRAY = 0.3
 """Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""
@@ -55,7 +55,6 @@ def continue_branch(
     reach: Callable[[np.ndarray], float] | None = None,
     solver: Solver | None = None,
     folds: str = "fold",
-    crossings: str = "branch point",
 ) -> Branch:
     """Follow the branch of solutions through a point, in both directions.
 
@@ -80,9 +79,8 @@ def continue_branch(
     solver : callable, optional
         Of ``u`` and ``p``: the solution next to ``u`` at this parameter, or ``None``.  It is asked where the branch is not
         close to a fold, and saves evaluations where the equations at another parameter take long to set up.
-    folds, crossings : str
-        Kinds under which turning points of the parameter are listed, and points where another branch crosses; empty if these are
-        not wanted.
+    folds : str
+        Kind under which turning points of the parameter are listed; empty if these are not wanted.
 
     Raises
     ------
@@ -97,7 +95,7 @@ def continue_branch(
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
     steps = steps or Steps()
     equations = Equations(residual, jacobian, sizes, steps, solver)
-    tracer = Tracer(equations, interval, watches, steps, folds, crossings, reach)
+    tracer = Tracer(equations, interval, watches, steps, folds, reach)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
@@ -124,7 +122,6 @@ class Tracer:
     watches: Sequence[Watch]
     steps: Steps
     folds: str
-    crossings: str
     reach: Callable[[np.ndarray], float] | None = None
 
     @cached_property
@@ -238,11 +235,10 @@ class Tracer:
         return "step too small" if np.isfinite(around).all() else "end of domain"
 
     def _watched(self, at: Point) -> np.ndarray:
-        """Values of the relative distance to the limit, of the watches, and of the functions of folds and crossings."""
+        """Values of the relative distance to the limit, of the watches, and of the function of folds."""
         u, p = self.equations.plain(at.x)
         watches = [watch.function(u, p) for watch in self.watches]
-        crossing = [self._crossing(at)] if self.crossings else []
-        return np.array([self._margin(p), *watches, at.tangent[-1], *crossing])
+        return np.array([self._margin(p), *watches, at.tangent[-1]])
 
     def _watched_value(self, which: int, x: np.ndarray, here: Point) -> float:
         """One of the values of :meth:`_watched`, at a point on the step from ``here``."""
@@ -253,17 +249,12 @@ class Tracer:
             return self.watches[which - 1].function(u, p)
         jacobian = self.equations.jacobian(x)
         tangent = self.equations.tangent(jacobian, here.tangent)
-        at = Point(x, jacobian, here.tangent if tangent is None else tangent)
-        return float(at.tangent[-1]) if which == len(self.watches) + 1 else self._crossing(at)
+        return float((here.tangent if tangent is None else tangent)[-1])
 
     def _margin(self, p: float) -> float:
         low, high = self.interval
         left = min(p - low, high - p)
         return 0.0 if abs(left) <= LANDED * max(abs(low), abs(high)) else left / (high - low)
-
-    def _crossing(self, at: Point) -> float:
-        """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""
-        return float(np.linalg.det(bordered(at.jacobian, at.tangent)))
 
     def _locate(self, path: _Path, here: Point, there: Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
@@ -271,8 +262,8 @@ class Tracer:
         changed[self.avoided] = False
         if not changed.any():
             return None
-        kinds = ["", *(watch.kind for watch in self.watches), self.folds, self.crossings]
-        ends = [True, *(watch.at_zero in ("end", "limit") for watch in self.watches), False, False]
+        kinds = ["", *(watch.kind for watch in self.watches), self.folds]
+        ends = [True, *(watch.at_zero in ("end", "limit") for watch in self.watches), False]
         reached: list[tuple[float, int, np.ndarray]] = []
         known = {0.0: here.x, length: there.x}
         for i in np.flatnonzero(changed):

@@ -156,8 +156,7 @@ def _krylov_step(applied: Callable[[np.ndarray], np.ndarray], right: np.ndarray)
         return None
     goal = np.zeros(len(matrix))
     goal[0] = np.linalg.norm(right)
-    solution: np.ndarray = basis @ np.linalg.lstsq(matrix, goal, rcond=None)[0]
-    return solution
+    return basis @ np.linalg.lstsq(matrix, goal, rcond=None)[0]
 
 
 def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None) -> SimulatedOrbit | None:

@@ -270,8 +270,7 @@ def _apart(rate: np.ndarray, directions: np.ndarray) -> np.ndarray:
     It measures what a disturbance has along the motion.
     """
     apart = [np.linalg.norm(rate - directions[:, :k] @ (directions[:, :k].T @ rate)) for k in range(len(rate))]
-    logarithms: np.ndarray = np.log(apart)
-    return logarithms
+    return np.log(apart)
 
 
 def _directions_kept(rotor: Rotor, words: list[Word]) -> int:

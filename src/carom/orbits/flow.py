@@ -139,8 +139,7 @@ class Flow:
             share = step * size / longest
             first, last = (self.end(vector + sign * share * direction, motion.time) - end for sign in (1.0, -1.0))
             if float(np.abs(first + last).max()) <= BEND * max(float(np.abs(first - last).max()), 2.0 * step * size):
-                found: np.ndarray = (first - last) / (2.0 * share)
-                return found
+                return (first - last) / (2.0 * share)
         return np.full(len(vector), np.nan)
 
     def derivative(self, vector: np.ndarray, motion: Trajectory) -> np.ndarray:
@@ -184,8 +183,7 @@ class Flow:
             times = np.array([duration, duration + step])
         amplitudes, _ = motion.amplitudes_at(times)
         ends = [self.vector(State.of(*system.state(each), system.race_speeds(each))) for each in amplitudes]
-        rate: np.ndarray = (ends[1] - ends[0]) / float(np.ptp(times))
-        return rate
+        return (ends[1] - ends[0]) / float(np.ptp(times))
 
 
 def saturates(motion: Trajectory) -> bool:

@@ -115,8 +115,7 @@ def begins_contact(motion: Trajectory) -> np.ndarray:
     """Which events of a motion are impacts at a wall: impacts, and beginnings of contact with compliant walls; bool, shape (n,)."""
     before, after = flying(motion.segment_phases, motion.event_planes)
     compliant = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
-    impacts: np.ndarray = motion.is_impact | (before & ~after & compliant)
-    return impacts
+    return motion.is_impact | (before & ~after & compliant)
 
 
 def first_of_period(motion: Trajectory, count: int) -> int:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.admissibility import departure, why_virtual
 from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.maps import Section
-from carom.orbits.names import CountedName, OrbitName
+from carom.orbits.names import CountedName, OrbitName, RubbingName
 from carom.orbits.shooting import Links, ShootingStart, converged, links_of
 from carom.orbits.simulated import SimulatedOrbit, same_simulated
 from carom.orbits.stability import Multipliers, multipliers_of
@@ -260,6 +262,9 @@ class Orbit(Result):
         return position
 
 
+Found = TypeVar("Found", bound=Orbit | SimulatedOrbit)
+
+
 def margins_of(links: Links, rotor: Rotor, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
     nodes = rotor.system.nodes.amplitudes(links.start.nodes)
@@ -330,9 +335,22 @@ def beginning(rotor: Rotor, word: Word, nodes: np.ndarray) -> int:
 
 def same_orbit(first: Orbit | SimulatedOrbit, second: Orbit | SimulatedOrbit) -> bool:
     """Whether two orbits are the same, wherever they begin."""
-    if isinstance(first, SimulatedOrbit) or isinstance(second, SimulatedOrbit):
-        return (
-            isinstance(first, SimulatedOrbit) and isinstance(second, SimulatedOrbit) and same_simulated(first, second)
-        )
-    turns = (first.start.turned(places).nodes for places in first.word.turns_to(second.word))
-    return any(np.abs(nodes - second.nodes).max() <= 1e2 * EQUAL_IMPACT_RTOL for nodes in turns)
+    if isinstance(first, Orbit) and isinstance(second, Orbit):
+        turns = (first.start.turned(places).nodes for places in first.word.turns_to(second.word))
+        return any(np.abs(nodes - second.nodes).max() <= 1e2 * EQUAL_IMPACT_RTOL for nodes in turns)
+    return isinstance(first, SimulatedOrbit) and isinstance(second, SimulatedOrbit) and same_simulated(first, second)
+
+
+def numbered(orbit: Found, number: int) -> Found:
+    """The same orbit with its number among those found with as many impacts."""
+    made = CountedName if orbit.impacts else RubbingName
+    return replace(orbit, name=made(orbit.impacts, number))
+
+
+def all_numbered(orbits: Iterable[Found]) -> list[Found]:
+    """Orbits in the order of lists, those with few impacts and a short period first, each with its number."""
+    counts, named = Counter[int](), list[Found]()
+    for orbit in sorted(orbits, key=lambda each: (each.impacts, each.period)):
+        counts[orbit.impacts] += 1
+        named.append(numbered(orbit, counts[orbit.impacts]))
+    return named

@@ -7,7 +7,6 @@ stretch of a motion that is a few impacts long is a guess for Newton's method, w
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Annotated, Any
 
 import numpy as np
@@ -20,11 +19,11 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
+from carom.orbits.orbit import Orbit, all_numbered, lasts, orbit_of_links, same_orbit
 from carom.orbits.recognising import orbit_of_motion, with_impacts
 from carom.orbits.searched import KIND, Searched, random_starts
 from carom.orbits.shooting import ShootingStart, closed_flights, links_of, pack
-from carom.orbits.simulated import SimulatedOrbit, numbered
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.word import Word
 
 GUESSES, MOST_IMPACTS = 1500, 64
@@ -83,7 +82,7 @@ def _orbits_of_ends(
     """
     ends: Endings = settle(rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
     irregular = (ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities == 0)
-    unsettled = np.count_nonzero(irregular | (ends.outcomes < Outcome.LEVITATED))
+    unsettled = int(np.count_nonzero(irregular | (ends.outcomes < Outcome.LEVITATED)))
     ends = ends[((ends.outcomes == Outcome.BOUNCING) & ~irregular) | (ends.outcomes == Outcome.MIXED)]
     found: list[tuple[Orbit | SimulatedOrbit, int]] = []
     if not len(ends.times):
@@ -117,18 +116,8 @@ class OrbitSearch:
     def named(self) -> tuple[Orbit, ...]:
         """The admissible orbits, those found under new names."""
         listed = [orbit for orbit in self.found if orbit.admissible]
-        counts = dict.fromkeys(range(self.impacts + 1), 0)
         named = [orbit for orbit in listed if not isinstance(orbit.name, CountedName)]
-        for orbit in sorted(
-            (each for each in listed if each not in named), key=lambda each: (each.impacts, each.period)
-        ):
-            counts[orbit.impacts] += 1
-            number = counts[orbit.impacts]
-            simulated = isinstance(orbit, SimulatedOrbit)
-            named.append(
-                numbered(orbit, number) if simulated else replace(orbit, name=CountedName(orbit.impacts, number))
-            )
-        return tuple(named)
+        return (*named, *all_numbered(orbit for orbit in listed if orbit not in named))
 
     def run(self, settled: int, guesses: int, fresh: int, seed: Sequence[int], tell: Reporter) -> Searched:
         """Search, with so many guesses for each number of impacts."""

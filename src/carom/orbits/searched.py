@@ -96,8 +96,7 @@ def random_starts(
 
     def reach(sizes: np.ndarray) -> np.ndarray:
         states = np.concatenate([sizes[:, None] * directions[:, 0], np.zeros((count, n))], axis=1)
-        radii: np.ndarray = np.abs(system.amplitudes_of(states) @ arrays.rows.T + arrays.offsets).max(axis=1)
-        return radii
+        return np.abs(system.amplitudes_of(states) @ arrays.rows.T + arrays.offsets).max(axis=1)
 
     sizes = shares / reach(np.ones(count))
     while (far := reach(sizes) > 1.0).any():

@@ -68,8 +68,7 @@ class Links:
 
     @cached_property
     def _equations(self) -> np.ndarray:
-        found: np.ndarray = shooting_equations(self.start.nodes, self.ends, self.values, self.slopes)
-        return found
+        return shooting_equations(self.start.nodes, self.ends, self.values, self.slopes)
 
     @property
     def residual(self) -> np.ndarray:
@@ -119,8 +118,7 @@ def by_parameter(rotor: Rotor, word: Word, start: ShootingStart, name: str) -> n
     friction, restitution, surface_speed = np.array(of_wall)[:, None]
     rates = accelerations, force, friction, restitution, surface_speed
     at = word.kinds, word.planes, word.planes, *start
-    changes: np.ndarray = sensitivity_of_flights(system.arrays, *system.nodes, *rates, *at)
-    return changes
+    return sensitivity_of_flights(system.arrays, *system.nodes, *rates, *at)
 
 
 def _room(m: int, numbers: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

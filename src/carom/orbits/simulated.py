@@ -21,7 +21,6 @@ from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.flow import TURN, Flow
 from carom.orbits.happenings import Happening, happenings, word_of
 from carom.orbits.maps import Section
-from carom.orbits.names import CountedName, RubbingName
 from carom.orbits.stability import Multipliers
 from carom.parameters import Scales
 
@@ -242,9 +241,3 @@ def same_simulated(first: SimulatedOrbit, second: SimulatedOrbit) -> bool:
     return bool(
         np.abs(np.subtract(first.extremes, second.extremes)).max() < SAME_ORBIT_RTOL * (1.0 + max(first.extremes))
     )
-
-
-def numbered(orbit: SimulatedOrbit, number: int) -> SimulatedOrbit:
-    """The same with its number among those found."""
-    made = CountedName if orbit.impacts else RubbingName
-    return replace(orbit, name=made(orbit.impacts, number))

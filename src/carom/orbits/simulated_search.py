@@ -19,8 +19,9 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import OFF_PERIOD, close, quietest
 from carom.orbits.flow import FlowBudget, repeats_after
 from carom.orbits.happenings import begins_contact, first_of_period
+from carom.orbits.orbit import all_numbered
 from carom.orbits.searched import FASTEST, KIND, Searched, random_starts
-from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
+from carom.orbits.simulated import SimulatedOrbit, same_simulated
 
 SETTLED, FRESH, GUESSES = 120, 60, 150
 """Motions followed until they settle, fresh ones afterwards, and stretches of further ones that are tried for each number of impacts."""
@@ -59,14 +60,8 @@ def search_simulated(
     others = sum(count for orbit, count in fresh.orbits if not search.knows(orbit) and orbit.impacts <= impacts)
     for orbit, _ in fresh.orbits:
         search.add(orbit)
-    found = sorted(search.found, key=lambda orbit: (orbit.impacts, orbit.period))
-    counts: dict[int, int] = {}
-    named = []
-    for orbit in found:
-        counts[orbit.impacts] = counts.get(orbit.impacts, 0) + 1
-        named.append(numbered(orbit, counts[orbit.impacts]))
     done = (settled.followed, search.motions, search.guesses, search.repeats, search.failures, search.last_new)
-    return tuple(named), Searched(*done, 0, fresh.followed, listed, others, fresh.unsettled)
+    return tuple(all_numbered(search.found)), Searched(*done, 0, fresh.followed, listed, others, fresh.unsettled)
 
 
 class _Ends(NamedTuple):
