@@ -6,6 +6,7 @@ mpmath), the impact law through polar coordinates.
 
 import cmath
 import math
+from pathlib import Path
 
 import mpmath
 import numpy as np
@@ -38,6 +39,16 @@ REAL = Machine(
     restitution=0.95,
 )
 """The machine of the examples."""
+
+
+def machine_file(name: str) -> Path:
+    """Path of a machine file of the tests; those of all kinds of machines are in ``tests/machines``."""
+    return Path(__file__).with_name("machine_files") / f"{name}.toml"
+
+
+def machine_text(name: str) -> str:
+    """What such a file says."""
+    return machine_file(name).read_text(encoding="utf-8")
 
 
 def random_parameters(random: np.random.Generator, **fixed: float) -> Parameters:

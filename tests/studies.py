@@ -6,6 +6,22 @@ from carom.studies import Study, study
 QUICK = ("--set", "damping=6000 N s/m", "--set", "friction=0")
 """Of the machine of the examples a study that is soon made: every disturbance comes back at once."""
 
+ORBIT_KEYS = frozenset(
+    [
+        "name",
+        "impacts",
+        "period",
+        "radial_speed",
+        "angle",
+        "angular_speed",
+        "multipliers",
+        "stable",
+        "admissible",
+        "reason",
+    ]
+)
+"""Of an orbit in a document."""
+
 _MADE: dict[str, Study] = {}
 
 

@@ -9,8 +9,6 @@ from linear_rotors import as_matrices, single
 import carom as cm
 from carom.motions.starts import State
 
-RANGE = (0.2, 0.5)
-
 
 @pytest.mark.jit_only
 def test_a_diagram_shows_equilibria(monkeypatch):

@@ -8,22 +8,13 @@ import weakref
 from pathlib import Path
 
 import pytest
+from machines import machine_text
 
 from carom.base.outcome import CaromError, CaromWarning, InputError
 from carom.cli import main
 from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
 
-MACHINE = """[machine]
-mass = "50 kg"
-damping = "1400 N s/m"
-stiffness = "9.8e5 N/m"
-eccentricity = "0.3 mm"
-clearance = "0.7 mm"
-rotor_radius = "40 mm"
-speed = "184.2 rad/s"
-friction = 0.15
-restitution = 0.95
-"""
+MACHINE = machine_text("small")
 
 
 def assert_refused(answer, *names):

@@ -1,13 +1,12 @@
-"""Damaged files and options: accepted as what they say, or refused in printable lines; never a traceback."""
+"""Damaged files and options: accepted, or refused in printable lines; never a traceback.
 
-import re
-import tomllib
-from functools import cache
+What is accepted is read as what it says: ``tests/parameters/test_terms_at_random.py`` and ``tests/sweeps/test_sweep_file.py``.
+"""
+
 from importlib import import_module
 from pathlib import Path
 
 import numpy as np
-import pint
 import pytest
 import typer
 from compilation import sized
@@ -15,7 +14,6 @@ from compilation import sized
 from carom.base.outcome import InputError
 from carom.cli import main
 from carom.loading import load
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine
 from carom.sweeps import load_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -178,77 +176,6 @@ DAMAGES = (
 DAMAGES += (_encode, _end_lines, _mark)
 
 
-# ------------------------------------------------------------------------------------------ an independent reading
-
-
-@cache
-def units():
-    registry = pint.UnitRegistry()
-    registry.define("rev = revolution")
-    registry.define("@alias rpm = RPM")
-    registry.define("Ns = newton * second")
-    return registry
-
-
-def meant(given, unit):
-    """Number that a value of a file means in a unit, read by another route."""
-    if not isinstance(given, str):
-        assert type(given) in (int, float)
-        return float(given)
-    number, text = re.fullmatch(r"\s*([+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", given, re.DOTALL).groups()
-    if not text:
-        return float(number)
-    return float(number) * units().Quantity(1.0, text.replace("°", "degree")).to(unit or "dimensionless").magnitude
-
-
-def same(read, given, unit=""):
-    assert read == pytest.approx(meant(given, unit), rel=1e-12, abs=0.0)
-
-
-def check_case(case, content):
-    """All numbers of a case are those of the file."""
-    if case.machine is None:
-        for name, field in DIMENSIONLESS_FIELDS.items():
-            same(getattr(case.parameters, name), content["dimensionless"][name], field.unit)
-    else:
-        for name, field in MACHINE_FIELDS.items():
-            same(getattr(case.machine, name), content["machine"].get(name, 0), field.unit)
-        assert Machine(**tomllib.loads(case.machine.to_toml())["machine"]) == case.machine
-    if "limits" in content.get("zones", {}):
-        assert list(case.zones.limits) == content["zones"]["limits"]
-
-
-def check_plan(plan, content, machine):
-    """All numbers of a plan are those of the sweep file."""
-    if not content.get("set"):
-        check_case(plan.case, machine)
-    assert (plan.seed, {axis.name for axis in plan.axes}) == (content.get("seed", 0), content["axes"].keys())
-    for axis in plan.axes:
-        table, unit = content["axes"][axis.name], axis.field.unit
-        values = table.get("values") or [table["from"], table["to"]]
-        assert (axis.count, len(axis.given)) == (table.get("count", len(values)), len(values))
-        assert axis.spacing == ("list" if "values" in table else table.get("spacing", "linear"))
-        for read, given in zip(axis.given, values, strict=True):
-            same(read, given, unit)
-    if "study" in content:
-        assert plan.task.disturbances == content["study"].get("disturbances", 0)
-        return
-    assert plan.task.starts == content["basins"]["starts"]
-    given = content["basins"]["disturbance"]
-    model, scales = plan.task.tried.model, plan.task.scales
-    assert model.kind == given["kind"]
-    for name in given.keys() - {"kind"}:
-        value, quantity, in_si = getattr(model, name), model.measured_in.get(name, ""), name in plan.task.in_si
-        assert in_si == (isinstance(given[name], str) and not re.fullmatch(r"\s*[-+0-9.eE]+\s*", given[name]))
-        if isinstance(value, float):
-            size = value * getattr(scales, quantity) if in_si else value
-            same(size, given[name], {"fastest": "m/s", "peak": "m/s**2", "duration": "s"}[name] if in_si else "")
-
-
-def content_of(path):
-    return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-
-
 def assert_printable(text, most=21):
     lines = text.split("\n")
     assert 1 <= len(lines) <= most
@@ -261,7 +188,7 @@ def assert_printable(text, most=21):
 
 
 @pytest.mark.parametrize("example", ["keogh-cole.toml", "source-paper.toml"])
-def test_damaged_machine_files_are_read_as_they_are_or_refused(tmp_path, example):
+def test_damaged_machine_files_are_read_or_refused(tmp_path, example):
     rng, path, accepted = np.random.default_rng([1, len(example)]), tmp_path / "m.toml", 0
     whole = (EXAMPLES / example).read_bytes()
     for number in range(CASES // 2):
@@ -272,14 +199,13 @@ def test_damaged_machine_files_are_read_as_they_are_or_refused(tmp_path, example
             assert_printable(str(problem))
             continue
         accepted += 1
-        check_case(case, content_of(path))
         assert case.name == "m", number
 
     assert CASES // 50 <= accepted <= CASES // 3
 
 
 @pytest.mark.parametrize("example", ["sweep-contact.toml", "sweep-gains.toml", "sweep-speed.toml"])
-def test_damaged_sweep_files_are_read_as_they_are_or_refused(tmp_path, example):
+def test_damaged_sweep_files_are_read_or_refused(tmp_path, example):
     rng, path, accepted = np.random.default_rng([2, len(example)]), tmp_path / "s.toml", 0
     whole = (EXAMPLES / example).read_bytes()
     for machine in EXAMPLES.glob("*.toml"):
@@ -287,13 +213,11 @@ def test_damaged_sweep_files_are_read_as_they_are_or_refused(tmp_path, example):
     for _ in range(CASES // 2):
         path.write_bytes(damaged(whole, rng))
         try:
-            plan = load_sweep(path)
+            load_sweep(path)
         except InputError as problem:
             assert_printable(str(problem))
             continue
         accepted += 1
-        content = content_of(path)
-        check_plan(plan, content, content_of(tmp_path / content["machine"]))
 
     assert CASES // 50 <= accepted <= CASES // 3
 

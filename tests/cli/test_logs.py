@@ -1,7 +1,6 @@
 """Contact logs as files hold what the motion has, in SI units, and appear whole or not at all."""
 
 import csv
-import os
 
 import numpy as np
 import pytest
@@ -9,7 +8,7 @@ import xarray
 from linear_rotors import single
 from yielding_walls import with_walls
 
-from carom.base.outcome import InputError, Phase
+from carom.base.outcome import Phase
 from carom.cli.logs import write_csv, write_netcdf
 from carom.disturbances import kick
 from carom.loading import load
@@ -81,18 +80,3 @@ def test_contacts_with_a_wall_that_gives_way(tmp_path):
     with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf", decode_times=False) as read:
         assert np.array_equal(read["deepest"], touches.deepest * scales.length)
         assert len(read["lasting_phase"]) == len(motion.lasting_contacts)
-
-
-def test_failed_write_leaves_the_old_file(motion, tmp_path, monkeypatch):
-    target = tmp_path / "log.nc"
-    target.write_text("old", encoding="utf-8")
-
-    def full(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(InputError, match=r"--netcdf = .*log.nc: cannot be written \(No space left on device\)"):
-        write_netcdf(motion, str(target))
-
-    assert target.read_text(encoding="utf-8") == "old"
-    assert list(tmp_path.iterdir()) == [target]

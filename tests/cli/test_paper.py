@@ -1,7 +1,6 @@
 """``carom paper`` as a user calls it."""
 
 import json
-import re
 
 import pytest
 
@@ -53,20 +52,3 @@ def test_everything_to_a_directory(carom, tmp_path, monkeypatch):
     for ending in ("svg", "png"):
         assert (place / "figures" / f"figure-6.{ending}").stat().st_size > 20_000
     assert not list(tmp_path.glob("deep/.*"))
-
-
-@pytest.mark.parametrize(("out", "complaint"), [("", "directory"), ("\0", "directory"), ("file", "is a file")])
-def test_a_directory_that_cannot_be_used(carom, tmp_path, monkeypatch, out, complaint):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "file").write_text("kept")
-    code, shown, err = carom("paper", "--out", out)
-    assert (code, shown) == (2, "")
-    assert len(err.strip().splitlines()) == 1
-    assert re.search(complaint, err)
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
-
-
-def test_options_that_are_none(carom):
-    code, out, err = carom("paper", "--figure", "2")
-    assert (code, out) == (2, "")
-    assert len(err.strip().splitlines()) == 1

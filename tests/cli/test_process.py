@@ -19,15 +19,6 @@ def run(*arguments, **options):
     )
 
 
-@pytest.mark.jit_only
-def test_json_is_one_object(machine):
-    done = run("orbits", machine, "--json")
-
-    assert done.returncode == 0
-    assert done.stderr == ""
-    assert [orbit["name"] for orbit in json.loads(done.stdout)["orbits"]] == ["B1,a", "B1,b", "B1,c", "B1,d"]
-
-
 def test_bad_input_exits_with_2_and_one_line():
     done = run("study", "no-such-file.toml")
 

@@ -69,15 +69,6 @@ def test_damaged_chunk_is_computed_again_and_told(carom, sweep_file, store):
     assert file.read_bytes() == whole
 
 
-def test_damaged_metadata_are_one_line(carom, sweep_file, store):
-    carom("sweep", sweep_file, "--out", store, "--threads")
-    (store / "zarr.json").write_text("{")
-    code, out, err = carom("sweep", sweep_file, "--out", store, "--threads")
-
-    assert (code, out, err.count("\n")) == (BAD_INPUT, "", 1)
-    assert err.startswith(f"carom: --out = {store}: its file zarr.json is damaged, missing or not of a sweep")
-
-
 def test_json_is_one_object(carom, sweep_file, store):
     code, out, err = carom("sweep", sweep_file, "--out", store, "--threads", "--json")
     document = json.loads(out)
@@ -117,15 +108,6 @@ def test_failed_points_are_told_with_parameters_and_error(carom, tmp_path, store
     document = json.loads(out)
     assert (document["computed"], document["failed"]) == (1, 1)
     assert document["failures"][0]["point"] == [0, 0]
-
-
-def test_settings_belong_to_the_plan(carom, sweep_file, store):
-    carom("sweep", sweep_file, "--out", store, "--threads", "--set", "speed=1500 rpm")
-    code, out, err = carom("sweep", sweep_file, "--out", store, "--threads")
-
-    assert (code, out) == (BAD_INPUT, "")
-    assert err.startswith(f"carom: --out = {store}: belongs to another plan")
-    assert err.count("\n") == 1
 
 
 @pytest.mark.parametrize(

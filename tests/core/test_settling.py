@@ -8,9 +8,7 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom.attractors import find_attractors
-from carom.base.outcome import Outcome, Phase
-from carom.closed_forms.equilibria import find_equilibria
+from carom.base.outcome import Outcome
 from carom.core.layout import RECURRENCE_RTOL, rotor_record, workspace
 from carom.core.settling import (
     approaches_turn,
@@ -260,29 +258,6 @@ def settled(parameters: Parameters, start: State) -> tuple[Rotor, object]:
     return rotor, motion
 
 
-SLENDER = Parameters(gamma=0.04, omega=0.74, rho=1.12, phi=0.0, mu=0.3, d=0.81, radius_ratio=2.0)
-
-
-@pytest.mark.jit_only
-def test_a_rotor_at_its_rub_stays_there():
-    rotor, motion = settled(PAPER.replace(gamma=0.2), State(0.2 + 0.1j, 0.5 + 0.3j))
-    assert motion.outcome is Outcome.FORWARD_RUB
-    (rub,) = [entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable]
-    later = simulate(rotor, motion.final, 2000.0)
-    assert {contact.phase for contact in later.lasting_contacts} == {Phase.FORWARD_SLIP}
-    assert len(later.contacts) == 0
-    assert np.abs(later.position(np.linspace(0.0, 2000.0, 500)) - rub.position).max() < 2.0 * RECURRENCE_RTOL
-
-
-def test_a_rolling_rotor_rolls_on():
-    rotor, motion = settled(PAPER.replace(gamma=0.07), State(0.2 + 0.1j, 0.3j))
-    assert motion.outcome is Outcome.ROLLING
-    long = sized(30, 2)
-    (contact,) = simulate(rotor, motion.final, long).lasting_contacts
-    assert contact.phase is Phase.ROLLING
-    assert (contact.start, contact.end) == (0.0, long)
-
-
 @pytest.mark.jit_only
 @pytest.mark.parametrize(("gamma", "impacts"), [(0.1, 1), (0.083, 2)])
 def test_a_bouncing_rotor_bounces_on(gamma, impacts):
@@ -318,41 +293,4 @@ def test_a_mixed_motion_goes_on_mixing():
     assert np.abs(np.exp(1j * log.angle[count:]) - np.exp(1j * log.angle[:-count])).max() < 1e-7
 
 
-@pytest.mark.jit_only
-def test_backward_whirl_goes_on_whirling():
-    rotor, motion = settled(SLENDER, State(0.3, 0.5 + 1.0j))
-    assert motion.outcome is Outcome.BACKWARD_WHIRL
-    later = simulate(rotor, motion.final, 500.0)
-    assert len(later.contacts) == 0
-    assert all(phase != Phase.FLIGHT for phase in later.segment_phases[1:])
-    position, velocity = later.at(np.linspace(0.0, 500.0, 5000))
-    assert (1.0 + (position.conj() * velocity).imag).max() < 0.0
-    assert {contact.phase for contact in later.lasting_contacts} != {Phase.ROLLING}
-
-
 # ------------------------------------------------------------------------------------------------ what does not settle
-
-
-@pytest.mark.jit_only
-def test_irregular_bouncing_is_called_so_and_why():
-    rotor = jeffcott(PAPER.replace(gamma=0.0825))
-    start = State(0.3 + 0.1j, 0.9 - 0.4j)
-    motion = simulate(rotor, start, 1e6, settle=True, patience=3000)
-    assert (motion.outcome, motion.multiplicity) == (Outcome.BOUNCING, 0)
-    assert len(motion.contacts) in (2999, 3000)
-    found = find_attractors(rotor, [start], known=False, patience=3000)
-    (member,) = found
-    assert member.name == "irregular bouncing"
-    assert "did not repeat itself as far as it was followed" in member.words
-
-
-def test_a_motion_stopped_early_says_what_stopped_it():
-    rotor = jeffcott(PAPER)
-    start = State(0.3 + 0.1j, 0.9 - 0.4j)
-    by_time = simulate(rotor, start, 5.0, settle=True)
-    by_count = simulate(rotor, start, 1e5, settle=True, max_events=5)
-    assert (by_time.outcome, by_count.outcome) == (Outcome.TIME_REACHED, Outcome.EVENT_LIMIT)
-    assert "without settling" in by_time.outcome.meaning
-    assert "raise max_events" in by_count.outcome.meaning
-    assert not by_time.outcome.settled
-    assert not by_count.outcome.settled

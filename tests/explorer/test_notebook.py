@@ -5,6 +5,7 @@ import queue
 import sys
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,27 +18,7 @@ from carom.explorer.page import questions
 MACHINE = carom.load("examples/keogh-cole.toml")
 SOON = 120
 """Seconds after which the figure is taken to hang; nothing is judged by how long it takes."""
-HOST = """
-<body style="margin: 20px; COLOURS"><div id="cell"></div></body>
-<script>
-  window.takers = new Set();
-  window.model = {
-    send: (content) => ask(content),
-    on: (name, take) => takers.add(take),
-    off: (name, take) => takers.delete(take),
-  };
-  window.deliver = (content, texts) => {
-    const views = texts.map((text) => new DataView(Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0)).buffer));
-    for (const take of takers) take(content, views);
-  };
-  window.start = async (text) => {
-    const module = await import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
-    const el = document.createElement("div");
-    window.end = module.default.render({ model, el });
-    document.getElementById("cell").append(el); // afterwards, as notebooks do
-  };
-</script>
-"""
+HOST = Path(__file__).with_name("notebook.html").read_text(encoding="utf-8")
 
 
 @contextmanager

@@ -2,34 +2,14 @@
 
 import shlex
 
-import numpy as np
 import pytest
+from machines import machine_text
 
 import carom
 from carom.explorer.computing.controls import controls_of, values_of, with_settings
 from carom.explorer.computing.exports import Origin, as_options
-from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.planes import planes_of
-from carom.explorer.computing.rest import rest_of
-from carom.models import rotor_of
 
-MACHINE = """
-[machine]
-mass = "50 kg"
-damping = "3000 N s/m"
-stiffness = "9.8e5 N/m"
-eccentricity = "0.3 mm"
-clearance = "0.7 mm"
-rotor_radius = "40 mm"
-speed = "184.2 rad/s"
-unbalance_phase = "0.21 rad"
-friction = 0.15
-
-[limits]
-force = "5 kN"
-
-[touchdown]
-"""
+MACHINE = machine_text("page")
 LINEAR = 'law = "kelvin-voigt"\nstiffness = "1e8 N/m"\n'
 KINDS = {
     "restitution": LINEAR + "restitution = 0.8\n",
@@ -103,20 +83,3 @@ def test_options_and_file_lead_to_the_same_machine(origin, kind, changes, tmp_pa
     assert (again.machine, again.touchdown, again.drive) == (case.machine, case.touchdown, case.drive)
     assert again.limits == case.limits
     assert values_of(again) == values_of(case)
-
-
-def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
-    case = with_settings(origin("restitution").case, {"touchdown_stiffness": "2e7"})
-    rotor, kicks = rotor_of(case), planes_of(case)[0]
-    kicked = follow_kick(rotor, kicks, 0.8, 0.2)
-    touches = carom.simulate(rotor, rest_of(rotor).kicked(0.8, 0.2), settle=True).contacts
-    assert kicked.planes[0].hardest == touches.peak_force.max()
-    radius = np.hypot(kicked.planes[0].x, kicked.planes[0].y)
-    # Samples lie somewhere between the ends of a contact, and are of single precision.
-    assert 1.0 < radius.max() <= 1.0 + touches.deepest.max() + 1e-6
-    count = min(len(kicked.planes[0].impact_times), len(touches))
-    np.testing.assert_allclose(kicked.planes[0].impact_times[:count], touches.time[:count], rtol=1e-6)
-    words = f"after {len(touches)} contacts; largest force "
-    assert words in kicked.words
-    assert " of the clearance." in kicked.words
-    assert follow_kick(rotor, kicks, 1e-4, 0.0).words.endswith("ends in levitation without contact.")

@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 import pytest
-from compilation import sized
 from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -17,7 +16,6 @@ from carom.parameters import Machine, Scales
 
 EPSILON = 2.0**-52
 UNTIL = 6.0
-SAMPLES = sized(300, 40)
 
 
 def states(motion, times):
@@ -79,48 +77,3 @@ def test_machines_with_the_same_parameters_move_alike(machine, start, scales):
     size = 10.0 + machine.radius_ratio
     error = np.abs(states(again, times) - states(nominal, times)).max(initial=0.0)
     assert error <= 400 * EPSILON * size * amplification
-
-
-def energies(machine, motion, times):
-    """Energy and angular momentum in the fixed frame, and Jacobi's integral in the co-rotating one."""
-    position, velocity = motion.at(times)
-    fixed = velocity + 1j * position
-    energy = 0.5 * np.abs(fixed) ** 2 + 0.5 * machine.omega**2 * np.abs(position) ** 2
-    momentum = (position.conj() * fixed).imag
-    pull = (cmath.rect(machine.rho, -machine.phi) * position).real
-    jacobi = 0.5 * np.abs(velocity) ** 2 + 0.5 * (machine.omega**2 - 1.0) * np.abs(position) ** 2 - pull
-    return energy, momentum, jacobi
-
-
-def drift(values):
-    return np.abs(values - values[0]).max()
-
-
-@MANY
-@given(machines(gamma=0.0, mu=0.0, d=1.0, rho=0.0), starts())
-def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(machine, start):
-    motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
-    times = motion.sample(SAMPLES)
-    energy, momentum, _ = energies(machine, motion, times)
-    rounding = 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * (1.0 + energy[0])
-    assert drift(energy) <= rounding
-    assert drift(momentum) <= rounding
-
-
-@MANY
-@given(machines(gamma=0.0, mu=0.0, d=1.0), starts())
-def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
-    rotor = jeffcott(machine)
-    motion = simulate(rotor, start, 20.0, max_events=EVENTS)
-    times = motion.sample(SAMPLES)
-    energy, _, jacobi = energies(machine, motion, times)
-    size = (1.0 + energy.max()) * (1.0 + abs(rotor.equilibrium)) ** 2
-    assert drift(jacobi) <= 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * size
-
-
-@MANY
-@given(machines(mu=0.0, rho=0.0), starts())
-def test_without_unbalance_and_friction_energy_only_falls(machine, start):
-    motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
-    energy, _, _ = energies(machine, motion, motion.sample(SAMPLES))
-    assert np.all(np.diff(energy) <= 64 * EPSILON * (10.0 + motion.time) * (1.0 + energy[0]))

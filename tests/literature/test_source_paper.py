@@ -55,12 +55,6 @@ def fold_damping(omega: float = PAPER.omega) -> float:
     return brentq(lambda gamma: dip(gamma, omega)[0], 0.15, 0.2, **FINE)
 
 
-def test_boundary_equilibrium():
-    """Section 3b: ``γ* = √(ρ² − (1 − ω²)²)``; section 4: ``γ_DIB ≈ 0.072``."""
-    assert_prints(boundary_damping(), "0.072")
-    assert_prints(boundary_damping(), "0.0724686787")
-
-
 def test_fold_of_the_first_pair():
     """Figure 3: ``γ_F1 ≈ 0.178``.  The period there is the root of the slope: a minimum's place hardly shows in values."""
     gamma = fold_damping()
@@ -121,30 +115,6 @@ def test_codimension_two_point():
     assert_prints(boundary_damping(omega), "0.1779723")
 
 
-def test_coalescence_at_negative_damping():
-    """Figure 4a: B1,a and B1,c coalesce at ``γ ≈ −0.497``."""
-    gamma = bisect(lambda gamma: 1.0 if len(orbits_at(gamma)) else -1.0, -0.51, -0.48, xtol=1e-12)
-    assert_prints(gamma, "-0.497")
-    pair = orbits_at(gamma + 1e-9)
-    assert [orbit.name for orbit in pair] == ["B1,a", "B1,c"]
-    assert pair["B1,c"].radial_speed == pytest.approx(pair["B1,a"].radial_speed, rel=1e-3)
-    assert 0.1 < pair["B1,a"].period < 0.3
-
-
-def test_extra_extremum():
-    """Figure 5b: the number of local extrema of ``r`` on B1,d grows at ``γ ≈ 0.0785`` as ``γ`` falls."""
-
-    def extrema(gamma: float) -> int:
-        orbit = orbits_at(gamma)["B1,d"]
-        radii = np.abs(orbit.path(np.linspace(0.0, orbit.period, 4001)[1:-1]))
-        return int(np.count_nonzero(np.diff(np.sign(np.diff(radii)))))
-
-    assert extrema(0.0786) == 1
-    assert extrema(0.0784) == 3
-    gamma = bisect(lambda gamma: extrema(gamma) - 2.0, 0.078, 0.079, xtol=1e-6)
-    assert_prints(gamma, "0.0785")
-
-
 def test_fold_of_the_rubs():
     """``γ = ρ√(1 + μ²) − μ(1 − ω²)``: beyond it no synchronous rub exists."""
     gamma = bisect(
@@ -176,46 +146,6 @@ def test_stability_of_the_four_branches(gamma):
     orbits = orbits_at(gamma)
     assert not any(orbits[f"B1,{letter}"].stable for letter in "abc")
     assert orbits["B1,d"].stable == (gamma > 0.0834)
-
-
-@pytest.mark.parametrize("letter", ["a", "b"])
-def test_slow_orbits_are_born_at_the_boundary_equilibrium(letter):
-    """Proposition 4.3: the radial speeds of B1,a and B1,b cross zero at ``γ*``; the orbits shrink into the equilibrium."""
-    crossing = brentq(lambda gamma: orbits_at(gamma)[f"B1,{letter}"].radial_speed, 0.06, 0.09, **FINE)
-    assert crossing == pytest.approx(boundary_damping(), abs=1e-9)
-    orbit = orbits_at(boundary_damping() + 1e-8)[f"B1,{letter}"]
-    assert orbit.admissible
-    assert abs(orbit.position - orbit.rotor.equilibrium) < 1e-6
-
-
-def test_longer_pairs_are_virtual():
-    """Section 4: "fixed point pairs with high normal impact velocity with n > 1 are virtual"."""
-    orbits = orbits_at(0.01)
-    longer = [orbit for orbit in orbits if not orbit.name.startswith("B1,")]
-    assert len(longer) == 56
-    assert not any(orbit.admissible for orbit in longer)
-
-
-REGIONS = {
-    "R1": ((0.07, 0.76), "virtual", {"a": False, "b": False, "c": True, "d": True}),
-    "R2": ((0.2, 0.8), "virtual", {}),
-    "R3": ((0.3, 0.76), "admissible", {}),
-    "R4": ((0.1, 0.76), "admissible", {"a": True, "b": True, "c": True, "d": True}),
-}
-
-
-@pytest.mark.parametrize(("place", "status", "admissible"), REGIONS.values(), ids=REGIONS.keys())
-def test_regions(place, status, admissible):
-    """Section 4b and figure 6b: what exists, and what is admissible, on either side of the two curves."""
-    gamma, omega = place
-    orbits = orbits_at(gamma, omega)
-    assert find_equilibria(orbits.rotor)[0].status == status
-    assert {orbit.name: orbit.admissible for orbit in orbits} == {
-        f"B1,{key}": value for key, value in admissible.items()
-    }
-    # The place lies where the text puts the region.
-    assert (gamma > boundary_damping(omega)) == (status == "admissible")
-    assert (gamma < fold_damping(omega)) == bool(admissible)
 
 
 # --------------------------------------------------------------------------------------------------- misprints

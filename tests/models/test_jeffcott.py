@@ -6,7 +6,7 @@ from machines import PAPER
 
 from carom.base.outcome import InputError
 from carom.models import jeffcott
-from carom.parameters import Machine, Scales
+from carom.parameters import Scales
 
 
 def test_replacing_a_parameter_replaces_all_that_follows_from_it():
@@ -23,12 +23,6 @@ def test_equilibrium_solves_the_equation():
     equilibrium = jeffcott(PAPER).equilibrium
     force = PAPER.rho * np.exp(1j * PAPER.phi)
     assert complex(PAPER.omega**2 - 1.0, PAPER.gamma) * equilibrium == pytest.approx(force, abs=1e-15)
-
-
-def test_a_machine_is_not_taken_for_its_parameters():
-    machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
-    with pytest.raises(InputError, match=r"parameters = .*: a Parameters$"):
-        jeffcott(machine)
 
 
 def test_scales_are_those_of_the_parameters():

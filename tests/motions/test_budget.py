@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from machines import machine_text
 
 import carom as cm
 from carom.basins import smallest_unrecovered
@@ -11,19 +12,7 @@ from carom.models import rotor_of
 from carom.motions.budget import LONGEST, NOT_FOLLOWED, START, Budget
 
 pytestmark = pytest.mark.jit_only
-MACHINE = """
-[machine]
-mass = "10 kg"
-damping = "300 N s/m"
-stiffness = "1e6 N/m"
-eccentricity = "0.05 mm"
-clearance = "0.3 mm"
-rotor_radius = "25 mm"
-speed = "6000 rpm"
-friction = 0.15
-restitution = 0.6
-[gravity]
-"""
+MACHINE = machine_text("ten-kilograms")
 
 
 @pytest.fixture(scope="module")

@@ -165,33 +165,6 @@ def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
     ]
 
 
-@pytest.mark.jit_only
-def test_impulses_and_forces_add_up_to_the_change_of_momentum():
-    """Over a touchdown with bounces, sliding and flight: ``U̇`` integrates all forces, those of the wall among them.
-
-    ``d/dt (U̇ + 2iU) = −γU̇ − (ω² − 1 + iγ)U + ρe^{iφ}`` plus the contact force ``(−N + iF)e^{iθ}`` and impulses.
-    """
-    parameters = PAPER.replace(gamma=0.2, d=0.5)
-    motion = simulate(jeffcott(parameters), START, 40.0)
-    assert motion.lasting_contacts
-    assert len(motion.contacts) > 5
-    nodes, weights = np.polynomial.legendre.leggauss(20)
-    edges = np.unique(np.concatenate([motion.segment_starts, np.linspace(0.0, 40.0, 400)]))
-    half = 0.5 * np.diff(edges)
-    times = (edges[:-1] + half)[:, None] + half[:, None] * nodes
-    position, velocity = motion.at(times)
-    normal, friction = motion.forces(times)
-    stiffness = complex(parameters.omega**2 - 1.0, parameters.gamma)
-    force = cmath.rect(parameters.rho, parameters.phi) - parameters.gamma * velocity - stiffness * position
-    force += (-normal + 1j * friction) * position
-    supplied = (half[:, None] * weights * force).sum()
-    for events in (motion.is_impact, motion.is_landing):
-        log = motion.log_of(events)
-        supplied += ((-log.normal_impulse + 1j * log.friction_impulse) * np.exp(1j * log.angle)).sum()
-    change = motion.final.velocity - START.velocity + 2j * (motion.final.position - START.position)
-    assert change == pytest.approx(complex(supplied), abs=1e-12)
-
-
 # ------------------------------------------------------------------------------------------------ at every instant
 
 

@@ -1,23 +1,13 @@
 """The table ``[drive]``: what it says and what it refuses in one line; and a drop that brakes the shaft."""
 
 import pytest
+from machines import machine_text
 
 import carom as cm
 from carom.base.outcome import InputError
 from carom.parameters import Drive
 
-MACHINE = """
-[machine]
-mass = "14.5 kg"
-damping = "1400 N s/m"
-stiffness = "9.8e5 N/m"
-eccentricity = "5 um"
-clearance = "0.25 mm"
-rotor_radius = "25 mm"
-speed = "20000 rpm"
-friction = 0.2
-[gravity]
-"""
+MACHINE = machine_text("compressor") + "[gravity]\n"
 SOFT = '[touchdown]\nlaw = "kelvin-voigt"\nstiffness = "1e8 N/m"\ndamping = "5000 N s/m"\n'
 
 

@@ -1,7 +1,6 @@
 """The table ``[gravity]`` of a machine file, and the setting beside it."""
 
 import math
-from pathlib import Path
 
 import pytest
 
@@ -10,16 +9,6 @@ from carom.loading import load
 from carom.parameters import Case, Gravity, Zones
 
 REAL, PURE, HEAVY = "examples/keogh-cole.toml", "examples/source-paper.toml", "examples/dropped-rotor.toml"
-
-
-@pytest.fixture
-def write(tmp_path):
-    def written(gravity: str, base: str = REAL):
-        path = tmp_path / "machine.toml"
-        path.write_text(f"{Path(base).read_text(encoding='utf-8')}\n{gravity}\n", encoding="utf-8")
-        return path
-
-    return written
 
 
 def test_values_with_units_and_their_defaults(write):

@@ -1,7 +1,5 @@
 """The table ``[limits]`` of a machine file."""
 
-from pathlib import Path
-
 import pytest
 
 from carom.base.outcome import InputError
@@ -9,16 +7,6 @@ from carom.loading import load
 from carom.parameters import LoadLimits
 
 REAL = "examples/keogh-cole.toml"
-
-
-@pytest.fixture
-def write(tmp_path):
-    def written(limits: str, base: str = REAL):
-        path = tmp_path / "machine.toml"
-        path.write_text(f"{Path(base).read_text(encoding='utf-8')}\n{limits}\n", encoding="utf-8")
-        return path
-
-    return written
 
 
 def test_values_with_units(write):

@@ -1,7 +1,6 @@
 """What a machine must survive: the table ``[survive]``, options and defaults."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -28,16 +27,6 @@ def test_usual_kick_in_si_units_does_not_depend_on_speed_and_mass(factor):
     slow, fast = Scales(2.0, 0.25e-3, 300.0), Scales(2.0 * factor, 0.25e-3, 300.0 * factor)
     kicks = [usual_kick(scales) * scales.velocity for scales in (slow, fast)]
     assert kicks[0] == pytest.approx(kicks[1], rel=1e-15)  # a few roundings
-
-
-@pytest.fixture
-def write(tmp_path):
-    def written(survive: str, base: str = REAL):
-        path = tmp_path / "machine.toml"
-        path.write_text(f"{Path(base).read_text(encoding='utf-8')}\n{survive}\n", encoding="utf-8")
-        return path
-
-    return written
 
 
 def test_table_is_in_si_units(write):

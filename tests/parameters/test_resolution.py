@@ -5,6 +5,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from machines import machine_file, machine_text
 from refusals import error_of
 
 from carom.loading import load
@@ -16,27 +17,12 @@ REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 # ------------------------------------------------------------------------------------------ settings
 
 
-IN_TERMS = """[machine]
-mass = "50 kg"
-unbalance = "15000 g mm"
-diametral_clearance = "1.4 mm"
-rotor_diameter = "80 mm"
-speed = "1 759 rpm"
-magnetic_bearings = 2
-force_current_factor = "70 N/A"
-negative_stiffness = "210 N/mm"
-proportional_gain = "1e4 A/m"
-derivative_gain = "10 A s/m"
-friction = 0.15
-restitution = 0.95
-"""
+IN_TERMS = machine_text("in-terms")
 
 
 @pytest.fixture
-def in_terms(tmp_path):
-    path = tmp_path / "terms.toml"
-    path.write_text(IN_TERMS, encoding="utf-8")
-    return path
+def in_terms():
+    return machine_file("in-terms")
 
 
 def test_a_setting_moves_its_own_field_alone(in_terms):

@@ -1,22 +1,13 @@
 """The table ``[touchdown]``: what it says, what it refuses in one line, and settings."""
 
 import pytest
+from machines import machine_text
 
 import carom as cm
 from carom.base.outcome import InputError
 from carom.parameters import TouchdownBearing
 
-MACHINE = """
-[machine]
-mass = "14.5 kg"
-damping = "1400 N s/m"
-stiffness = "9.8e5 N/m"
-eccentricity = "5 um"
-clearance = "0.25 mm"
-rotor_radius = "25 mm"
-speed = "20000 rpm"
-friction = 0.2
-"""
+MACHINE = machine_text("compressor")
 SOFT = '[touchdown]\nlaw = "kelvin-voigt"\nstiffness = "1e8 N/m"\n'
 
 
@@ -114,19 +105,7 @@ def test_a_restitution_of_the_machine_beside_the_law_is_refused(tmp_path):
 
 
 def test_the_restitution_of_a_rigid_wall_may_stand_in_either_table(tmp_path):
-    text = """[machine]
-mass = 50
-speed = "6000 rpm"
-clearance = "0.25 mm"
-rotor_radius = "40 mm"
-friction = 0.15
-eccentricity = 0
-stiffness = 4e6
-damping = 6000
-[touchdown]
-restitution = 0.8
-race_inertia = 1e-5
-"""
+    text = machine_text("restitution-of-a-wall")
     path = tmp_path / "machine.toml"
     path.write_text(text)
     case = cm.load(path)

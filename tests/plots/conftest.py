@@ -3,7 +3,6 @@
 from types import SimpleNamespace
 
 import pytest
-from matplotlib.text import Text
 
 import carom
 
@@ -37,21 +36,9 @@ def weak() -> SimpleNamespace:
 
 
 @pytest.fixture(scope="session")
-def quiet() -> SimpleNamespace:
-    """gamma = 0.2: no orbit."""
-    return _motions(0.2)
-
-
-@pytest.fixture(scope="session")
 def bouncing(damped):
     """A motion of 60/Omega that bounces and ends when its time is reached."""
     return carom.simulate(damped.rotor, carom.kick(0.35, angle=0.2), until=60.0)
-
-
-@pytest.fixture(scope="session")
-def rubbing(damped):
-    """The same motion followed a little into the rub, which is sliding contact."""
-    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=28.0)
 
 
 @pytest.fixture(scope="session")
@@ -67,8 +54,4 @@ def read() -> SimpleNamespace:
     def legend(figure):
         return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
-    def boxes(axes):
-        """Boxes [pixel] of the texts alone, without the lines that lead from them."""
-        return [Text.get_window_extent(text) for text in axes.texts if text.get_text()]
-
-    return SimpleNamespace(lines=lines, marked=marked, legend=legend, boxes=boxes)
+    return SimpleNamespace(lines=lines, marked=marked, legend=legend)

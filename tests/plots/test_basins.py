@@ -8,7 +8,6 @@ from matplotlib.colors import to_rgb
 
 import carom
 from carom import plots
-from carom.attractors import MotionName
 from carom.base.outcome import InputError, Outcome
 from carom.basins import map_basins, map_gains, smallest_unrecovered
 from carom.disturbances import (
@@ -22,8 +21,6 @@ from carom.disturbances import (
     StateSlice,
     VelocityKick,
 )
-from carom.orbits.names import OrbitName
-from carom.plots.cells import MotionLook
 
 pytestmark = pytest.mark.jit_only
 
@@ -49,29 +46,6 @@ def words(figure):
     return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
 
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        (MotionName(Outcome.LEVITATED), "levitation"),
-        (MotionName(Outcome.ROLLING), "rolling backward whirl"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "regular bouncing"),
-        (
-            MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(2, True, True, -1)),
-            "regular bouncing (pair 2, slipping backward)",
-        ),
-        (MotionName(Outcome.BOUNCING, 3, number=2), "3-impact bouncing (2)"),
-        (MotionName(Outcome.FORWARD_RUB), "synchronous rub"),
-        (MotionName(Outcome.BOUNCING), "irregular bouncing"),
-        (MotionName(Outcome.MIXED), "irregular bouncing with rub"),
-        (MotionName(Outcome.TIME_REACHED), "time reached"),
-    ],
-)
-def test_legends_say_which_motion_it_is(name, said):
-    look = plots.OUTCOMES["irregular" if name.irregular else name.outcome.label]
-    shown = MotionLook(0, name, look, look.colour, 0.5)
-    assert shown.words == said
-
-
 def test_the_worse_an_outcome_the_darker_it_is_in_even_steps():
     # Rest on the bearing, which only weight brings about, is beside this order.
     settled = [outcome.label for outcome in Outcome if outcome.settled and outcome is not Outcome.AT_REST]
@@ -82,10 +56,6 @@ def test_the_worse_an_outcome_the_darker_it_is_in_even_steps():
     assert min(steps) >= 19.5
     assert max(steps) == steps[0]
     assert max(steps) < 1.7 * min(steps)
-
-
-def grey(colour):
-    return float(np.dot(to_rgb(colour), (0.2126, 0.7152, 0.0722)))
 
 
 def printed(colour):

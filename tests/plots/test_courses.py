@@ -5,7 +5,6 @@ import pytest
 
 import carom
 from carom import plots
-from carom.motions.ledger import energy_ledger
 
 
 def test_wall_line_and_impacts_upon_it(damped, bouncing, read):
@@ -31,11 +30,6 @@ def rub(damped):
     return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=45.0)
 
 
-@pytest.fixture(scope="module")
-def ledger(rub):
-    return energy_ledger(rub)
-
-
 def test_forces_are_drawn_in_contact_only_and_in_newtons(rub, damped):
     drawn = [line for axes in plots.touchdown(rub).axes for line in axes.lines]
     line = [line for line in drawn if "normal force" in line.get_label()][-1]
@@ -44,12 +38,3 @@ def test_forces_are_drawn_in_contact_only_and_in_newtons(rub, damped):
     assert times[shown].min() >= damped.ms * rub.lasting_contacts[0].start
     normal, _ = rub.forces(times[shown] / damped.ms)
     np.testing.assert_allclose(values[shown], normal * damped.scales.force)
-
-
-def test_touchdown_tells_forces_speeds_and_energies_in_words_and_units(rub, ledger, read):
-    figure = plots.touchdown(rub, ledger, title="kick")
-    words = read.legend(figure)
-    assert {"normal force", "slip of the contact", "work of the drive", "lasting contact, sliding"} <= set(words)
-    labels = " ".join(axes.get_ylabel() for axes in figure.axes)
-    for unit in ("(mm)", "(N)", "(N s)", "(m/s)", "(J)"):
-        assert unit in labels

@@ -6,7 +6,6 @@ from drawn_legends import legend_words
 from machines import PAPER
 
 from carom import bifurcations, plots
-from carom.parameters import Scales
 from carom.plots.style import LOOKS
 
 
@@ -52,16 +51,3 @@ def test_bars_say_what_exists_where():
     assert np.ravel(bars("synchronous rub", 4.5)) == pytest.approx([0.03, 0.3700060375], abs=1e-9)
     assert np.ravel(bars("bouncing", 4.5)) == pytest.approx([0.0833814175, 0.1780277257], abs=1e-9)
     assert np.ravel(bars("rolling backward whirl", 4.5)) == pytest.approx([0.03, 0.4])
-
-
-def test_damping_of_a_machine_is_told_in_its_unit():
-    scales = Scales(50.0, 0.7e-3, 184.2)
-    figure = plots.bifurcation_diagram(
-        bifurcations.find_bifurcations(PAPER.replace(scales=scales), "gamma", (0.05, 0.2))
-    )
-    upper, below = figure.axes
-    (shown,) = below.child_axes
-    assert shown.get_xlabel() == "damping of the levitation $c$ (N s/m)"
-    assert shown.get_xlim() == pytest.approx((0.05 * scales.damping, 0.2 * scales.damping))
-    assert upper.get_xlabel() == r"scaled damping $\gamma$"
-    assert "present value: 921 N s/m" in legend_words(figure)

@@ -36,12 +36,6 @@ def test_same_figure_same_bytes(figure, damped, tmp_path):
     assert first == again == anew
 
 
-def test_files_carry_no_date(figure, tmp_path):
-    svg, pdf = plots.save(figure, tmp_path / "a", ("svg", "pdf"))
-    assert b"<dc:date>" not in svg.read_bytes()
-    assert b"CreationDate" not in pdf.read_bytes()
-
-
 def test_words_need_no_font_of_the_reader(figure, tmp_path):
     (svg,) = plots.save(figure, tmp_path / "a", ("svg",))
     assert b"<text" not in svg.read_bytes()

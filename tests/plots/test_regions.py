@@ -15,19 +15,6 @@ def figure(corner):
     return plots.region_map(corner)
 
 
-def test_words_of_the_legend(corner, figure):
-    words = legend_words(figure)
-    for expected in (
-        r"grazing: $B_{\mathrm{1,d}}$, $B_{\mathrm{2,b}}$, $B_{\mathrm{3,b}}$",
-        r"period doubling: $B_{\mathrm{1,d}}$",
-        r"Neimark–Sacker bifurcation: $B_{\mathrm{1,d}}$",
-        "two at once",
-        "resonance of the multipliers",
-        "the machine as it is",
-    ):
-        assert expected in words
-
-
 def test_no_curve_leaves_the_plane(corner):
     """The machine lies on an edge: a curve of grazing passes through the edge beside it."""
     points = np.concatenate([curve.points for curve in corner.curves])

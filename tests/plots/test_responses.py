@@ -47,15 +47,3 @@ def test_levitation_is_solid_only_where_it_is_possible(real):
     ):
         assert any(expected in entry for entry in words)
     assert fits(figure)
-
-
-def test_zones_and_marks(real):
-    upper, lower = plots.unbalance_response(real).axes
-    texts = [text.get_text() for text in upper.texts]
-    assert texts == ["zone A", "zone B", "zone C", "zone D"]
-    for axes in (upper, lower):
-        upright = {round(line.get_xdata()[0] * RPM, 6) for line in axes.lines if len(set(line.get_xdata())) == 1}
-        assert {round(real.present, 6), round(real.criticals[0].speed, 6)} <= upright
-    title = upper.figure.get_suptitle()
-    assert "1,759 rpm" in title
-    assert "1,337 µm" in title

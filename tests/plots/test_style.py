@@ -26,13 +26,6 @@ def test_settings_of_the_user_stay(damped, bouncing, settings):
         assert dict(mpl.rcParams) == before
 
 
-def test_settings_of_the_user_do_not_show(damped, tmp_path):
-    plain = plots.save(plots.multipliers(damped.orbits), tmp_path / "plain")
-    with mpl.rc_context({"font.size": 23.0, "lines.linewidth": 9.0, "xtick.major.size": 12.0, "savefig.dpi": 40}):
-        other = plots.save(plots.multipliers(damped.orbits), tmp_path / "other")
-    assert [path.read_bytes() for path in plain] == [path.read_bytes() for path in other]
-
-
 def test_no_window_system_is_touched():
     """Pyplot holds global state and picks a backend; drawing and saving must do without."""
     program = """

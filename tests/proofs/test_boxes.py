@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from compilation import sized
+from machines import machine_text
 
 import carom
 from carom.base.outcome import InputError
@@ -17,21 +18,7 @@ from carom.proofs.boxes import box_of
 from carom.proofs.kick_cells import IMPACTS, leaves, read
 
 SPINDLE = "examples/spindle.toml"
-GAINS = """
-[machine]
-mass = "3.2 kg"
-magnetic_bearings = 2
-force_current_factor = "80 N/A"
-negative_stiffness = "300 N/mm"
-proportional_gain = "6250 A/m"
-derivative_gain = "2.1875 A s/m"
-eccentricity = "0.9947 um"
-clearance = "0.25 mm"
-rotor_radius = "15 mm"
-speed = "24000 rpm"
-friction = 0.2
-restitution = 0.7
-"""
+GAINS = machine_text("spindle-by-gains")
 SLIP_STOPS = {
     "gamma": "0.6",
     "omega": "1.2",

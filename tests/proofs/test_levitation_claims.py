@@ -4,6 +4,7 @@ import copy
 
 import numpy as np
 import pytest
+from machines import machine_file
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -12,36 +13,10 @@ from carom.disturbances import kick
 from carom.models import rotor_of
 from carom.proofs import check, prove, prove_kicks
 
-SAGGING = """
-[machine]
-mass = "12 kg"
-speed = "36000 rpm"
-clearance = "0.2 mm"
-rotor_diameter = "50 mm"
-eccentricity = "1.5 um"
-friction = 0.2
-magnetic_bearings = 2
-force_current_factor = "90 N/A"
-negative_stiffness = "400 N/mm"
-proportional_gain = "12 A/mm"
-derivative_gain = "8 A s/m"
-current_limit = "6 A"
-
-[touchdown]
-law = "hunt-crossley"
-stiffness = "5e9 N/m^1.5"
-exponent = 1.5
-dissipation = "0.5 s/m"
-
-[gravity]
-"""
-
 
 @pytest.fixture(scope="module")
-def case(tmp_path_factory):
-    path = tmp_path_factory.mktemp("machines") / "sagging.toml"
-    path.write_text(SAGGING, encoding="utf-8")
-    return cm.load(path)
+def case():
+    return cm.load(machine_file("sagging"))
 
 
 @pytest.mark.jit_only

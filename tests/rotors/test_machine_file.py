@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from flexible_machines import munich
+from machines import machine_text
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -12,49 +13,7 @@ from carom.models import rotor_of
 from carom.rotors import PID, StateSpace
 
 EXAMPLE = Path("examples/tum-flexible-rotor.toml")
-SMALL = """
-[rotor]
-speed = "3000 rpm"
-damping_ratio = 0.01
-accuracy = 0.5
-[[section]]
-length = "0.1 m"
-outer_diameter = "20 mm"
-[[section]]
-length = "0.4 m"
-outer_diameter = "20 mm"
-inner_diameter = "10 mm"
-[[section]]
-length = "0.1 m"
-outer_diameter = "20 mm"
-density = 4500
-[[disc]]
-node = 3
-width = "10 mm"
-outer_diameter = "80 mm"
-inner_diameter = "20 mm"
-[[magnetic_bearing]]
-node = 1
-ki = 50
-ks = "-1e5 N/m"
-proportional = 9000
-derivative = 10
-filter_time = "0.1 ms"
-[[magnetic_bearing]]
-node = 2
-ki = 50
-ks = "-1e5 N/m"
-numerator = [10.9, 9000]
-denominator = [1e-4, 1]
-[[touchdown]]
-node = 1
-clearance = "0.2 mm"
-rotor_radius = "10 mm"
-friction = 0.1
-law = "kelvin-voigt"
-stiffness = "1e7 N/m"
-damping = "100 N s/m"
-"""
+SMALL = machine_text("flexible")
 
 
 @pytest.fixture

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from machines import machine_text
 
 from carom.loading import load
 from carom.models import rotor_of
@@ -59,42 +60,7 @@ def test_a_rotor_of_a_file_of_matrices_is_written_with_that_file(write, tmp_path
     size = len(rotor.matrices.mass)
     matrices = MatrixRotor(*rotor.matrices[:2], rotor.matrices.gyroscopic, rotor.places, np.zeros((size, size)))
     write_rotor(matrices, tmp_path / "rotor.npz")
-    text = """
-[rotor]
-source = "rotor.npz"
-speed = "3000 rpm"
-[[magnetic_bearing]]
-node = 5
-ki = 50
-ks = "-1e5 N/m"
-numerator = [15, 9000]
-denominator = [1e-4, 1]
-[[magnetic_bearing]]
-node = 30
-ki = 50
-ks = "-1e5 N/m"
-A = [[-1e4]]
-B = [-6e4]
-C = [1e4]
-D = 69000
-[[touchdown]]
-node = 5
-clearance = "0.2 mm"
-rotor_radius = "10 mm"
-friction = 0.1
-law = "hunt-crossley"
-stiffness = "1e9 N/m^1.5"
-exponent = 1.5
-dissipation = "0.1 s/m"
-[[touchdown]]
-node = 30
-clearance = "0.3 mm"
-rotor_radius = "10 mm"
-friction = 0.1
-law = "kelvin-voigt"
-stiffness = "1e7 N/m"
-damping = "100 N s/m"
-"""
+    text = machine_text("of-matrices")
     case = load(write(text), ["clearance_1=0.25 mm", "modes=7"])
     assert_same(load(write(case.to_toml())), case)
     assert case.replace(clearance=0.0004).to_toml().count("clearance") == 1  # of all, in [rotor]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from machines import machine_text
 from scipy.integrate import solve_ivp
 
 import carom as cm
@@ -11,46 +12,7 @@ from carom.rotors import Support, TouchdownPlane, find_whirls, load_machine, rig
 
 MASS, POLAR, DIAMETRAL, SPEED = 12.0, 0.04, 0.15, 2000.0
 WALL = TouchdownBearing("rigid", restitution=0.8)
-FILE = """
-[rotor]
-speed = "2000 rad/s"
-mass = "12 kg"
-polar_inertia = "0.04 kg m^2"
-diametral_inertia = "0.15 kg m^2"
-[[magnetic_bearing]]
-position = "-120 mm"
-sensor_positions = ["-140 mm", "-100 mm"]
-ki = "100 N/A"
-ks = "-1e5 N/m"
-proportional = "6000 A/m"
-derivative = "8 A s/m"
-filter_time = "0.1 ms"
-[[magnetic_bearing]]
-position = "0.15 m"
-ki = "100 N/A"
-ks = "-1e5 N/m"
-proportional = "6000 A/m"
-derivative = "8 A s/m"
-filter_time = "0.1 ms"
-[[touchdown]]
-position = "-160 mm"
-clearance = "0.25 mm"
-rotor_radius = "20 mm"
-friction = 0.15
-law = "rigid"
-restitution = 0.8
-[[touchdown]]
-position = "190 mm"
-clearance = "0.25 mm"
-rotor_radius = "20 mm"
-friction = 0.15
-law = "rigid"
-restitution = 0.8
-[[unbalance]]
-position = "30 mm"
-size = "30 g mm"
-[gravity]
-"""
+FILE = machine_text("four-degrees")
 
 
 def on_supports(places, stiffness, damping, wall=WALL, **others):

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 from machines import REAL
-from studies import study_once
+from studies import ORBIT_KEYS, study_once
 
 from carom.base.files import as_json
 from carom.base.outcome import Outcome
@@ -170,18 +170,6 @@ def test_tables_hold_every_motion(real):
 
 
 EQUILIBRIUM_KEYS = {"kind", "U", "radius", "normal_force", "status", "stable"}
-ORBIT_KEYS = {
-    "name",
-    "impacts",
-    "period",
-    "radial_speed",
-    "angle",
-    "angular_speed",
-    "multipliers",
-    "stable",
-    "admissible",
-    "reason",
-}
 
 
 def strict(text):

@@ -30,20 +30,6 @@ def whirl():
     )
 
 
-def test_a_bearing_that_gives_way_in_words(whirl):
-    ((title, rows),) = whirl.tables
-    shown = dict(rows)
-    assert title == ""
-    assert whirl.headline == "Followed for 60 ms, and not settled by then."
-    assert shown["peak force"] == "12,900 N, 0.596 ms after the release"
-    assert shown["depth"] == "74.3 µm"
-    assert shown["pressure of balls"] == "5.01 GPa on the most loaded one"
-    assert shown["contacts"] == "2 contacts, 59.5 ms in contact"
-    assert shown["race"].endswith(" rpm")
-    assert shown["whirl at the end"].startswith("backward, 292.8 Hz (1.95 times the shaft), over the last 8 turns")
-    assert shown["whirl at the end"].endswith("is not known to go on")
-
-
 def test_limits_of_depth_and_pressure(whirl):
     exceeded = {check.name: check.exceeded for check in whirl.checks}
     assert exceeded == {"force": True, "heat": False, "depth": True, "pressure": True}

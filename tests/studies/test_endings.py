@@ -2,12 +2,11 @@
 
 import pytest
 
-from carom.attractors import MotionName, find_attractors
-from carom.base.outcome import Outcome
+from carom.attractors import find_attractors
 from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.parameters import Parameters
-from carom.studies.endings import ending_words, hardest_impulse, shown_example, touching
+from carom.studies.endings import hardest_impulse, shown_example, touching
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -17,25 +16,6 @@ pytestmark = pytest.mark.jit_only
 @pytest.fixture(scope="module")
 def found():
     return find_attractors(jeffcott(SOURCE))
-
-
-SYNCHRONOUS, DRIFTING = MotionName(Outcome.FORWARD_RUB), MotionName(Outcome.FORWARD_RUB, drifting=True)
-
-
-@pytest.mark.parametrize(
-    ("outcome", "motions", "words"),
-    [
-        (Outcome.FORWARD_RUB, (), "it ends in forward rub"),
-        (Outcome.FORWARD_RUB, (MotionName(Outcome.LEVITATED), SYNCHRONOUS), "it ends in synchronous rub"),
-        (Outcome.FORWARD_RUB, (SYNCHRONOUS, DRIFTING), "it ends in forward rub"),
-        (Outcome.BOUNCING, (), "it goes on bouncing as far as it was followed"),
-        (Outcome.MIXED, (MotionName(Outcome.MIXED),), "it goes on bouncing with rub as far as it was followed"),
-        (Outcome.GRAZING, (), "its end was not found: grazes the wall, undecided"),
-        (Outcome.LOW_BOUNCES, (), "its end was not found: low bounces along the wall, undecided"),
-    ],
-)
-def test_outcomes_in_sentences(outcome, motions, words):
-    assert ending_words(outcome, motions) == words
 
 
 def test_touching_are_those_whose_motion_reaches_the_wall(found):

@@ -50,9 +50,3 @@ def test_the_load_at_the_point_of_no_return_is_that_of_the_equations_of_motion()
     centre = SOURCE.rho * np.cos(angles - SOURCE.phi) + whirl**2 - SOURCE.omega**2
     force = Wording(SCALES).force(float(centre.max()))
     assert f"The bearing then carries up to {force} (" in said_of(SOURCE)
-
-
-def test_dimensionless_limits_are_bare_numbers():
-    text = said_of(SOURCE.replace(scales=None))
-    assert text.endswith("Only γ above 8.57 rules that out.")
-    assert "γ above 8.57 rules it out" in said_of(SOURCE.replace(scales=None, gamma=9.0))

@@ -1,6 +1,7 @@
 """One standard: a verdict and its advice follow what must be survived alone, and say so where too little of it was followed."""
 
 import pytest
+from machines import machine_file
 
 import carom as cm
 from carom.studies import questions
@@ -21,27 +22,9 @@ def test_no_change_beyond_what_a_controller_can_give_is_advised():
     assert all(1.0 / GAIN_FACTOR <= change.ratio <= GAIN_FACTOR for change in result.recommendation.changes)
 
 
-def test_a_study_that_follows_too_few_says_neither_back_nor_lost(tmp_path, monkeypatch):
+def test_a_study_that_follows_too_few_says_neither_back_nor_lost(monkeypatch):
     monkeypatch.setattr(questions, "EVENTS", dict.fromkeys(questions.EVENTS, 1500))
-    path = tmp_path / "heavy.toml"
-    path.write_text(
-        """
-[machine]
-mass = "10 kg"
-damping = "3000 N s/m"
-stiffness = "1e6 N/m"
-eccentricity = "0.01 mm"
-clearance = "0.3 mm"
-rotor_radius = "25 mm"
-speed = "3000 rpm"
-friction = 0.15
-restitution = 0.6
-[gravity]
-[survive]
-kick = "60 mm/s"
-"""
-    )
-    result = cm.study(cm.load(path))
+    result = cm.study(cm.load(machine_file("heavy")))
     verdict = result.verdict
     assert verdict.level == "not-decided"
     assert verdict.lead.count("Not decided") == 1

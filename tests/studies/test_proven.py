@@ -20,7 +20,6 @@ from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
 from carom.studies import study
 from carom.studies.proven import is_proven, proven_words
-from carom.studies.summaries import survived_rows
 
 
 @pytest.fixture(scope="module")
@@ -129,17 +128,6 @@ def test_facts_say_what_is_proven_and_what_is_open(half):
     assert half.verdict.outcome == replace(half, kicks=None).verdict.outcome
     (first, *_) = (fact.text for fact in half.facts if fact.topic == "Not covered")
     assert "but for the kicks that are proven" in first
-
-
-@pytest.mark.jit_only
-def test_speed_beyond_the_harmless_one_stands_in_the_table(half):
-    more = replace(half, kicks=replace(half.kicks, all_up_to=0.75))
-    (said, *_) = (fact.text for fact in more.facts if fact.label == "Kick")
-    assert "every one comes back up to 0.75 c_r Ω (proven)" in said
-    head, kicks, losses = survived_rows(more)
-    place = head.index("every one comes back up to")
-    assert (kicks[place], losses[place]) == ("0.75 c_r Ω (proven)", "none")
-    assert "every one comes back up to" not in survived_rows(replace(half, kicks=None))[0]
 
 
 @pytest.mark.jit_only

@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from compilation import sized
+from machines import machine_file
 
 import carom as cm
 from carom.base.outcome import Outcome
@@ -175,31 +176,9 @@ def test_separation_margin():
     assert unbalance_response(LIGHT.replace(damping="20000 N s/m")).criticals == ()
 
 
-LEVITATED = """
-[machine]
-mass = "12 kg"
-speed = "36000 rpm"
-clearance = "0.2 mm"
-rotor_diameter = "50 mm"
-eccentricity = "12 um"
-friction = 0.2
-restitution = 0.8
-magnetic_bearings = 2
-force_current_factor = "90 N/A"
-negative_stiffness = "400 N/mm"
-proportional_gain = "12 A/mm"
-derivative_gain = "2 A s/m"
-current_limit = "1.5 A"
-
-[gravity]
-acceleration = "9.81 m/s^2"
-"""
-
-
-def test_where_a_rotor_that_sags_touches_and_its_bearings_saturate(tmp_path):
+def test_where_a_rotor_that_sags_touches_and_its_bearings_saturate():
     """The ends of the ranges, at speeds of their own, against the modes of the levitating rotor there."""
-    (tmp_path / "levitated.toml").write_text(LEVITATED, encoding="utf-8")
-    case = cm.load(tmp_path / "levitated.toml")
+    case = cm.load(machine_file("saturating"))
     response, model = unbalance_response(case), cm.models.rotor_of(case)
     assert response.rubs is None
     assert {stretch.what.contact_free for stretch in response.stretches} == {True, False}

@@ -6,17 +6,10 @@ import pytest
 
 from carom.models import Edge, Span
 from carom.parameters import Scales
-from carom.studies.wording import Wording, counted, listed
+from carom.studies.wording import Wording
 
 SI = Wording(Scales(mass=50.0, clearance=0.7e-3, speed=184.2))
 PLAIN = Wording(None)
-
-
-def test_lists_and_counts():
-    assert listed(["a"]) == "a"
-    assert listed(["a", "b", "c"]) == "a, b and c"
-    assert counted(1, "orbit") == "1 orbit"
-    assert counted(0, "orbit") == "0 orbits"
 
 
 def test_quantities_with_units():
@@ -34,19 +27,6 @@ def test_quantities_with_units():
     assert SI.per_second(2.328416) == "79.1 times a second"
     assert SI.value("gamma", 0.37001594) == "3,408 N s/m"
     assert SI.value("omega", 0.76) == "979,900 N/m"
-
-
-def test_quantities_without_scales_keep_the_units_of_the_equations():
-    assert PLAIN.radius(0.955) == "0.955 c_r"
-    assert PLAIN.time(2.5) == "2.5/Ω"
-    assert PLAIN.velocity(0.05) == "0.05 c_r Ω"
-    assert PLAIN.slip(58.0) == "58 c_r Ω"
-    assert PLAIN.name("omega") == "ω"
-    assert PLAIN.force(0.75853) == "0.759 m c_r Ω²"
-    assert PLAIN.power(2.0) == "2 m c_r² Ω³"
-    assert PLAIN.per_second(math.pi) == "2 times a turn"
-    assert PLAIN.value("gamma", 0.37001594) == "0.37"
-    assert PLAIN.in_si("gamma", value=0.1) == {}
 
 
 def span(low, high):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from machines import machine_text
 from sweep_tasks import Deadly, Drawn, basins_plan, plan_of, stored_bytes
 
 from carom.base.outcome import InputError
@@ -27,16 +28,7 @@ values = [0.1, 0.15]
 starts = 150
 disturbance = {kind = "state"}
 """
-MACHINE = """
-[dimensionless]
-gamma = 0.1
-omega = 0.76
-rho = 0.428
-phi = 0.21
-mu = 0.15
-d = 0.95
-radius_ratio = 57.1
-"""
+MACHINE = machine_text("numbers")
 
 
 def _environment():
