@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.models import Rigid, Touchdown, from_matrices
-from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
 from carom.parameters import Scales, TouchdownBearing
 from carom.plots.plane import orbit_path
@@ -82,7 +81,7 @@ def test_two_clearances_against_an_integrator_in_si_units():
     found = [motion.seen_at(plane).contacts.to_dataset() for plane in (0, 1)]
 
     system = _Dropped(machine)
-    place, velocity = (part * model.scales.length for part in levitation_of(model))
+    place, velocity = (part * model.scales.length for part in model.system.kicked(0.0))
     # Rates of the co-rotating frame, in which a place at rest turns.
     start = np.concatenate([place, (velocity + 1j * place) * model.scales.speed])
     assert model.without_levitation().scales == model.scales

@@ -121,8 +121,9 @@ def slipping_whirls(
     ...     print(f"{whirl.speed:.9f}, {whirl.radius:.9f}")
     1.163219537, 1.000077554
     """
-    system = rotor_of(machine).system
-    system.refuse_forces()
+    model = rotor_of(machine)
+    model.refuse_forces()
+    system = model.system
     if plane >= (count := len(system.arrays["rows"])):
         raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {count - 1}")
     surface = float(system.arrays["surface_speed"][plane]) - 1.0

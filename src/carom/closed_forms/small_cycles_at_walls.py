@@ -168,8 +168,8 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     ('non-smooth fold', [('0.6668', 'subcritical'), ('3.0765', 'subcritical')])
     """
     model = rotor_of(machine)
+    model.refuse_forces()
     system = model.system
-    system.refuse_forces()
     radii = np.abs(system.arrays.offsets)
     place = int(radii.argmax()) if plane is None else plane
     if place >= len(radii):

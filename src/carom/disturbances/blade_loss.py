@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
 from carom.disturbances.echo import Echo, eccentricity_words
+from carom.disturbances.kicks_and_shocks import levitating_at
 from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Part
 from carom.parameters.formats import format_angle, format_quantity
@@ -124,15 +125,11 @@ def starts_after(
 
 def levitating_before(rotor: Rotor, turned: np.ndarray, instants: np.ndarray) -> Starts:
     """Levitation at instants of the turn, seen in frames that have turned by these angles with the unbalance after it."""
-    levitates = rotor.system.rest_radius < 1.0
-    if levitates and rotor.system.is_externally_forced:
-        rotor.system.refuse_non_stationary()
-    system = rotor.system
-    positions, velocities = system.kicked(np.zeros(np.shape(instants)), instants)
-    turn, none = complex_of(np.cos(turned), -np.sin(turned)), np.zeros(turned.shape, bool)
-    places, speeds = positions * turn[..., None], velocities * turn[..., None]
-    if len(system.rest) == 1:
-        places, speeds = places[..., 0], speeds[..., 0]
+    system, before = rotor.system, levitating_at(rotor, 0.0, instants)
+    if before.exists.any() and system.is_externally_forced:
+        system.refuse_non_stationary()
+    turn = complex_of(np.cos(turned), -np.sin(turned))
+    turn = turn if len(system.rest) == 1 else turn[..., None]
     # What does not turn with the shaft, as weight, is seen in a frame that has turned as it is later in the turn.
     begins = turned + instants if system.is_time_dependent else np.zeros(turned.shape)
-    return Starts(places, speeds, none | levitates, none, none, begins)
+    return before._replace(positions=before.positions * turn, velocities=before.velocities * turn, begins=begins)

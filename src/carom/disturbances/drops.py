@@ -112,11 +112,12 @@ class Drop(Disturbance):
 
     def _start(self, rotor: Rotor) -> State:
         """State at the release; by default with the races as the model has them."""
-        from carom.models.weight import levitation_of
         from carom.motions.starts import State
 
-        at = self.at
-        state = State.of(*levitation_of(rotor)) if at is None else at if isinstance(at, State) else at.stages(rotor)[1]
+        if self.at is None:
+            rotor.system.require_levitation()
+        at = State.of(*rotor.system.kicked(0.0)) if self.at is None else self.at
+        state = at if isinstance(at, State) else at.stages(rotor)[1]
         if self.race_speed is None:
             return state
         radii = [race.radius for race in rotor.races if race is not None]

@@ -69,7 +69,7 @@ class VelocityKick(Disturbance):
         """Levitation with the velocity changed."""
         speed, direction = values
         velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
-        return _kicked(rotor, velocity, instant)
+        return levitating_at(rotor, velocity, instant)
 
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """See :meth:`carom.disturbances.Disturbance.apply`."""
@@ -164,7 +164,7 @@ class KickPlane(Disturbance):
         velocity = complex_of(
             outward.real * radial - outward.imag * tangential, outward.imag * radial + outward.real * tangential
         )
-        kicked = _kicked(rotor, velocity, instant)
+        kicked = levitating_at(rotor, velocity, instant)
         return kicked._replace(exists=kicked.exists & self.within(radial, tangential))
 
 
@@ -309,11 +309,11 @@ def outward_from(machine: Subject) -> complex:
     return rest / abs(rest) if rest else cmath.rect(1.0, rotor.unbalance_phase)
 
 
-def _kicked(rotor: Rotor, velocity: np.ndarray, instant: np.ndarray | float) -> Starts:
-    """Levitation with the velocity of the rotor as a whole changed."""
-    velocity, begins = np.broadcast_arrays(velocity, np.asarray(instant, float))
-    positions, velocities = rotor.system.kicked(velocity, begins)
+def levitating_at(rotor: Rotor, pushes: np.ndarray | float, instants: np.ndarray | float) -> Starts:
+    """Starts of the levitating rotor at instants of the turn, with the velocity of the rotor as a whole changed by pushes."""
+    velocities, begins = np.broadcast_arrays(pushes, np.asarray(instants, float))
+    positions, velocities = rotor.system.kicked(velocities, begins)
     if len(rotor.system.rest) == 1:
         positions, velocities = positions[..., 0], velocities[..., 0]
-    none = np.zeros(velocity.shape, bool)
+    none = np.zeros(begins.shape, bool)
     return Starts(positions, velocities, none | (rotor.system.rest_radius < 1.0), none, none, begins.copy())

@@ -26,7 +26,6 @@
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``forces``                forces as they are given
 ``stages``                :func:`in_stages`: a rotor that changes when a trigger ends a stage
-``weight``                where a rotor levitates under its weight
 ``subjects``              :func:`rotor_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """

@@ -22,6 +22,8 @@ from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.parameters import Field, Scales
 
+ROUNDING = 1e-12
+"""Part of an unbalance across another one, relative to it, that is rounding."""
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
 
@@ -213,7 +215,10 @@ class LinearEquations(Definition, Result):
 
     def unbalance_along(self, node: int | None = None) -> float | None:
         """See :meth:`carom.models.Definition.unbalance_along`."""
-        return linear_parameters.forcing_along(self, self.unbalance_push(node))
+        push = self.unbalance_push(node)
+        times = float((np.vdot(push, self.forcing) / np.vdot(push, push)).real)
+        apart = np.linalg.norm(self.forcing - times * push)
+        return times if apart <= ROUNDING * np.linalg.norm(self.forcing) else None
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Self, float]:
         """See :meth:`carom.models.Rotor.with_changed_unbalance`."""

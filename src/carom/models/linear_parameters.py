@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 PLANAR_NAMES = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Entries of a machine file that are dimensionless, and the parameter that each is."""
-ROUNDING = 1e-12
-"""Part of an unbalance across another one, relative to it, that is rounding."""
 
 
 def fields(rotor: LinearEquations) -> dict[str, Field]:
@@ -144,13 +142,6 @@ def refuse_node(node: int | None) -> None:
     """Refuse a node of a rotor that is given by matrices or numbers."""
     if node is not None:
         raise InputError("node", node, "left out: only the shaft of a flexible machine has nodes")
-
-
-def forcing_along(rotor: LinearEquations, push: np.ndarray) -> float | None:
-    """How many times a push the forcing is; ``None`` if it is not along that."""
-    times = float((np.vdot(push, rotor.forcing) / np.vdot(push, push)).real)
-    apart = np.linalg.norm(rotor.forcing - times * push)
-    return times if apart <= ROUNDING * np.linalg.norm(rotor.forcing) else None
 
 
 def _times(pair: np.ndarray | None, damping: float, stiffness: float) -> np.ndarray | None:

@@ -35,6 +35,10 @@ if TYPE_CHECKING:
 PLANAR_ALONE = "the planar rotor, of which alone this result is known; the functions of carom itself take any rotor"
 _WITHOUT_FORCES = "needs a rotor without gravity or other forces that change with time in its frame; a setting gravity=0 leaves weight out"
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
+_ISOTROPIC_ALONE = (
+    "isotropic bearings; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
+    "carom.find_orbits with impacts and carom.map_basins work"
+)
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
 
@@ -202,9 +206,6 @@ class Rotor(Result):
         """Modes, contact planes, contact law, limits, and a mode for each force, as arrays for the kernels."""
         if self.stages:
             return self.stages[0].rotor.system
-        if "_before" in vars(self):  # modes of the rotor to which forces were added need not be found again
-            rotor, more = vars(self)["_before"]
-            return with_forces(rotor.system, more)
         system = self.definition.system
         if self.limits:
             system = with_limits(system, self.listed_limits)
@@ -257,9 +258,7 @@ class Rotor(Result):
         if self.stages:
             raise InputError("rotor", shown(self), ONE_STAGE)
         more = checked_forces(forces, self.definition.system.rest.shape)
-        rotor = dataclasses.replace(self, forces=(*self.forces, *more))
-        rotor.__dict__["_before"] = self, more
-        return rotor
+        return dataclasses.replace(self, forces=(*self.forces, *more))
 
     def under_gravity(self, gravity: Gravity) -> Rotor:
         """The rotor with its weight: all its masses fall alike, along the translation.
@@ -390,8 +389,10 @@ class Rotor(Result):
 
     def refuse_forces(self) -> None:
         """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
-        if self.system.shaft is not None or self.system.is_anisotropic:
-            self.system.refuse_forces()
+        if self.system.shaft is not None:
+            self.system.refuse_non_stationary()
+        if self.is_anisotropic:
+            raise InputError("machine", "anisotropic bearings", _ISOTROPIC_ALONE)
         if self.system.outer.any():
             acting = "forces that change with time" if self.weight is None else "gravity"
             raise InputError("machine", f"a rotor under {acting}", _WITHOUT_FORCES)

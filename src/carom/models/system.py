@@ -18,12 +18,6 @@ from carom.parameters import Scales
 
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
-ANISOTROPIC = "anisotropic bearings"
-"""What a rotor has that is refused for it."""
-ISOTROPIC_ALONE = (
-    "isotropic bearings; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
-    "carom.find_orbits with impacts and carom.map_basins work"
-)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,14 +107,6 @@ class System(ModeArrays):
         """Refuse a rotor that does not levitate in a whirl about a place that stays."""
         if self.why_not_stationary is not None:
             raise InputError("machine", *self.why_not_stationary)
-
-    def refuse_forces(self) -> None:
-        """Refuse a rotor that never is at rest in its frame: forces change with time there, or the speed changes."""
-        self.refuse_non_stationary()
-        if self.is_anisotropic:
-            raise InputError("machine", ANISOTROPIC, ISOTROPIC_ALONE)
-        if self.outer.any():
-            raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
     @property
     def is_time_dependent(self) -> bool:
@@ -329,6 +315,16 @@ class System(ModeArrays):
     def levitates(self) -> bool:
         """Whether there is levitation to return to: at rest, or in its circle, the rotor is inside the wall, and no free motion grows."""
         return self.rest_radius < 1.0 and self.decay >= -EQUAL
+
+    def require_levitation(self) -> None:
+        """Refuse it where its whirl about the static sag reaches the wall, or nothing holds it."""
+        if (reach := self.rest_radius) >= 1.0:
+            held = (
+                "none, nothing holds the rotor"
+                if reach == math.inf
+                else f"up to {reach:.4g} clearances from the centre"
+            )
+            raise InputError("levitation", held, "static sag and whirl must stay inside the wall: below 1")
 
     @cached_property
     def planes_translated(self) -> np.ndarray:

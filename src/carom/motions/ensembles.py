@@ -160,25 +160,11 @@ def settle(
     ['forward-rub', 'forward-rub']
     """
     rotors, which = _machines(machine, which)
-    coordinates = _coordinates(rotors)
-    positions, velocities = _read("positions", positions, coordinates), _read("velocities", velocities, coordinates)
-    started = np.zeros(()) if begins is None else np.asarray(begins, float)
-    shapes = [values.shape[: values.ndim - len(coordinates)] for values in (positions, velocities)]
-    shapes += [which.shape, started.shape]
-    try:
-        shape = np.broadcast_shapes(*shapes)
-    except ValueError:
-        allowed = "arrays of shapes that fit together"
-        raise InputError("start positions, velocities, which, begins", shapes, allowed) from None
-    positions, velocities = (np.broadcast_to(values, shape + coordinates) for values in (positions, velocities))
-    which, started = (np.broadcast_to(values, shape).ravel() for values in (which, started))
-    _check_starts(positions, velocities, all(rotor.system.is_planar for rotor in rotors))
+    shape, which, starts = _broadcast(rotors, which, positions, velocities, begins)
     for rotor in rotors if until is not None or patience == 0 else ():
         own_time("until", until, rotor.scales)
-    positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
     tell = Reporter.of(progress, "following starts")
     limits = EventLimits(until, patience, max_events, threads or available_cores(), tell)
-    starts = positions, velocities, started, np.zeros(len(which))
     endings = _followed([stages_of(rotor) for rotor in rotors], which, starts, limits)
     present_question().count(endings.outcomes)
     return endings.reshaped(*shape)
@@ -267,21 +253,38 @@ def _settled(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits:
     )
 
 
-def _coordinates(rotors: Sequence[Rotor]) -> tuple[int, ...]:
-    """Last axes of positions: none for rotors of one coordinate."""
+def _broadcast(
+    rotors: Sequence[Rotor], which: np.ndarray, positions: np.ndarray, velocities: np.ndarray, begins: Reals | None
+) -> tuple[tuple[int, ...], np.ndarray, _Begun]:
+    """The shape of all starts, and in one dimension the numbers of their machines and themselves."""
     counts = {len(rotor.system.rest) for rotor in rotors} or {1}
     if len(counts) > 1:
         raise InputError("machine", f"rotors of {sorted(counts)} coordinates", "rotors of equally many coordinates")
-    (count,) = counts
-    return () if count == 1 else (count,)
-
-
-def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndarray:
-    """Complex numbers with a last axis of the coordinates."""
-    values = np.asarray(given, complex)
-    if values.shape[values.ndim - len(coordinates) :] != coordinates:
-        raise InputError(f"start {name}", values.shape, f"an array with a last axis of {coordinates[0]} coordinates")
-    return values
+    coordinates = tuple(counts - {1})  # last axes of positions: none for rotors of one coordinate
+    given, shapes = [], []
+    for name, values in (
+        ("positions", np.asarray(positions, complex)),
+        ("velocities", np.asarray(velocities, complex)),
+    ):
+        own = values.ndim - len(coordinates)
+        if values.shape[own:] != coordinates:
+            raise InputError(
+                f"start {name}", values.shape, f"an array with a last axis of {coordinates[0]} coordinates"
+            )
+        given.append(values)
+        shapes.append(values.shape[:own])
+    started = np.zeros(()) if begins is None else np.asarray(begins, float)
+    shapes += [which.shape, started.shape]
+    try:
+        shape = np.broadcast_shapes(*shapes)
+    except ValueError:
+        allowed = "arrays of shapes that fit together"
+        raise InputError("start positions, velocities, which, begins", shapes, allowed) from None
+    places, speeds = (np.broadcast_to(values, shape + coordinates) for values in given)
+    which, started = (np.broadcast_to(values, shape).ravel() for values in (which, started))
+    _check_starts(places, speeds, all(rotor.system.is_planar for rotor in rotors))
+    places, speeds = (values.reshape(len(which), *coordinates) for values in (places, speeds))
+    return shape, which, (places, speeds, started, np.zeros(len(which)))
 
 
 def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Rotor], np.ndarray]:

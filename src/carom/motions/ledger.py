@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -125,16 +126,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     times = (edges[:-1] + half)[:, None] + half[:, None] * NODES
     position, fixed = _in_fixed_frame(*trajectory.at(times), len(matrices.mass))
     ends = np.concatenate([[0], np.cumsum(counts)])
-
-    def work(power: np.ndarray) -> np.ndarray:
-        running: np.ndarray = np.concatenate([[0.0], np.cumsum(half * (power @ WEIGHTS))])
-        return running[ends]
-
-    def at_events(events: np.ndarray, values: np.ndarray) -> np.ndarray:
-        shares = np.zeros(len(ends))
-        np.add.at(shares, events + 1, values)
-        return np.cumsum(shares)
-
+    work, at_events = partial(_integrated, half, ends), partial(_summed, len(ends))
     histories = [seen.history(times) for seen in trajectory.at_each]
     slides, drives = np.sum([(each.friction_power, each.drive_power) for each in histories], axis=0)
     damping, stiffness = _on_conjugates(trajectory.rotor)
@@ -173,6 +165,19 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         race_drag=work(drag),
         scales=trajectory.rotor.scales,
     )
+
+
+def _integrated(half: np.ndarray, ends: np.ndarray, power: np.ndarray) -> np.ndarray:
+    """Work since the start, at the ends of segments, of a power (k, 16) at the nodes of stretches of such half lengths."""
+    running: np.ndarray = np.concatenate([[0.0], np.cumsum(half * (power @ WEIGHTS))])
+    return running[ends]
+
+
+def _summed(count: int, events: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Sums since the start, at so many times of the ledger, of values in events."""
+    shares = np.zeros(count)
+    np.add.at(shares, events + 1, values)
+    return np.cumsum(shares)
 
 
 def _work_of_jolts(trajectory: Trajectory, jolts: np.ndarray) -> np.ndarray:
@@ -234,10 +239,8 @@ def _walls(trajectory: Trajectory) -> np.ndarray:
         if not is_compliant(trajectory.rotor.system, plane):
             continue
         motion = trajectory.seen_at(plane)
-        held += np.append(
-            stored(motion, motion.segment_amplitudes, motion.segment_phases[:, plane]),
-            stored(motion, motion.last_amplitudes[None], motion.segment_phases[-1:, plane]),
-        )
+        phases = motion.segment_phases[:, plane]
+        held += stored(motion, motion.edge_amplitudes, np.append(phases, phases[-1]))
         lost[1:-1] -= lost_on_parting(motion)
         lost[works.segments + 1] -= works.found[:, plane, DAMPED]
     return np.stack([held, np.cumsum(lost)])
@@ -249,9 +252,7 @@ def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.nd
     arrays, kinetic, power = system.arrays, np.zeros(len(trajectory.segment_starts) + 1), np.zeros(times.shape)
     for plane in np.flatnonzero(arrays.race >= 0).tolist():
         inertia = arrays.masses[plane] / arrays.race_gain[plane]  # by the square of the radius
-        speeds = race_speed(
-            system, plane, np.concatenate([trajectory.segment_amplitudes, trajectory.last_amplitudes[None]])
-        )
+        speeds = race_speed(system, plane, trajectory.edge_amplitudes)
         kinetic += 0.5 * inertia * speeds**2
         speed = race_speed(system, plane, trajectory.amplitudes_at(times)[0])
         power += inertia * arrays.exponents[arrays.race[plane]].real * speed**2
@@ -305,7 +306,7 @@ def _spin(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.nda
         braking += radius / shaft.inertia * trajectory.seen_at(plane).forces_of(amplitudes, phases, times)[1]
     held = presses(phases).any(axis=-1)
     torque = shaft.torque * speed
-    turns = shaft_speed(system, np.concatenate([trajectory.segment_amplitudes, trajectory.last_amplitudes[None]]))
+    turns = shaft_speed(system, trajectory.edge_amplitudes)
     jumps = turns[1:-1] - shaft_speed(system, trajectory.event_amplitudes)
     return (
         0.5 * shaft.inertia * turns**2,

@@ -169,7 +169,7 @@ class _AtPlane:
 
     def _move(self, seen: Trajectory) -> None:
         """Note how fast the race turns, since when the plane is at the wall, and when it last turned back."""
-        amplitudes, begins = np.concatenate([seen.segment_amplitudes, seen.last_amplitudes[None]]), seen.begins
+        amplitudes, begins = seen.edge_amplitudes, seen.begins
         speeds = race_speed(seen.rotor.system, seen.plane, amplitudes)
         self.race = float(max(self.race, *speeds[[speeds.argmax(), speeds.argmin()]], key=abs))
         bounds = begins + np.append(seen.segment_starts, seen.time)

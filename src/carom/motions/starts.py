@@ -15,7 +15,6 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
 from carom.models import Rotor, Subject
-from carom.models.weight import levitation_of
 
 
 @runtime_checkable
@@ -102,7 +101,7 @@ def levitating(rotor: Rotor, push: complex = 0j, instant: float = 0.0) -> State:
         The rotor sags to the wall.
     """
     if rotor.weight is not None:
-        levitation_of(rotor)
+        rotor.system.require_levitation()
     begun = instant if rotor.depends_on_instant else 0.0
     return State.of(*rotor.system.kicked(push, begun), time=begun)
 

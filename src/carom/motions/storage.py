@@ -15,21 +15,12 @@ from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import rotor_from
 from carom.motions.starts import State
 from carom.motions.tables import phase_flags
-from carom.motions.trajectories import Trajectory
+from carom.motions.trajectories import SEGMENTS, Trajectory
 
 if TYPE_CHECKING:
     import xarray
 
 COMPLEX = ("segment_amplitudes", "event_amplitudes")
-SEGMENTS = {
-    "segment_starts": "segment",
-    "segment_phases": "segment plane",
-    "segment_limits": "segment axis",
-    "event_planes": "event",
-    "segment_amplitudes": "segment mode",
-    "event_amplitudes": "event mode",
-}
-"""Arrays of a stage, with their dimensions."""
 ATTRIBUTES = {"segment_starts": {"units": "1/Omega"}, "segment_phases": phase_flags(Phase)}
 NUMBERS = {"time": float, "multiplicity": int, "plane": int, "begins": float}
 

@@ -35,8 +35,15 @@ ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
 
 
-PER_SEGMENT = ("segment_starts", "segment_phases", "segment_amplitudes", "segment_limits")
-PER_EVENT = ("event_planes", "event_amplitudes")
+SEGMENTS = {
+    "segment_starts": "segment",
+    "segment_phases": "segment plane",
+    "segment_limits": "segment axis",
+    "event_planes": "event",
+    "segment_amplitudes": "segment mode",
+    "event_amplitudes": "event mode",
+}
+"""Arrays of a stage, with their dimensions."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -137,7 +144,7 @@ class Trajectory(Result):
         system, begun = self.rotor.system, float(self.segment_starts[segment])
         amplitudes, begins = self.segment_amplitudes[segment], self.begins + begun
         state = *system.state(amplitudes), system.race_speeds(amplitudes), system.shaft_turn(amplitudes)
-        columns: dict[str, Any] = {name: getattr(self, name)[segment:] for name in (*PER_SEGMENT, *PER_EVENT)}
+        columns: dict[str, Any] = {name: getattr(self, name)[segment:] for name in SEGMENTS}
         columns["segment_starts"] = columns["segment_starts"] - begun
         start, time = State.of(*state, begins), self.time - begun
         return dataclasses.replace(self, start=start, time=time, begins=begins, earlier=(), **columns)
@@ -263,6 +270,11 @@ class Trajectory(Result):
         end: np.ndarray = self.amplitudes_in(last, self.time - self.segment_starts[last])[0][0]
         return end
 
+    @property
+    def edge_amplitudes(self) -> np.ndarray:
+        """Mode amplitudes at the start of each segment and at the end, complex, shape (n + 2, N)."""
+        return np.concatenate([self.segment_amplitudes, self.last_amplitudes[None]])
+
     def ends_of(self, segments: np.ndarray) -> np.ndarray:
         """Mode amplitudes at the end of chosen segments (k,), complex, shape (k, N)."""
         last = segments == len(self.event_amplitudes)
@@ -368,9 +380,9 @@ class Trajectory(Result):
 def joined(pieces: list[Trajectory]) -> Trajectory:
     """Join pieces of one stage, each of which ends where the next begins, with a segment that has no duration yet."""
     columns: dict[str, Any] = {}
-    for name in PER_SEGMENT:
+    for name, dimensions in SEGMENTS.items():
         *before, last = (getattr(piece, name) for piece in pieces)
-        columns[name] = np.concatenate([*(each[:-1] for each in before), last])
-    for name in PER_EVENT:
-        columns[name] = np.concatenate([getattr(piece, name) for piece in pieces])
+        if dimensions.startswith("segment"):
+            before = [each[:-1] for each in before]
+        columns[name] = np.concatenate([*before, last])
     return dataclasses.replace(pieces[-1], start=pieces[0].start, **columns)
