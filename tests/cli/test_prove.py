@@ -64,7 +64,7 @@ def test_kicks_are_proven_and_verified(capsys, tmp_path):
     assert main(command) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert printed.startswith("Theorem: ")
-    assert "share proven 1," in printed
+    assert "share proven 100 %," in printed
     assert "undecided" not in printed
 
     assert main(["prove", "--check", str(tmp_path / "proof.json"), "--json"]) == 0

@@ -1,6 +1,7 @@
 """Any rotor: levitation, and kicks and steps of the unbalance that never touch, attacked by simulations and forgeries."""
 
 import copy
+import re
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from carom.closed_forms import levitation
 from carom.disturbances import kick
 from carom.models import rotor_of
 from carom.proofs import check, prove, prove_kicks
+from carom.proofs.headlines import headline
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +41,13 @@ def test_kicks_at_the_bound_never_touch_and_some_beyond_it_do(case):
 def test_kicks_that_are_asked_for_and_a_certificate(case):
     proof = prove_kicks(case, "30 mm/s")
     assert proof["kicks asked never touch"].status == "proven"
+    assert headline(proof).startswith("Theorem: No kick up to 30 mm/s, in any direction")
+    below = proof["kicks never touch"].enclosures
+    assert float(below["speed_si"].low) == pytest.approx(
+        float(below["speed"].low) * rotor_of(case).scales.velocity, rel=1e-9
+    )
+    shown = float(re.search(r"No kick below (\S+) mm/s", headline(prove(case)))[1]) * 1e-3
+    assert shown <= float(below["speed_si"].low) < 1.001 * shown
     assert prove_kicks(case, "100 mm/s")["kicks asked never touch"].status == "undecided"
     document = proof.document()
     assert check(document).claims == proof.claims
@@ -47,7 +56,11 @@ def test_kicks_that_are_asked_for_and_a_certificate(case):
     with pytest.raises(InputError, match="is refused"):
         check(forged)
     forged = copy.deepcopy(document)
-    (speed,) = [claim["enclosures"] for claim in forged["claims"] if "speed" in claim["enclosures"]]
+    (speed,) = [
+        claim["enclosures"]
+        for claim in forged["claims"]
+        if claim["kind"] == "never touch" and claim["about"] == "kicks"
+    ]
     speed["speed"] = [f"{1.01 * float(end)}" for end in speed["speed"]]
     with pytest.raises(InputError, match="is refused"):
         check(forged)

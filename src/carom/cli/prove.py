@@ -15,15 +15,13 @@ from carom.cli.terminal import check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from carom.base.progress import Reporter
-    from carom.proofs import Claim, Proof
+    from carom.proofs import Proof
 
 CERTIFICATE = "proof.json"
 """Name of the certificate in the directory given."""
 DRAWN = "kicks"
 """Theorem that has a figure."""
 PICTURE = "figures/proven-kicks"
-_CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-single-impact-orbits", "orbits")
-"""Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
 _DRAWING = 0.95
 """Share of the bar after which it is drawn."""
 _RANGE = ("--along", "--from", "--to")
@@ -207,12 +205,13 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
 def _print_proof(proof: Proof, checked: bool) -> None:
     """Print the theorem, all claims, and what is not claimed."""
     from carom.cli.fitting import print_table
+    from carom.proofs.headlines import chief_of, headline, numbers_of
     from carom.proofs.levitation_claims import THEOREM
 
-    screen, chief = console(), _chief(proof)
-    screen.print(_theorem(proof, chief), style="bold")
+    screen, chief = console(), chief_of(proof)
+    screen.print(headline(proof), style="bold")
     screen.print()
-    rows = [(claim.about, claim.kind, claim.status, claim.reason or _number(claim)) for claim in proof]
+    rows = [(claim.about, claim.kind, claim.status, claim.reason or numbers_of(claim)) for claim in proof]
     print_table(screen, "Claims", ("of", "claim", "status", "number, or reason"), rows)
     for claim in proof:
         if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven" and claim is not chief:
@@ -222,28 +221,6 @@ def _print_proof(proof: Proof, checked: bool) -> None:
     screen.print("Not proven here:")
     for words in proof.not_claimed:
         screen.print(f"- {words}")
-
-
-def _chief(proof: Proof) -> Claim | None:
-    """The claim that the others lead to; the first of these that is proven, if any is."""
-    chiefs = [claim for kind in _CHIEF for claim in proof if claim.kind == kind]
-    return next((claim for claim in chiefs if claim.status == "proven"), chiefs[0] if chiefs else None)
-
-
-def _theorem(proof: Proof, chief: Claim | None) -> str:
-    """The first line: the theorem with its numbers, or that it is not proven."""
-    proven = len(proof.with_status("proven"))
-    if chief is not None and chief.status == "proven":
-        numbers = _number(chief)
-        return f"Theorem: {chief.statement}{numbers and f' ({numbers})'}"
-    if not proven:
-        return "Nothing was proven."
-    why = "" if chief is None else f" {chief.about} {chief.kind}: {chief.reason or chief.status}."
-    return f"The theorem was not proven; {proven} of {len(proof)} claims were.{why}"
-
-
-def _number(claim: Claim) -> str:
-    return ", ".join(f"{name.replace('_', ' ')} {entry.short}" for name, entry in claim.enclosures.items())
 
 
 def _assumed(proof: Proof) -> str:

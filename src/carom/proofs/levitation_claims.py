@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import acb, acb_mat, arb
 
-from carom.proofs.balls import decided, enclosures_of, rational
+from carom.proofs.balls import Enclosure, decided, enclosures_of, rational
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.stated_equations import StatedEquations, array_of, balls, text_of
@@ -56,6 +56,13 @@ class _Linear(NamedTuple):
     rooms: list[Any]
     bearings: int
     """How many of the rows are those of touchdown bearings."""
+    units: tuple[float, ...]
+    """Speed and length in SI units that count one; empty where they are not known."""
+
+    def both(self, name: str, size: Any) -> dict[str, Enclosure]:
+        """A ``speed`` or a ``change`` of the unbalance, and the same in SI units where these are known."""
+        known = dict(zip(("speed", "change"), self.units, strict=False))
+        return enclosures_of(**{name: size}, **({f"{name}_si": size * arb(known[name])} if name in known else {}))
 
 
 def levitation_claims(stated: StatedEquations, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
@@ -108,27 +115,15 @@ def _sizes(kicks: list[Any], steps: list[Any], options: Mapping[str, Any], held:
     speed, change, asked = _least(kicks), _least(steps), options["kicks_up_to"]
     below = " nor asks its magnetic bearings for more than a limit" if len(held.rows) > held.bearings else ""
     after = f"the rotor never touches{below}, and goes back to levitation"
+    kick = f"kick out of levitation of less than speed, in c_r Omega of the fixed frame, {_ANY}"
+    step = f"step of the unbalance by less than change, as an eccentricity in c_r, {_ANY}"
     claims = [
         claim_of(
-            about,
-            "never touch",
-            f"After every {words}, {after}.",
-            decided(size),
-            enclosures=enclosures_of(**{name: size}),
+            about, "never touch", f"After every {words}, {after}.", decided(size), enclosures=held.both(name, size)
         )
         for about, words, name, size in (
-            (
-                "kicks",
-                f"kick out of levitation of less than speed, in c_r Omega of the fixed frame, {_ANY}",
-                "speed",
-                speed,
-            ),
-            (
-                "steps of the unbalance",
-                f"step of the unbalance by less than change, as an eccentricity in c_r, {_ANY}",
-                "change",
-                change,
-            ),
+            ("kicks", kick, "speed", speed),
+            ("steps of the unbalance", step, "change", change),
         )
     ]
     claims = claims if held.steps else claims[:1]
@@ -138,10 +133,10 @@ def _sizes(kicks: list[Any], steps: list[Any], options: Mapping[str, Any], held:
             claim_of(
                 "kicks",
                 "asked never touch",
-                f"After every kick up to size, {after}.",
+                f"After every kick up to speed, in c_r Omega of the fixed frame, {after}.",
                 1 if size < speed else 0,
                 reason="kicks from the speed above on are open: some may touch, and come back all the same",
-                enclosures=enclosures_of(size=size),
+                enclosures=held.both("speed", size),
                 limited=False,
             )
         )
@@ -196,6 +191,7 @@ def _linear(stated: StatedEquations) -> _Linear:
         steady,
         [bound - reach for bound, reach in zip(bounds, steady, strict=True)],
         len(planes),
+        tuple(given["units"].real.tolist()),
     )
 
 

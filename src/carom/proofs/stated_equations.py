@@ -27,7 +27,8 @@ class StatedEquations:
     numbers : mapping of str to lists
         Each array as text of its doubles: ``mass``, ``damping`` (with the gyroscopic terms), ``stiffness``, ``across`` (``C′``, ``K′``), ``forcing`` ``f``,
         ``weight`` ``g``, ``planes`` ``W``, ``translation`` (the change of the rates by a kick), ``push`` (the force of an unbalance of one) and
-        ``limits`` of the magnetic bearings: rows by ``z``, then by ``ż``, then the bound.
+        ``limits`` of the magnetic bearings: rows by ``z``, then by ``ż``, then the bound; and ``units``: the speed and the length in SI units that count
+        one, none if they are not known.
     values : mapping of str to str
         What is assumed, in words.
     """
@@ -73,6 +74,7 @@ class StatedEquations:
             "translation": system.translated,
             "push": push,
             "limits": np.array(limits).reshape(-1, 2 * n + 1),
+            "units": np.array([whole.scales.velocity, whole.scales.length] if whole.scales else []),
         }
         parts = "all modes of the flexible rotor" if reduced is not None else "the rotor"
         values = {"equations": f"{n} coordinates of {parts}, doubles of the machine's numbers"}
