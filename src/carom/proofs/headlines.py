@@ -1,0 +1,88 @@
+"""A theorem in one sentence with its numbers and units, and the numbers of a claim, for people.
+
+Numbers are rounded down, so that a sentence about all disturbances below a size stays true; but for a part in 1e12, by
+which a size that was asked for may differ from its text.
+"""
+
+from __future__ import annotations
+
+from decimal import ROUND_FLOOR, Context, Decimal
+
+from carom.proofs.claims import Claim, Proof
+from carom.proofs.families import FAMILIES
+
+CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-single-impact-orbits", "orbits")
+"""Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
+_UNITS = {"speed": ("1e3", "mm/s", "c_r Ω"), "peak": ("1", "m/s²", "c_r Ω²"), "change": ("1e6", "µm", "c_r")}
+"""Of each size: what one SI unit counts, in which unit people read it, and its unit where scales are not known."""
+_PERCENT, _BELOW, _ASKED = Decimal(100), Context(prec=4, rounding=ROUND_FLOOR), Context(prec=12)
+_NEVER = "in any direction and at any instant of the turn, makes the rotor touch{limits}: it goes back to levitation"
+
+
+def chief_of(proof: Proof) -> Claim | None:
+    """The claim that the others lead to; the first of these that is proven, if any is."""
+    chiefs = [claim for kind in CHIEF for claim in proof if claim.kind == kind]
+    return next((claim for claim in chiefs if claim.status == "proven"), chiefs[0] if chiefs else None)
+
+
+def headline(proof: Proof) -> str:
+    """The theorem with its numbers, or that it is not proven."""
+    chief, proven = chief_of(proof), len(proof.with_status("proven"))
+    if chief is not None and chief.status == "proven":
+        return f"Theorem: {_sentence(chief, proof)}"
+    if not proven:
+        return "Nothing was proven."
+    why = "" if chief is None else f" {chief.about} {chief.kind}: {chief.reason or chief.status}."
+    return f"The theorem was not proven; {proven} of {len(proof)} claims were.{why}"
+
+
+def numbers_of(claim: Claim) -> str:
+    """Its numbers: sizes with their units, shares in percent, all others with the digits that are proven."""
+    named = [(name, name.removesuffix("_si")) for name in claim.enclosures if f"{name}_si" not in claim.enclosures]
+    shown = []
+    for name, plain in named:
+        entry, words = claim.enclosures[name], plain.replace("_", " ")
+        if plain in _UNITS:
+            shown.append(f"{words} {_size(claim, plain)}")
+        elif plain.startswith("share_"):
+            shown.append(f"{words} {_share(entry.low)} %")
+        else:
+            shown.append(f"{words} {entry.short}")
+    return ", ".join(shown)
+
+
+def _sentence(claim: Claim, proof: Proof) -> str:
+    below = next((_size(claim, name) for name in _UNITS if name in claim.enclosures), "")
+    limits = " or a magnetic bearing reach a limit" if "nor asks" in claim.statement else ""
+    if claim.kind in ("never touch", "asked never touch") and claim.about == "kicks":
+        return f"No kick {'up to' if 'asked' in claim.kind else 'below'} {below}, {_NEVER.format(limits=limits)}."
+    if claim.kind == "recover" and claim.about in FAMILIES and "box" not in proof.options:
+        family, numbers = FAMILIES[claim.about], claim.enclosures
+        largest, impacts = proof.options[family.option], int(numbers["impacts"].low)
+        how = f"with at most {impacts} impact{'s' * (impacts > 1)}" if impacts else "without touching"
+        among = "" if below.startswith("0 ") else f", among them all below {below}"
+        return (
+            f"Of all {family.about} up to {largest}, {_share(numbers['share_proven'].low)} % (of the area of the disc of sizes and "
+            f"directions) return to levitation {how}{among}."
+        )
+    shown = numbers_of(claim)
+    return f"{claim.statement}{shown and f' ({shown})'}"
+
+
+def _size(claim: Claim, name: str) -> str:
+    """Lower end of a size with its unit."""
+    factor, unit, own = _UNITS[name]
+    given = claim.enclosures.get(f"{name}_si")
+    if given is None:
+        return f"{_rounded(Decimal(claim.enclosures[name].low))} {own}"
+    return f"{_rounded(Decimal(given.low) * Decimal(factor))} {unit}"
+
+
+def _share(low: str) -> str:
+    return _rounded(Decimal(low) * _PERCENT)
+
+
+def _rounded(number: Decimal) -> str:
+    """At most four digits, rounded down, without an exponent; a size that was asked for with its own."""
+    asked = _ASKED.plus(number).normalize()
+    return f"{asked if len(asked.as_tuple().digits) <= _BELOW.prec else _BELOW.plus(number).normalize():f}"
