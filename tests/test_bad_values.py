@@ -12,7 +12,7 @@ import carom as cm
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
-from carom.models import Rigid, from_corotating_matrices
+from carom.models import LinearEquations, Rigid
 from carom.models.touchdown import Touchdown
 from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
 from carom.sweeps import plan_sweep
@@ -118,8 +118,8 @@ AT_USE = {
     "impacts": ("impacts", lambda motion: cm.find_orbits(PAPER, impacts=2.5)),
     "kick": ("speed", lambda motion: cm.kick(10**400)),
     "state": ("start position", lambda motion: cm.simulate(PAPER, cm.State("x"), 1.0)),
-    "scales": ("scales", lambda motion: from_corotating_matrices(*LINEAR, scales="x")),
-    "mass": ("mass", lambda motion: from_corotating_matrices(10**400, *LINEAR[1:])),
+    "scales": ("scales", lambda motion: LinearEquations(*LINEAR, scales="x")),
+    "mass": ("mass", lambda motion: LinearEquations(10**400, *LINEAR[1:])),
     "sample": ("seed", lambda motion: Sample(VelocityKick(0.5), 3, True)),
     "grid": ("model", lambda motion: cm.Grid("x", (2, 2))),
     "kick model": ("fastest", lambda motion: VelocityKick([])),

@@ -10,7 +10,7 @@ import pytest
 import carom as cm
 from carom.base.outcome import InputError
 from carom.bifurcations.simulated import continue_simulated
-from carom.models import KelvinVoigt, Touchdown, from_corotating_matrices
+from carom.models import KelvinVoigt, LinearEquations, Rotor, Touchdown
 from carom.orbits.closing import close
 
 MASS, ECCENTRICITY, POLAR, DAMPING, RING = 0.9, 0.353, 0.143, 0.01, 10.0
@@ -18,7 +18,7 @@ MASS, ECCENTRICITY, POLAR, DAMPING, RING = 0.9, 0.353, 0.143, 0.01, 10.0
 
 def rotor_at(speed):
     """The rotor in units of the speed: times are in ``1/Ω``."""
-    return from_corotating_matrices(
+    equations = LinearEquations(
         mass=np.array([[1.0]]),
         damping=np.array([[2.0 * DAMPING / speed - 1j * (POLAR - 2.0)]]),
         stiffness=np.array([[1.0 / speed**2 - (1.0 - POLAR) + 2j * DAMPING / speed]]),
@@ -26,6 +26,7 @@ def rotor_at(speed):
         touchdowns=[Touchdown((1.0,), KelvinVoigt(RING / speed**2, 0.0), 0.0, 1.0, farthest=10.0)],
         scales=cm.parameters.Scales(1.0, 1.0, speed),
     )
+    return Rotor(equations)
 
 
 PUBLISHED = {

@@ -35,12 +35,11 @@ from carom.core.laws.hunt_crossley import HuntCrossley
 from carom.core.laws.kelvin_voigt import KelvinVoigt
 from carom.core.laws.rigid import Rigid
 from carom.models.axes import Axis, axis
-from carom.models.by_matrices import from_corotating_matrices, from_matrices
 from carom.models.definition import Definition
 from carom.models.forcing import Force
 from carom.models.from_modes import second_order_system
 from carom.models.limits import Limit
-from carom.models.linear import LinearEquations
+from carom.models.linear import LinearEquations, from_matrices
 from carom.models.matrices import Matrices
 from carom.models.planar import Planar, jeffcott
 from carom.models.race import Race
@@ -77,7 +76,6 @@ __all__ = [
     "axis",
     "case_of",
     "exact_rotor_of",
-    "from_corotating_matrices",
     "from_matrices",
     "in_stages",
     "jeffcott",

@@ -17,6 +17,7 @@ from carom.models.definition import Definition
 from carom.models.forces import complex_numbers
 from carom.models.linear_system import system_of
 from carom.models.matrices import Matrices, is_singular
+from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
@@ -257,6 +258,30 @@ class LinearEquations(Definition, Result):
         for name in sorted(set(changes) - given, key=lambda name: (name != "speed", list(changes).index(name))):
             rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
         return rotor
+
+
+def from_matrices(
+    *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, touchdowns: Any, **others: Any
+) -> Rotor:
+    """Any linear rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
+
+    Parameters
+    ----------
+    mass, damping, stiffness, gyroscopic : array_like, shape (n, n)
+        ``M``, ``D``, ``K`` and ``G`` (polar moments of inertia; zero by default), with ``Ω = 1``.
+    forcing : array_like of complex, shape (n,)
+        Unbalance ``F``.
+    touchdowns : sequence of Touchdown
+    **others
+        Further attributes of :class:`LinearEquations`.
+
+    Raises
+    ------
+    InputError
+        See :class:`LinearEquations`.
+    """
+    given = {"mass": mass, "damping": damping, "stiffness": stiffness, "gyroscopic": gyroscopic}
+    return Rotor(LinearEquations.in_fixed_frame(**given, forcing=forcing, touchdowns=touchdowns, **others))
 
 
 def _numbers(name: str, given: Any, shape: tuple[int, ...] | None = None) -> np.ndarray:

@@ -206,10 +206,8 @@ class System(ModeArrays):
         position, velocity : complex, or ndarray of complex, shape (n,)
             Coordinates and their rates.
         """
-        if self.forced is not None:
-            amplitudes: np.ndarray = self.amplitudes_of(np.array([position, velocity]).reshape(1, -1), time)[0]
-            return amplitudes
-        return self.amplitude_change(position - (self.rest if len(self.rest) > 1 else self.rest[0]), velocity)
+        amplitudes: np.ndarray = self.amplitudes_of(np.array([position, velocity]).reshape(1, -1), time)[0]
+        return amplitudes
 
     def amplitude_change(
         self, position_change: complex | np.ndarray, velocity_change: complex | np.ndarray
@@ -222,11 +220,9 @@ class System(ModeArrays):
 
     def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Position and velocity for mode amplitudes of shape (..., N), each of shape (..., n); (...) if ``n = 1``."""
-        if len(self.rest) == 1:
-            position = np.einsum("...k,k->...", amplitudes, self.shapes[0]) + self.rest[0]
-            return position, np.einsum("...k,k->...", amplitudes, self.rates[0])
         position = np.einsum("...k,nk->...n", amplitudes, self.shapes) + self.rest
-        return position, np.einsum("...k,nk->...n", amplitudes, self.rates)
+        velocity = np.einsum("...k,nk->...n", amplitudes, self.rates)
+        return (position, velocity) if len(self.rest) > 1 else (position[..., 0], velocity[..., 0])
 
     def kicked(self, push: complex | np.ndarray, time: float | np.ndarray = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and their rates, both (..., n), just after the rotor, levitating at a time, gets velocities (...) as a whole."""

@@ -54,17 +54,17 @@ class Course:
 
     times: np.ndarray
     place: np.ndarray
-    mount: np.ndarray | None
     unbalance_angles: np.ndarray
     force: np.ndarray
     friction: np.ndarray
     slip: np.ndarray
-    race: np.ndarray | None
     held: np.ndarray
     impacts: ContactLog | None
     stages: tuple[float, ...]
     down: float
     scales: Scales | None
+    mount: np.ndarray | None = None
+    race: np.ndarray | None = None
 
 
 def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
@@ -74,10 +74,6 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     followed = [(part, end) for part in parts if (end := min(part.time, until - part.begins)) > 0.0]
     columns = [_sampled(part, end, int(samples * end / until)) for part, end in followed]
     course: dict[str, Any] = {name: np.concatenate([each[name] for each in columns]) for name in columns[0]}
-    if not rotor.is_on_mount:
-        course["mount"] = None
-    if rotor.system.arrays.race[plane] < 0:
-        course["race"] = None
     impacts = ContactLog.joined([(part.begins, part.contacts) for part in parts])
     return Course(
         **course,
@@ -96,18 +92,20 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
     times = np.unique(np.concatenate([even, events, np.nextafter(events[1:], 0.0), peaks[peaks <= end]]))
     amplitudes, phases = part.amplitudes_at(times)
     history, fixed = part.history(times), part.begins + times
-    mount = system.state(amplitudes)[0][:, 1] if part.rotor.is_on_mount else np.zeros(len(times), complex)
-    return {
+    columns = {
         "times": fixed,
         "place": (1.0 - history.gap) * np.exp(1j * (history.angle + fixed)),
-        "mount": mount * np.exp(1j * fixed),
         "unbalance_angles": part.rotor.unbalance_phase + fixed + shaft_lead(system, amplitudes),
         "force": history.normal_force,
         "friction": history.friction_force,
         "slip": np.abs(history.slip),
-        "race": race_speed(system, part.plane, amplitudes),
         "held": presses(phases[:, part.plane]),
     }
+    if part.rotor.is_on_mount:
+        columns["mount"] = system.state(amplitudes)[0][:, 1] * np.exp(1j * fixed)
+    if system.arrays.race[part.plane] >= 0:
+        columns["race"] = race_speed(system, part.plane, amplitudes)
+    return columns
 
 
 def shown_until(motion: Trajectory) -> float:

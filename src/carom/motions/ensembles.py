@@ -176,14 +176,14 @@ _Begun = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 def _followed(courses: Sequence[Sequence[Stage]], which: np.ndarray, starts: _Begun, limits: EventLimits) -> Endings:
     """Endings of starts in one dimension, through all stages of their machines."""
+    for stages in courses:
+        systems = [stage.rotor.system for stage in stages]
+        # Of many motions these speeds are not kept.
+        if len(stages) > 1 and any(each.races is not None or each.shaft is not None for each in systems):
+            turning = "a race that turns, or a shaft whose speed changes, in stages"
+            raise InputError("machine", turning, "one motion at a time: carom.simulate keeps these speeds")
     endings = _in_stage([stages[0] for stages in courses], which, starts, limits)
     for number in range(1, max(map(len, courses), default=1)):
-        for stages in courses:
-            systems = [stage.rotor.system for stage in stages]
-            # Of many motions these speeds are not kept.
-            if number < len(stages) and any(each.races is not None or each.shaft is not None for each in systems):
-                turning = "a race that turns, or a shaft whose speed changes, in stages"
-                raise InputError("machine", turning, "one motion at a time: carom.simulate keeps these speeds")
         further = np.array([number < len(stages) for stages in courses])[which]
         on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
         before = endings[on]

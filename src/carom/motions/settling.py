@@ -68,12 +68,13 @@ def fresh_memory(
     known = exact_results(rotor)
     # What goes over to lasting contact triggers there.
     absorb = absorb and trigger.contact_time == np.inf
+    decay = rotor.system.decay
     rub, around = known.rub if patience > 0 else None, known.around if patience > 0 and absorb else None
     return memory(
         rotor.system.modes,
         rub_position=rub.position if rub else 0j,
         patience=patience,
-        recheck=_recheck_time(rotor),
+        recheck=min(1.0 / decay, LONG_FLIGHT) if decay > 0.0 else np.inf,
         stop_at_landing=stop_at_chatter,
         resting=not known.rubs,
         proofs=planar_proofs(
@@ -143,7 +144,9 @@ def settled(
         See :func:`carom.core.closing.least_period`; for rotors with other than one plane and one pair of modes
         :func:`carom.motions.recurrence.least_recurrence`.
     """
-    if outcome is Outcome.FORWARD_RUB and recollection.resting and _is_at_rest(rotor, amplitudes):
+    # A rub that runs round the wall has been recognised by a full turn.
+    rests = outcome is Outcome.FORWARD_RUB and np.max(np.abs(rotor.system.state(amplitudes)[1])) < AT_REST
+    if rests and recollection.resting:
         if rub_attracts(rotor.system, amplitudes, contact):
             return outcome, 0
         recollection.resting = -1
@@ -187,21 +190,10 @@ def _fade(rotor: Rotor, before_impact: np.ndarray) -> bool:
     return bool(fades_to_rolling(proofs, rotor.system.arrays, before_impact))
 
 
-def _is_at_rest(rotor: Rotor, amplitudes: np.ndarray) -> bool:
-    """Whether a rub is synchronous; one that runs round the wall has been recognised by a full turn."""
-    _, velocity = rotor.system.state(amplitudes)
-    return bool(np.max(np.abs(velocity)) < AT_REST)
-
-
 def _tools() -> tuple[np.ndarray, EventLog, np.record, np.record, np.record]:
     """State of contact and log, memory and scratch arrays for the kernels that close orbits."""
     log = EventLog.empty(1, MODES)
     return np.empty(1, np.int64), log, memory(MODES), workspace(MODES), rub_workspace(MODES)
-
-
-def _recheck_time(rotor: Rotor) -> float:
-    decay = rotor.system.decay
-    return min(1.0 / decay, LONG_FLIGHT) if decay > 0.0 else np.inf
 
 
 def time_limit(rotor: Rotor, trigger: Trigger) -> float:

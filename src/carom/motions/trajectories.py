@@ -277,10 +277,7 @@ class Trajectory(Result):
 
     def ends_of(self, segments: np.ndarray) -> np.ndarray:
         """Mode amplitudes at the end of chosen segments (k,), complex, shape (k, N)."""
-        last = segments == len(self.event_amplitudes)
-        ends = np.empty((len(segments), self.segment_amplitudes.shape[1]), complex)
-        ends[~last], ends[last] = self.event_amplitudes[segments[~last]], self.last_amplitudes
-        return ends
+        return np.concatenate([self.event_amplitudes, self.last_amplitudes[None]])[segments]
 
     def workspace(self) -> np.record:
         """Scratch arrays of contact."""
