@@ -197,7 +197,7 @@ def test_what_cannot_be_is_refused():
     with pytest.raises(cm.outcome.InputError, match="start shaft"):
         cm.simulate(single(SOFT, None), cm.State(0.1, 0.0, shaft=(1.0, 0.0)), 1.0)
     with pytest.raises(cm.outcome.InputError, match="a shaft whose speed changes"):
-        single(SOFT, Shaft(2.0)).system.refuse_forces()
+        single(SOFT, Shaft(2.0)).refuse_forces()
 
 
 @pytest.mark.jit_only

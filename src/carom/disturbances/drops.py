@@ -131,22 +131,20 @@ class Drop(Disturbance):
         from carom.motions.starts import amplitudes_of
 
         scales, widths = rotor.scales, falling.system.widths.tolist()
-        phase, sizes = self.unbalance_angle(rotor), dict[str, tuple[float, str]]()
-        # On a mount the rotor is the first of two coordinates; in several bearings coordinates are no places.
-        places = [tuple(complex(np.ravel(part)[0]) for part in (state.position, state.velocity))]
-        if len(widths) > 1:
+        phase = self.unbalance_angle(rotor)
+        if len(widths) == 1:  # on a mount the rotor is the first of two coordinates
+            place, rate = (complex(np.ravel(part)[0]) for part in (state.position, state.velocity))
+            begun = moving(place, rate, scales)
+            where, sizes = f"rotor centre {begun.words}", dict(begun.sizes)
+        else:  # in several bearings coordinates are no places
             amplitudes, _ = amplitudes_of(falling, state)
             each = (falling.system.at_plane(amplitudes, plane) for plane in range(len(widths)))
             places = [
-                (width * complex(place), width * complex(rate))
+                moving(width * complex(place), width * complex(rate), scales)
                 for width, (place, rate) in zip(widths, each, strict=True)
             ]
-        begun = [moving(place, rate, scales) for place, rate in places]
-        where = f"rotor centre {begun[0].words}"
-        if len(begun) > 1:
-            where = "; ".join(f"at touchdown bearing {number} {one.words}" for number, one in enumerate(begun, 1))
-        for count, one in enumerate(begun, 1):
-            sizes |= {f"{name}_{count}" if len(begun) > 1 else name: size for name, size in one.sizes.items()}
+            where = "; ".join(f"at touchdown bearing {count} {one.words}" for count, one in enumerate(places, 1))
+            sizes = {f"{name}_{count}": size for count, one in enumerate(places, 1) for name, size in one.sizes.items()}
         sizes["unbalance_angle"] = phase, ""
         back = ""
         if self.regained_after is not None:

@@ -48,24 +48,23 @@ def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
     def turned(values: np.ndarray, by_turn: np.ndarray) -> np.ndarray:
         return np.append(values[:, free], by_turn[:, None], axis=1)
 
+    own = {
+        "exponents": np.append(doubled.exponents, TURN),
+        "driven": np.append(arrays["driven"][free], False),
+        "free": np.append(np.ones(modes, bool), False),
+        "rows": turned(arrays["rows"], planes @ ellipse),
+        "columns": np.append(arrays["columns"][free], np.zeros((1, len(planes))), axis=0),
+        "anisotropy": np.array([modes]),
+        "conjugate_columns": by_conjugate_rate @ pushes.conj(),
+    }
     return modal_system(
-        exponents=np.append(doubled.exponents, TURN),
-        driven=np.append(arrays["driven"][free], False),
-        free=np.append(np.ones(modes, bool), False),
-        forced=np.append(np.zeros(modes), 1.0).astype(complex),
         rest=forward,
         shapes=turned(doubled.shapes[:n], ellipse),
         inverse=np.concatenate([by_position, by_rate], axis=1),
-        rows=turned(arrays["rows"], planes @ ellipse),
-        columns=np.append(arrays["columns"][free], np.zeros((1, len(planes))), axis=0),
-        anisotropy=np.array([modes]),
-        conjugate_columns=by_conjugate_rate @ pushes.conj(),
+        arrays=own | {name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
+        forced=np.append(np.zeros(modes), 1.0).astype(complex),
         conjugate_modes=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
-        races=[each.race for each in given.touchdowns],
-        translation=given.translation,
-        clearances=tuple(each.clearance for each in given.touchdowns),
-        magnets=given.magnets,
-        **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
+        **given.system_fields,
     )
 
 

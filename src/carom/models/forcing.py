@@ -39,7 +39,9 @@ ONE = 1e-7
 """Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
 
 
-_OF_LIMITS = ("limit_offsets", "limit_bounds", "limit_couplings")
+_KEPT = ("offsets", "masses", *Wall._fields, "limit_offsets", "limit_bounds", "limit_couplings")
+_AS_BEFORE = ("translation", "races", "shaft", "clearances", "magnets", "growth")
+"""What forces do not change, of the arrays and of a system."""
 
 
 class Force(NamedTuple):
@@ -79,30 +81,27 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
     turns = modes.turn > NO_TURN
-    made = modal_system(
-        exponents=modes.exponents,
-        driven=modes.driven,
-        free=modes.free,
-        forced=modes.forced,
+    moved = {
+        "exponents": modes.exponents,
+        "driven": modes.driven,
+        "free": modes.free,
+        "rows": modes.right[:planes],
+        "columns": modes.left[:, :planes],
+        "limit_rows": modes.right[planes:first],
+        "limit_columns": modes.left[:, planes:first],
+        "limit_conjugates": modes.left[:, last + planes : last + first],
+        "anisotropy": np.array([modes.turn] if turns else [], int),
+        "conjugate_columns": modes.left[:, last : last + planes],
+    }
+    return modal_system(
         rest=system.rest,
         shapes=modes.right[first:],
         inverse=modes.left[:, first:last],
-        translation=system.translation,
-        races=system.races or (),
-        shaft=system.shaft,
-        clearances=system.clearances,
-        magnets=system.magnets,
-        rows=modes.right[:planes],
-        columns=modes.left[:, :planes],
-        limit_rows=modes.right[planes:first],
-        limit_columns=modes.left[:, planes:first],
-        limit_conjugates=modes.left[:, last + planes : last + first],
-        anisotropy=np.array([modes.turn] if turns else [], int),
-        conjugate_columns=modes.left[:, last : last + planes],
+        forced=modes.forced,
         conjugate_modes=modes.left[:, last + first :] if turns else None,
-        **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields, *_OF_LIMITS)},
+        arrays=moved | {name: arrays[name] for name in _KEPT},
+        **{name: getattr(system, name) for name in _AS_BEFORE},
     )
-    return replace(made, growth=system.growth) if system.growth else made
 
 
 def _merged(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,6 @@ from carom.base.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
 from carom.models.race import Race
-from carom.models.shaft import ShaftModes
 from carom.models.system import System
 
 SMALLEST = 2
@@ -38,32 +38,25 @@ def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
 
 def modal_system(
     *,
-    exponents: np.ndarray,
     rest: np.ndarray,
     shapes: np.ndarray,
     inverse: np.ndarray,
+    arrays: dict[str, np.ndarray],
     forced: np.ndarray | None = None,
-    translation: np.ndarray | None = None,
-    races: Sequence[Race | None] = (),
-    shaft: ShaftModes | None = None,
-    clearances: tuple[float, ...] | None = None,
     conjugate_modes: np.ndarray | None = None,
-    magnets: np.ndarray | None = None,
-    **arrays: np.ndarray,
+    **others: Any,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
 
     Parameters
     ----------
-    exponents, **arrays
-        See :func:`~carom.core.layout.rotor_record`; all modes are free by default.
-    rest, shapes, inverse, forced, translation, clearances, conjugate_modes, magnets
-        See :class:`System`.
-    races : sequence of Race or None
-        At the planes; each that turns is one more mode.
-    shaft : ShaftModes, optional
-        Two more, of a shaft whose speed changes, at the nominal speed at first.
+    rest, shapes, inverse, forced, conjugate_modes, **others
+        See :class:`System`.  Each race that turns is one more mode, a shaft whose speed changes two, at the nominal speed at first.
+    arrays : dict of str to ndarray
+        Arguments of :func:`~carom.core.layout.rotor_record`; all modes are free by default.
     """
+    exponents, shaft, magnets = arrays["exponents"], others.get("shaft"), others.get("magnets")
+    races: Sequence[Race | None] = others.get("races") or ()
     modes, turning = len(exponents), [(plane, race) for plane, race in enumerate(races) if race is not None]
     number = len(turning)
     size = size_of(modes + number + (0 if shaft is None else 2))
@@ -73,7 +66,7 @@ def modal_system(
         room[axis] = (0, size - values.shape[axis])
         return np.pad(values, room, constant_values=filler)
 
-    arrays.setdefault("free", np.ones(modes, bool))
+    arrays = {"free": np.ones(modes, bool)} | arrays
     if turning:
         exponents = np.append(exponents, [race.exponent for _, race in turning])
         speeds = np.append(np.zeros(modes) if forced is None else forced, [race.surface_speed for _, race in turning])
@@ -93,22 +86,15 @@ def modal_system(
         }
     if magnets is not None:
         arrays |= {"gap_rows": magnets @ shapes, "gap_offsets": magnets @ rest}
-    record = rotor_record(
-        exponents=filled(exponents, filler=exponents[-1]),
-        **{name: filled(each, _ALONG_MODES[name]) if name in _ALONG_MODES else each for name, each in arrays.items()},
-    )
+    arrays = {name: filled(each, _ALONG_MODES[name]) if name in _ALONG_MODES else each for name, each in arrays.items()}
     return System(
-        record,
+        rotor_record(**arrays | {"exponents": filled(exponents, filler=exponents[-1])}),
         rest,
         filled(shapes, 1),
         filled(inverse),
-        translation,
-        None if forced is None else filled(forced),
-        tuple(races) if turning else None,
-        shaft,
-        clearances,
-        None if conjugate_modes is None else filled(conjugate_modes),
-        magnets=magnets,
+        forced=None if forced is None else filled(forced),
+        conjugate_modes=None if conjugate_modes is None else filled(conjugate_modes),
+        **others | {"races": tuple(races) if turning else None},
     )
 
 

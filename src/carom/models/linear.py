@@ -188,6 +188,16 @@ class LinearEquations(Definition, Result):
         return system_of(self)
 
     @property
+    def system_fields(self) -> dict[str, Any]:
+        """Fields of its system that do not follow from its modes."""
+        return {
+            "races": [each.race for each in self.touchdowns],
+            "translation": self.translation,
+            "clearances": tuple(each.clearance for each in self.touchdowns),
+            "magnets": self.magnets,
+        }
+
+    @property
     def matrices(self) -> Matrices:
         """Matrices of the fixed frame; see :meth:`in_fixed_frame`."""
         spin = self.damping - 2j * self.mass

@@ -45,23 +45,17 @@ def system_of(given: LinearEquations) -> System:
         return _one_coordinate(given, found.exponents, complex(rest[0]))
     inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
     inverse[:, np.append(np.ones(n, bool), given.has_mass)] = np.linalg.inv(found.basis)
-    return modal_system(
-        exponents=found.exponents,
-        driven=found.driven,
-        rest=rest,
-        shapes=found.basis[:n],
-        inverse=inverse,
-        offsets=given.planes @ rest,
-        rows=given.planes @ found.basis[:n],
-        columns=inverse[:, n:] @ (moved / mobilities),
-        races=races,
-        shaft=turning,
+    arrays = {
+        "exponents": found.exponents,
+        "driven": found.driven,
+        "offsets": given.planes @ rest,
+        "rows": given.planes @ found.basis[:n],
+        "columns": inverse[:, n:] @ (moved / mobilities),
+        "masses": masses,
         **walls_as_arrays([each.wall(mass) for each, mass in zip(given.touchdowns, masses, strict=True)]),
-        masses=masses,
-        translation=given.translation,
-        clearances=tuple(each.clearance for each in given.touchdowns),
-        magnets=given.magnets,
-    )
+    }
+    shapes = found.basis[:n]
+    return modal_system(rest=rest, shapes=shapes, inverse=inverse, arrays=arrays, shaft=turning, **given.system_fields)
 
 
 def _check_inverses(given: LinearEquations) -> None:

@@ -30,7 +30,7 @@ from carom.motions.settling import (
     settled,
     time_limit,
 )
-from carom.motions.starts import Beginning, State, Until, amplitudes_of
+from carom.motions.starts import Beginning, State, Until, amplitudes_of, state_at
 from carom.motions.trajectories import Trajectory, joined
 from carom.parameters import own_time
 
@@ -179,12 +179,7 @@ def _follow_stage(
             start=start,
             outcome=outcome,
             time=time,
-            final=State.of(
-                *rotor.system.state(state),
-                rotor.system.race_speeds(state),
-                rotor.system.shaft_turn(state),
-                begins + time if rotor.system.is_time_dependent else 0.0,
-            ),
+            final=state_at(rotor.system, state, begins + time if rotor.system.is_time_dependent else 0.0),
             multiplicity=multiplicity,
             segment_starts=np.append(begun, log.times),
             segment_phases=np.concatenate([first[0][None], log.phases]),

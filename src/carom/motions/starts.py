@@ -14,7 +14,7 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Rotor, Subject
+from carom.models import Rotor, Subject, System
 
 
 @runtime_checkable
@@ -90,6 +90,11 @@ class State:
         if np.size(position) > 1 or np.size(velocity) > 1:
             return cls(position, velocity, races, shaft, time)
         return cls(complex(np.squeeze(position)), complex(np.squeeze(velocity)), races, shaft, time)
+
+
+def state_at(system: System, amplitudes: np.ndarray, time: float) -> State:
+    """State of amplitudes (N,), with the speeds of races and of the shaft."""
+    return State.of(*system.state(amplitudes), system.race_speeds(amplitudes), system.shaft_turn(amplitudes), time)
 
 
 def levitating(rotor: Rotor, push: complex = 0j, instant: float = 0.0) -> State:

@@ -22,7 +22,7 @@ from carom.motions.contacts import ContactLog, contacts_of, impacts_of
 from carom.motions.history import ContactHistory, LastingContact
 from carom.motions.impulses import Impulses, impulses_of
 from carom.motions.kinematics import is_compliant, presses
-from carom.motions.starts import State
+from carom.motions.starts import State, state_at
 
 if TYPE_CHECKING:
     import xarray
@@ -141,13 +141,12 @@ class Trajectory(Result):
 
     def since(self, segment: int) -> Trajectory:
         """Return the motion from the start of one of its segments on; its stages before are left out."""
-        system, begun = self.rotor.system, float(self.segment_starts[segment])
-        amplitudes, begins = self.segment_amplitudes[segment], self.begins + begun
-        state = *system.state(amplitudes), system.race_speeds(amplitudes), system.shaft_turn(amplitudes)
+        begun = float(self.segment_starts[segment])
+        begins = self.begins + begun
+        start = state_at(self.rotor.system, self.segment_amplitudes[segment], begins)
         columns: dict[str, Any] = {name: getattr(self, name)[segment:] for name in SEGMENTS}
         columns["segment_starts"] = columns["segment_starts"] - begun
-        start, time = State.of(*state, begins), self.time - begun
-        return dataclasses.replace(self, start=start, time=time, begins=begins, earlier=(), **columns)
+        return dataclasses.replace(self, start=start, time=self.time - begun, begins=begins, earlier=(), **columns)
 
     @property
     def durations(self) -> np.ndarray:
