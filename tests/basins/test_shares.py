@@ -30,7 +30,7 @@ def test_a_share_says_of_what_it_is_and_how_sure():
     assert share.words == (
         "38.8 % of kicks up to 166 mm/s come back (121 of 312 drawn; 33.3 to 44.4 % with 95 % confidence)"
     )
-    document = share.document
+    document = share.document()
     assert (document["of"], document["up_to"], document["up_to_si"]) == ("kicks", drawn.model.fastest, 0.166)
     assert document["estimate"] == 121 / 312
     assert document["low"] < document["estimate"] < document["high"]
@@ -40,7 +40,7 @@ def test_a_share_says_of_what_it_is_and_how_sure():
         "no sampling error)"
     )
     assert cells.low == cells.fraction == cells.high == 0.25
-    assert "up_to_si" not in cells.document
+    assert "up_to_si" not in cells.document()
 
 
 @pytest.mark.parametrize(

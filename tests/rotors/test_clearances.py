@@ -165,7 +165,7 @@ def test_orbits_are_told_in_the_clearance_of_their_plane():
         orbits = find_orbits(rotor, impacts=1, guesses=60)
         # Beside it the rolling backward whirl, which has no impact.
         (stable,) = (orbit for orbit in orbits if orbit.stable and orbit.impacts == 1)
-        entries = found_orbits_document(rotor, orbits)["orbits"]
+        entries = found_orbits_document(orbits)["orbits"]
         (entry,) = (each for each in entries if each["stable"] and each["name"] == str(stable.name))
         circle = orbit_path(stable, 1, 0)[1]
         found.append([entry["period_si"], entry["radial_speed_si"], entry["normal_impulse_si"], np.abs(circle).max()])

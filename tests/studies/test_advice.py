@@ -14,7 +14,7 @@ from carom.parameters import Case, Machine, Zones, in_terms_of
 from carom.studies.actuator import asked_by, largest_along, slew_limit_of
 from carom.studies.advice import with_setting
 from carom.studies.facts import about
-from carom.studies.kinds import required_disturbances
+from carom.studies.questions import required_disturbances
 
 pytestmark = pytest.mark.jit_only
 

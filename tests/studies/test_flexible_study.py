@@ -12,9 +12,9 @@ from carom.rotors import find_whirls, load_machine
 from carom.rotors.synchronous import synchronous_response
 from carom.studies.facts import about
 from carom.studies.findings import facts_of
-from carom.studies.full_size import DIRECTIONS, all_round, at_full_size
 from carom.studies.levitating import levitating
 from carom.studies.standards import required_margin
+from carom.studies.survives import DIRECTIONS, all_round, at_full_size
 
 pytestmark = pytest.mark.jit_only
 

@@ -9,7 +9,7 @@ from carom.models import rotor_of
 from carom.motions import drop_loads
 from carom.parameters import LoadLimits, Required, Shock
 from carom.studies import check_loads
-from carom.studies.full_size import all_round, at_full_size
+from carom.studies.survives import all_round, at_full_size
 
 MACHINE = cm.load("examples/keogh-cole.toml")
 ALL = LoadLimits(impulse="5 N s", force="2 kN", power="10 kW", heat="1 kJ", impacts=100)

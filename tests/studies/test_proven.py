@@ -19,7 +19,7 @@ from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
 from carom.studies import study
-from carom.studies.proven import is_proven, proven_words
+from carom.studies.verdict import is_proven, proven_words
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from carom.base.progress import Reporter
 from carom.models import jeffcott
 from carom.motions.budget import Budget
 from carom.parameters import Parameters, Required, Shock
-from carom.studies.kinds import required_disturbances
+from carom.studies.questions import required_disturbances
 from carom.studies.survives import has_unrecovered, survives
 
 SOURCE = Parameters(gamma=0.2, omega=0.76, rho=0.2, phi=0.21, mu=0.15, d=0.7, radius_ratio=400 / 7)

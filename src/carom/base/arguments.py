@@ -15,7 +15,6 @@ import math
 import types
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import wraps
-from itertools import chain, repeat
 from numbers import Complex, Integral, Real
 from typing import (
     TYPE_CHECKING,
@@ -24,11 +23,12 @@ from typing import (
     ForwardRef,
     Literal,
     NamedTuple,
+    ParamSpec,
     TypeVar,
     Union,
-    cast,
     get_args,
     get_origin,
+    overload,
 )
 
 from carom.base.outcome import InputError
@@ -36,7 +36,9 @@ from carom.base.outcome import InputError
 if TYPE_CHECKING:
     import numpy as np  # loaded where an array is read: the parameters of a machine do without it
 
-_Checked = TypeVar("_Checked", bound=Callable[..., Any])
+_Given = ParamSpec("_Given")
+_Value = TypeVar("_Value")
+_Class = TypeVar("_Class", bound=type[Any])
 _MOST = 10**15
 """Largest number of anything: far more than can be stored or awaited."""
 
@@ -68,7 +70,10 @@ Infinity = Annotated[Any, ArgumentKind(lambda number: isinstance(number, float) 
 Reals = Annotated["np.ndarray", ArgumentKind(lambda values: kind_of_numbers(values) in "iuf", "finite real numbers")]
 """Array of finite real numbers."""
 Truths = Annotated[
-    Any, ArgumentKind(lambda values: str(getattr(values, "dtype", "")) == "bool", "an array of True and False")
+    Any,
+    ArgumentKind(
+        lambda values: getattr(getattr(values, "dtype", None), "kind", "") == "b", "an array of True and False"
+    ),
 ]
 """Array of ``True`` and ``False``."""
 
@@ -78,7 +83,11 @@ def having(*names: str) -> ArgumentKind:
     return ArgumentKind(lambda given: all(name in given for name in names), f"a mapping with {', '.join(names)}")
 
 
-def checked(target: _Checked) -> _Checked:
+@overload
+def checked(target: _Class) -> _Class: ...
+@overload
+def checked(target: Callable[_Given, _Value]) -> Callable[_Given, _Value]: ...
+def checked(target: Any) -> Any:
     """Let a function, or the constructor of a class, refuse what its annotations do not allow.
 
     It raises :class:`~carom.base.outcome.InputError`, which names the argument, the value and what is allowed.
@@ -95,7 +104,15 @@ def checked(target: _Checked) -> _Checked:
         door[0].check(args, kwargs)
         return target(*args, **kwargs)
 
-    return cast("_Checked", wrapper)
+    return wrapper
+
+
+_BY_PLACE = (
+    inspect.Parameter.POSITIONAL_ONLY,
+    inspect.Parameter.POSITIONAL_OR_KEYWORD,
+    inspect.Parameter.VAR_POSITIONAL,
+    inspect.Parameter.VAR_KEYWORD,
+)
 
 
 class _Door(NamedTuple):
@@ -110,24 +127,24 @@ class _Door(NamedTuple):
     def of(cls, function: Callable[..., Any]) -> _Door:
         """Read the annotations of a function."""
         names, kinds = _Names(inspect.unwrap(function).__globals__), {"": _ANYTHING}
-        places, others, further = list[str](), "", ""
+        of_kind: dict[Any, list[str]] = {}
         for name, parameter in inspect.signature(function).parameters.items():
             written = parameter.annotation
             if isinstance(written, str):
                 written = eval(written, {}, names)
             kinds[name] = _ANYTHING if written is parameter.empty else _kind_of(written)
-            if parameter.kind is parameter.VAR_POSITIONAL:
-                others = name
-            elif parameter.kind is parameter.VAR_KEYWORD:
-                further = name
-            elif parameter.kind is not parameter.KEYWORD_ONLY:
-                places.append(name)
-        return cls(tuple(places), others, further, kinds)
+            of_kind.setdefault(parameter.kind, []).append(name)
+        only, both, others, further = (of_kind.get(kind, []) for kind in _BY_PLACE)
+        return cls((*only, *both), "".join(others), "".join(further), kinds)
 
     def check(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> None:
         """Refuse the first argument that is not of its kind; Python itself refuses too many and too few."""
-        for name, value in chain(zip(chain(self.places, repeat(self.others)), args, strict=False), kwargs.items()):
-            kind = self.kinds.get(name) or self.kinds[self.further]
+        placed = ((self.places[n] if n < len(self.places) else self.others, value) for n, value in enumerate(args))
+        for name, value in placed:
+            if not self.kinds[name].holds(value):
+                raise InputError(name, value, self.kinds[name].words)
+        for name, value in kwargs.items():
+            kind = self.kinds[name if name in self.kinds else self.further]
             if not kind.holds(value):
                 raise InputError(name, value, kind.words)
 
@@ -229,8 +246,9 @@ def _ranged(whole: ArgumentKind, limits: ArgumentKind) -> ArgumentKind:
 
 def _any_of(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
     *words, last = dict.fromkeys(kind.words for kind in kinds if kind.words)
-    allowed = f"{', '.join(words)} or {last}" if words else last
-    return ArgumentKind(lambda value: any(kind.holds(value) for kind in kinds), allowed)
+    return ArgumentKind(
+        lambda value: any(kind.holds(value) for kind in kinds), f"{', '.join(words)} or {last}" if words else last
+    )
 
 
 def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
@@ -239,8 +257,9 @@ def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
         return fits and all(kind.holds(part) for kind, part in zip(kinds, value, strict=True))
 
     words = list(dict.fromkeys(kind.words for kind in kinds))
-    which = f"{'each' if len(words) == 1 else 'namely'} {', '.join(words)}"
-    return ArgumentKind(holds, f"{len(kinds)} values in brackets, {which}")
+    return ArgumentKind(
+        holds, f"{len(kinds)} values in brackets, {'each' if len(words) == 1 else 'namely'} {', '.join(words)}"
+    )
 
 
 def _several(one: ArgumentKind, container: Any) -> ArgumentKind:

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence, Set, Sized
 from enum import Enum
 from importlib import import_module
 from numbers import Complex
-from operator import attrgetter
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar, overload
 
@@ -135,13 +134,26 @@ def format_value(kind: str, value: object, scales: Any) -> str:
 
 
 def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, Any]:
-    """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``, ``kind="edge.kind"``."""
+    """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``, ``kind="edge.kind"``.
+
+    What has a method ``document`` is given by that; of ``None`` every attribute is ``None``.
+    """
     keys = dict(zip(names, names, strict=True)) | renamed
-    values = {key: attrgetter(name)(entry) for key, name in keys.items()}
-    return {
-        key: value.tolist() if isinstance(value, np.ndarray) else list(value) if type(value) is tuple else value
-        for key, value in values.items()
-    }
+    return {key: _plain(_attribute(entry, name)) for key, name in keys.items()}
+
+
+def _attribute(entry: Any, path: str) -> Any:
+    for name in path.split("."):
+        entry = None if entry is None else getattr(entry, name)
+    return entry
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if type(value) is tuple:
+        return [_plain(each) for each in value]
+    return value.document() if hasattr(value, "document") else value
 
 
 def record(entry: object, columns: str, scales: Any = None) -> dict[str, Any]:

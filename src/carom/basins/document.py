@@ -44,7 +44,7 @@ def basin_document(
         **_loss(smallest, basin, "kick"),
         "harmless_kick": contact_free,
         "recovered": _share(basin.share_recovered),
-        "share": basin.share_recovered.document,
+        "share": basin.share_recovered.document(),
         "touching": int(basin.touched.sum()),
         "touching_recovered": int((basin.touched & basin.recovered).sum()),
         **basin.rotor.document(),

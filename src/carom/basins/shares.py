@@ -137,7 +137,6 @@ class Share:
             how = f"{self.count:,} of {self.total:,} cells of a grid, weighed by area, each represented by its middle{error}"
         return f"{percent(self.fraction)} of {self.population.words} {self.does} ({how})"
 
-    @property
     def document(self) -> dict[str, Any]:
         """The share as plain data for JSON."""
         of = self.population

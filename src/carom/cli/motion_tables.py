@@ -21,8 +21,7 @@ from carom.motions import Trajectory, drop_loads
 from carom.parameters.formats import complex_words, format_angle, format_quantity, number, shown_from_si
 from carom.parameters.indentation import indentation_of_impact
 from carom.studies import LoadCheck, Wording
-from carom.studies.load_checks import checks_of_planes
-from carom.studies.load_tables import load_tables
+from carom.studies.drops import checks_of_planes, load_tables
 from carom.studies.wording import counted, listed, no_rigid_wall
 
 if TYPE_CHECKING:

@@ -58,7 +58,7 @@ def orbits(
 
         if impacts is not None:
             found = find_orbits(case, impacts=impacts, guesses=guesses, progress=tell)
-            document = found_orbits_document(case.parameters, found)
+            document = found_orbits_document(found)
         else:
             tell(0.3)
             steady, whirls = steady_motions(model), [] if exact else _whirls(model)

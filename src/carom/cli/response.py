@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from carom.disturbances.echo import Echo
     from carom.parameters import Case
-    from carom.studies.response import UnbalanceResponse
+    from carom.studies import UnbalanceResponse
 
 
 FROM = option(
@@ -80,7 +80,7 @@ def _read(
 
 def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     from carom.cli.fitting import print_table
-    from carom.studies.response_words import rpm
+    from carom.studies.wording import rpm
 
     screen = console()
     screen.print(f"{found.case.name}: response to the unbalance")
@@ -110,7 +110,7 @@ def _print_bearings(screen: Console, found: UnbalanceResponse) -> None:
 
     from carom.cli.fitting import print_table
     from carom.parameters.formats import number
-    from carom.studies.response_words import micrometres, rpm
+    from carom.studies.wording import micrometres, rpm
 
     now = found.now
     columns = ("touchdown bearing", "amplitude, 0-to-peak", "forward", "backward", "sag", "share of clearance", "lag")

@@ -11,8 +11,7 @@ from carom.disturbances.plans import ITS_INSTANT
 from carom.models import Rotor, axis
 from carom.parameters import in_terms_of
 from carom.studies import Study
-from carom.studies.kinds import Kind, required_kinds
-from carom.studies.questions import MANY_MODES
+from carom.studies.questions import MANY_MODES, Kind, required_kinds
 from carom.studies.wording import entry_words
 
 CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
@@ -82,7 +81,7 @@ def _basin(rotor: Rotor, model: Disturbance, kind: Kind) -> Cells:
 
 def _required(study: Study, kind: Kind) -> float:
     """Size of a kind that must be survived."""
-    return dict(required_kinds(study.required))[kind]
+    return next(size for each, size, _ in required_kinds(study.required) if each == kind)
 
 
 def _disturbances(study: Study, kind: Kind) -> Disturbance:

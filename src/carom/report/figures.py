@@ -20,7 +20,7 @@ from carom.report import basins
 from carom.report.figure_files import ReportPicture
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
-from carom.studies.kinds import LABELS
+from carom.studies.questions import LABELS
 from carom.studies.response import unbalance_response
 
 if TYPE_CHECKING:

@@ -18,10 +18,9 @@ from carom.report.figures import pictures
 from carom.report.html import InlineFigure, page_template, versions
 from carom.studies import Study
 from carom.studies.advice_facts import BEYOND, CHANGES
-from carom.studies.coverage import not_covered
 from carom.studies.facts import Fact, about, paragraphs
-from carom.studies.levitating import Levitating
-from carom.studies.levitation_facts import frequency_words
+from carom.studies.findings import not_covered
+from carom.studies.levitating import Levitating, frequency_words
 from carom.studies.summaries import (
     MotionRow,
     motion_rows,

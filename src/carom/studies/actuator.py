@@ -102,25 +102,25 @@ class BearingDemand:
     @property
     def words(self) -> str:
         """What the limits do in the motions, and what is asked for of the rate of the current."""
-        sentences = []
+        words = ""
         if self.control is not None:
             back = f", and {self.came_back_at_limit} of these came back" if self.at_limit else ""
-            sentences.append(
+            words = (
                 f"The magnetic bearings give {self.control.words}: in every motion that was followed they do no more than that. "
-                f"{self.at_limit or 'None'} of {self.total} disturbances bring them to this limit{back}."
+                f"{self.at_limit or 'None'} of {self.total} disturbances bring them to this limit{back}. "
             )
         if self.slew is not None and self.demand is not None:
-            sentences.append(
+            words += (
                 f"The current of one magnetic bearing changes by at most {number(self.slew.most)} A/s, which the motions leave out: "
                 f"what must be survived asks for up to {number(self.demand, 3)} times that."
             )
-        return " ".join(sentences)
+        return words.rstrip()
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
         return {
             "control": self.control and record(self.control, "force_si=force pull_si=pull"),
-            "slew_rate": self.slew and {"limit_si": self.slew.most, "demand": self.demand},
+            "slew_rate": self.slew and record(self, "limit_si=slew.most demand"),
             "disturbances": record(self, "at_limit came_back_at_limit"),
         }
 
@@ -149,14 +149,11 @@ def bearing_demand(case: Case, found: AttractorSet, required: Iterable[Sample]) 
     if control is None and slew is None:
         return None
     tried = found.disturbances if control else ()
-    at_limit = [
-        ending.recovered
-        for ending in tried  # until their ends are known
-        if (simulate(ending.rotor, ending.start.state, max(ending.time, SHORTEST)).segment_limits > WITHIN).any()
-    ]
-    return BearingDemand(
-        control, slew, asked_by(case, required) if slew else None, len(at_limit), sum(at_limit), len(tried)
-    )
+    # Until their ends are known.
+    motions = ((each, simulate(each.rotor, each.start.state, max(each.time, SHORTEST))) for each in tried)
+    back = [each.recovered for each, motion in motions if (motion.segment_limits > WITHIN).any()]
+    demand = asked_by(case, required) if slew else None
+    return BearingDemand(control, slew, demand, len(back), sum(back), len(tried))
 
 
 def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:

@@ -34,8 +34,6 @@ from carom.studies.document import study_document
 from carom.studies.drops import drop_of
 from carom.studies.facts import Fact
 from carom.studies.findings import facts_of
-from carom.studies.full_size import FullSize, at_full_size
-from carom.studies.kinds import required_disturbances
 from carom.studies.levitating import levitating
 from carom.studies.questions import (
     ALONG,
@@ -45,10 +43,11 @@ from carom.studies.questions import (
     FULL_SIZE,
     PRESENT,
     events_for,
+    required_disturbances,
 )
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.study_data import StudyData
-from carom.studies.survives import Survives, comes_to_rest, decides, survives, unrecovered_kinds
+from carom.studies.survives import FullSize, Survives, at_full_size, comes_to_rest, decides, survives, unrecovered_kinds
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
@@ -261,14 +260,11 @@ def _attractors(asked: Asked, tell: Reporter) -> AttractorSet:
     return find_attractors(asked.rotor, described, progress=tell)
 
 
-_WORDS = {"kick": "kicks", "shock": "shocks", "blade-loss": "losses of a blade"}
-
-
 def _present(asked: Asked, tell: Reporter) -> Check:
     """Fresh disturbances at the machine's own gains, of planar rotors more if all came back."""
     rotor, checks, events = asked.rotor, [], events_for(asked.rotor, PRESENT) // len(asked.tried)
     for sample, more in zip(in_all(asked.tried, FIRST), in_all(asked.tried, FRESH), strict=True):
-        with asked.budget.question(PRESENT.format(_WORDS[sample.model.kind]), events):
+        with asked.budget.question(PRESENT.format(sample.model.noun), events):
             check = check_recovery(rotor, [sample], seed=SEED)
             wanted = check.recovers and rotor.system.is_planar
             checks.append(check_recovery(rotor, [more], seed=SEED) if wanted else check)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,11 @@ from scipy.optimize import brentq, minimize_scalar  # type: ignore[import-untype
 from carom.base.results import record
 from carom.models import Subject, rotor_of
 from carom.parameters.fields import RPM
+from carom.parameters.formats import number
 from carom.rotors import WhirlMode
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
-from carom.studies.standards import Side, required_margin
+from carom.studies.standards import CRITICALLY_DAMPED, Side, required_margin
+from carom.studies.wording import micrometres, rpm
 
 HALF_POWER = math.sqrt(0.5)
 SEARCHED_RANGE = (0.25, 1.5)
@@ -25,6 +26,8 @@ SPEEDS = 400
 """Number of speeds of a curve."""
 NARROW = 0.2
 """Damping ratio below which the response is computed densely about a whirl."""
+MEASURED_AT = {"sensors": "sensors of magnetic bearing", "touchdowns": "touchdown bearing"}
+"""What the number of a bearing counts, by what is measured there."""
 REFINED, UNDAMPED = 1e-9, 1e-7
 """Relative width to which a peak is refined, and that of a peak that counts as one without damping."""
 CRITICAL = (
@@ -43,11 +46,14 @@ class Separation:
         Where the critical speed lies: below the operating speeds, among them or above.
     actual, required : float
         Distance as a share of the nearest operating speed, and the least that is required.
+    operating : float
+        That speed, rad/s.
     """
 
     side: Side
     actual: float
     required: float
+    operating: float
 
     @classmethod
     def of(cls, critical: float, operating: tuple[float, float], factor: float | None) -> Separation:
@@ -55,7 +61,7 @@ class Separation:
         low, high = operating
         side: Side = "below" if critical < low else "above" if critical > high else "inside"
         actual = {"below": 1.0 - critical / low, "inside": 0.0, "above": critical / high - 1.0}[side]
-        return cls(side, actual, required_margin(factor, side))
+        return cls(side, actual, required_margin(factor, side), low if side == "below" else high)
 
     @property
     def met(self) -> bool:
@@ -69,7 +75,7 @@ class Critical:
 
     Attributes
     ----------
-    bearing : int
+    measured_at, bearing : str, int
         Where, from 1: the magnetic bearing whose sensors measure it, or the touchdown bearing of a machine without sensors.
     speed : float
         rad/s.
@@ -84,12 +90,29 @@ class Critical:
         From the operating speeds.
     """
 
+    measured_at: str
     bearing: int
     speed: float
     amplitude: float
     factor: float | None
     half_power: tuple[float, float] | None
     separation: Separation
+
+    @property
+    def words(self) -> str:
+        """The peak with its separation in a sentence."""
+        margin, factor = self.separation, self.factor
+        if factor == math.inf:
+            return f"{rpm(self.speed)}; without damping the amplification factor is infinite."
+        text = f"{rpm(self.speed)}, {micrometres(self.amplitude)} 0-to-peak at {self.measured_at} {self.bearing}"
+        if factor is not None:
+            text += f"; amplification factor {number(factor, 3)}"
+        if factor is None or factor < CRITICALLY_DAMPED:
+            return f"{text}; critically damped: API 617 requires no separation margin."
+        inside = margin.side == "inside"
+        where = "at" if inside else f"{number(100.0 * margin.actual, 3)} % {margin.side}"
+        required = f"required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
+        return f"{text}, {where} {rpm(margin.operating)}, {required}"
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
@@ -127,42 +150,34 @@ def response_curve(
         )
 
     found = inside(np.concatenate(speeds))
-    criticals = criticals_of(found, operating, lambda speed: synchronous_response(machine, [speed]))
+    criticals = _criticals(machine, found, operating)
     peaks = [each.speed for each in criticals]
     return inside(np.append(found.speeds, peaks)) if peaks else found, criticals
 
 
-def criticals_of(
-    found: SynchronousResponse, operating: tuple[float, float], at: Callable[[float], SynchronousResponse]
-) -> tuple[Critical, ...]:
+def _criticals(machine: Subject, found: SynchronousResponse, operating: tuple[float, float]) -> tuple[Critical, ...]:
     """Peaks of what the sensors measure, or of the whirl at the touchdown bearings of a machine without sensors, refined between the speeds of a curve."""
     measured = "sensors" if found.sensors.forward.shape[1] else "touchdowns"
     criticals = []
     for bearing, sizes in enumerate(getattr(found, measured).major.T):
-        size = partial(_size, at, measured, bearing)
+
+        def size(speed: float, bearing: int = bearing) -> float:
+            return float(getattr(synchronous_response(machine, [speed]), measured).major[0, bearing])
+
         inner = (sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:])
         for place in (np.flatnonzero(inner) + 1).tolist():
-            peak, half = _refined(found.speeds, sizes, place, size)
-            width = half[1] - half[0] if half else math.inf
-            factor = None if width == math.inf else peak / width if width > UNDAMPED * peak else math.inf
+            low, middle, high = found.speeds[place - 1 : place + 2].tolist()
+            options = {"xatol": REFINED * middle}
+            near = minimize_scalar(
+                lambda at, size=size: -size(at), bounds=(low, high), method="bounded", options=options
+            )
+            peak = max(middle, float(near.x), key=size)
+            half = _half_power(found.speeds, sizes, place, peak, size)
+            width = half[1] - half[0] if half else math.nan
+            factor = peak / width if width > UNDAMPED * peak else math.inf if half else None
             separation = Separation.of(peak, operating, factor)
-            criticals.append(Critical(bearing + 1, peak, size(peak), factor, half, separation))
+            criticals.append(Critical(MEASURED_AT[measured], bearing + 1, peak, size(peak), factor, half, separation))
     return tuple(criticals)
-
-
-def _size(at: Callable[[float], SynchronousResponse], measured: str, bearing: int, speed: float) -> float:
-    """Amplitude 0-to-peak at a bearing at one speed."""
-    return float(getattr(at(speed), measured).major[0, bearing])
-
-
-def _refined(
-    speeds: np.ndarray, sizes: np.ndarray, place: int, size: Callable[[float], float]
-) -> tuple[float, tuple[float, float] | None]:
-    """Speed of a peak next to one of a curve, and those at which it has fallen to 0.707 of its height."""
-    ends, options = (speeds[place - 1], speeds[place + 1]), {"xatol": REFINED * speeds[place]}
-    near = minimize_scalar(lambda speed: -size(speed), bounds=ends, method="bounded", options=options).x
-    peak = max(float(speeds[place]), float(near), key=size)
-    return peak, _half_power(speeds, sizes, place, peak, size)
 
 
 def _half_power(

@@ -27,7 +27,7 @@ from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Case, Parameters
 from carom.parameters.columns import Column, keys_of
 from carom.parameters.formats import complex_words, format_quantity
-from carom.parameters.indentation import indentation_of_force, indentation_of_impact, is_compliant
+from carom.parameters.indentation import is_compliant
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
 from carom.studies.motion_documents import SCALES, STATE
@@ -36,7 +36,7 @@ from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
-from carom.studies.wording import Wording, counted
+from carom.studies.wording import Wording, counted, indentation_of_steel
 
 
 def _number(name: str) -> Any:
@@ -80,6 +80,7 @@ ATTRACTOR = (
     "known_starts=known largest_impulse: largest_force:"
 )
 DISTURBANCES = "fastest patience smallest_unrecovered_kick:velocity"
+STUDY = "zone survives levitating bearing_demand full_size drop proof kick_proof=kicks.proof"
 THRESHOLD = "motion kind=edge.kind exists parameter value=edge.value period=edge.period"
 SHARE = "tried=total came_back=count"
 
@@ -101,10 +102,10 @@ def orbits_document(
 
 
 @checked
-def found_orbits_document(parameters: Parameters | Rotor, found: OrbitSet) -> dict[str, Any]:
+def found_orbits_document(found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
     return {
-        **({"parameters": parameters.as_dict()} if isinstance(parameters, Parameters) else found.rotor.document()),
+        **found.rotor.document(),
         "impacts": found.impacts,
         "orbits": [_found_orbit(entry) for entry in found],
         "search": search_document(found.search) if found.search else None,
@@ -114,13 +115,11 @@ def found_orbits_document(parameters: Parameters | Rotor, found: OrbitSet) -> di
 
 def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
     """With what happens in a period, and the largest radius, depth and force at any touchdown bearing."""
-    extremes = record(orbit.extremes, "largest_radius=radius deepest=depth peak_force=force:force", orbit.rotor.scales)
-    turns = {} if orbit.turns is None else {"turns": orbit.turns}
     return {
         **_orbit(orbit),
         **record(orbit, keys_of(FOUND_ORBIT)),
-        **extremes,
-        **turns,
+        **record(orbit.extremes, "largest_radius=radius deepest=depth peak_force=force:force", orbit.rotor.scales),
+        **_turns(orbit),
         "contacts": [
             {
                 "kind": "impact" if kind.startswith("impact") else kind.rstrip("+-"),
@@ -133,6 +132,10 @@ def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
     }
 
 
+def _turns(orbit: Orbit | SimulatedOrbit | None) -> dict[str, Any]:
+    return {} if orbit is None or orbit.turns is None else {"turns": orbit.turns}
+
+
 def attractors_document(
     rotor: Rotor, found: AttractorSet, exponents: Sequence[LyapunovExponents | None] | None = None
 ) -> dict[str, Any]:
@@ -140,16 +143,16 @@ def attractors_document(
     total, share = len(found.disturbances), share_of_kicks(found)
     entries = [_seen(entry, total) for entry in found]
     for entry, known in zip(entries, exponents or (), strict=False):
-        entry["exponents"] = None if known is None else record(known, EXPONENTS)
+        entry["exponents"] = known and record(known, EXPONENTS)
     return {
         **rotor.document(),
         "attractors": entries,
-        "share": share.document if share else None,
+        "share": share.document() if share else None,
         "disturbances": found.words(),
         "starts": total,
         "known_starts": len(found.endings) - total,
         "seed": getattr(found.sample, "seed", None),
-        "irregular_transient": document_of(found.transient) if found.transient else None,
+        "irregular_transient": found.transient and document_of(found.transient),
         "argument": found.argument,
     }
 
@@ -201,7 +204,7 @@ def _seen(entry: Attractor, total: int) -> dict[str, Any]:
     return {
         **record(entry, keys_of(SEEN)),
         "word": str(orbit.word) if orbit else None,
-        **({"turns": orbit.turns} if orbit and orbit.turns is not None else {}),
+        **_turns(orbit),
         "impacts": _impacts(entry),
         "period": orbit.period if orbit else entry.period,
         "share": [entry.share_of_disturbances, *_interval(entry, total)],
@@ -212,63 +215,48 @@ def _seen(entry: Attractor, total: int) -> dict[str, Any]:
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study, with all its results."""
     case, rotor, say, scales = study.case, study.rotor, study.wording, study.rotor.scales
-
-    def of(part: Any) -> Any:
-        return part.document() if part else None
-
     return {
         "name": case.name,
         "carom": version("carom"),
         **orbits_document(rotor, study.equilibria, study.orbits, case),
-        "scales_si": record(scales, SCALES) if scales else None,
-        "levitating": study.levitating.document(),
-        "reduction": record(study.reduced, "vectors modes error") | {"error_is": "an estimate, no bound"}
-        if study.reduced
-        else None,
-        "zone": study.zone,
+        "scales_si": scales and record(scales, SCALES),
+        "reduction": study.reduced
+        and {**record(study.reduced, "vectors modes error"), "error_is": "an estimate, no bound"},
         "zone_limits": list(case.zones.limits),
         "verdict": record(verdict, "level outcome reason headline"),
         "requirement": study.requirement_document(),
-        "survives": of(study.survives),
-        "share": study.share.document if study.share and study.share.total else None,
-        "not_reached": [record(each, UNFINISHED) for each in study.unfinished],
+        "share": study.share.document() if study.share and study.share.total else None,
         "facts": [fact.document() for fact in facts],
+        "not_reached": [record(each, UNFINISHED) for each in study.unfinished],
         "thresholds": [
             record(each, THRESHOLD) | say.in_si(each.parameter, value=each.edge.value) for each in study.thresholds
         ],
         "ranges": [
             record(entry, "motion parameter step")
-            | {"spans": _spans(entry.spans), "searched": _spans((entry.searched,))[0] if entry.searched else None}
+            | {"spans": _spans(entry.spans), "searched": entry.searched and _spans((entry.searched,))[0]}
             for entry in study.ranges
         ],
-        "present": _check(study.present) if study.present else None,
+        "present": study.present and _check(study.present),
         "recovery": [_recovery(entry, say) for entry in study.recoveries],
         "recommendation": study.recommendation.document(say),
         "attractors": [_attractor(entry, rotor) for entry in study.attractors],
+        **record(study, STUDY),
         "rolling": _rolling(study),
         "disturbances": _disturbances(study.attractors, rotor),
-        "bearing_demand": of(study.bearing_demand),
-        "full_size": [each.document() for each in study.full_size],
-        "drop": of(study.drop),
-        "proof": of(study.proof),
-        "kick_proof": of(study.kicks and study.kicks.proof),
     }
 
 
 def _equilibrium(entry: SteadyMotion, rotor: Rotor) -> dict[str, Any]:
     columns = "kind U=position radius: normal_force: status stable eigenvalues"
     document = record(entry, f"{columns} sag whirl" if isinstance(entry, Levitation) else columns, rotor.scales)
-    if rotor.scales is not None and entry.kind == "rub":
-        document |= _wall(indentation_of_force(rotor.in_rigid_wall, entry.normal_force))
-    return document
+    return document | _wall(rotor, force=entry.normal_force) if entry.kind == "rub" else document
 
 
 def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
     document, own = record(entry, keys_of((*ORBIT, *MULTIPLIERS)), entry.scales), entry.scales
     if own is not None:
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
-        document |= _wall(indentation_of_impact(entry.rotor.in_rigid_wall, entry.radial_speed))
-    return document
+    return document | _wall(entry.rotor, impulse=entry.impulse)
 
 
 def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
@@ -298,47 +286,40 @@ def _check(check: Check) -> dict[str, Any]:
 
 
 def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, Any]:
-    at = rotor.in_rigid_wall
     document = record(entry, ATTRACTOR, rotor.scales) | document_of(entry.survival)
-    if at is not None:
-        by_impulse = indentation_of_impact(at, entry.largest_impulse / (1.0 + at.d))
-        document |= _wall(max(by_impulse, indentation_of_force(at, entry.largest_force)))
-    return document
+    return document | _wall(rotor, entry.largest_impulse, entry.largest_force)
 
 
 def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, Any]:
-    scales, at, hardest, touched = rotor.scales, rotor.in_rigid_wall, hardest_impulse(found), touching(found)
-    document = {
+    hardest, touched = hardest_impulse(found), touching(found)
+    return {
         "seed": getattr(found.sample, "seed", None),
-        **record(found, DISTURBANCES, scales),
+        **record(found, DISTURBANCES, rotor.scales),
         "words": found.words(),
         "count": len(found.disturbances),
         "recovered": came_back(found.disturbances),
         "touching": len(touched),
         "touching_recovered": came_back(touched),
-        "irregular_transient": document_of(found.transient) if found.transient else None,
+        "irregular_transient": found.transient and document_of(found.transient),
         "starts": [
             record(ending, "kind=start.kind attractor time impacts hardest_impulse")
             | {"start": record(ending.start.state, STATE)}
             for ending in found.endings
         ],
+        **({"hardest_impulse_si": hardest * rotor.scales.impulse} if rotor.scales else {}),
+        **_wall(rotor, hardest),
     }
-    if scales is not None:
-        document["hardest_impulse_si"] = hardest * scales.impulse
-    return document if at is None else document | _wall(indentation_of_impact(at, hardest / (1.0 + at.d)))
 
 
-def _wall(indentation: float) -> dict[str, Any]:
+def _wall(rotor: Rotor, impulse: float = 0.0, force: float = 0.0) -> dict[str, Any]:
     """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid; nothing if unknown."""
-    if math.isnan(indentation):
-        return {}
-    return {"indentation": indentation, "rigid_wall": not is_compliant(indentation)}
+    indentation = indentation_of_steel(rotor, impulse, force)
+    return {} if math.isnan(indentation) else {"indentation": indentation, "rigid_wall": not is_compliant(indentation)}
 
 
 def _rolling(study: StudyData) -> dict[str, Any] | None:
     """Return whether rolling backward whirl sustains itself, with its speed and force; ``None`` without a closed form."""
-    roll, scales = study.known.rolls, study.rotor.scales
+    roll, rotor = study.known.rolls, study.rotor
     if roll is None:
         return None
-    wall = _wall(indentation_of_force(study.rotor.in_rigid_wall, roll.largest_force)) if scales else {}
-    return record(roll, "holds speed largest_force:", scales) | wall
+    return record(roll, "holds speed largest_force:", rotor.scales) | _wall(rotor, force=roll.largest_force)

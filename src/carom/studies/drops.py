@@ -1,29 +1,223 @@
-"""A drop for the designer of a touchdown bearing: its loads in words and as JSON, against the limits that are stated."""
+"""Loads of touchdowns over all stages of a motion, against limits, in rows for people and as JSON; and a drop for the designer of a touchdown bearing."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.attractors import MotionName
+from carom.base.arguments import checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.results import Result, record
 from carom.disturbances import Drop, drop
 from carom.disturbances.drops import ASSUMED
 from carom.disturbances.echo import Echo
 from carom.models import Rotor, rotor_of
-from carom.motions import DropLoads, Trajectory, drop_loads, simulate
+from carom.motions import Braking, DropLoads, LastWhirl, TouchdownLoads, Trajectory, drop_loads, simulate
+from carom.motions.loads import MEASURED
 from carom.motions.starts import State
-from carom.parameters import Case
+from carom.parameters import LIMIT_FIELDS, Case, LoadLimits
+from carom.parameters.formats import number
 from carom.rotors.reduction_errors import ReductionError, reduction_error
-from carom.studies.load_checks import LoadCheck, checks_of_planes
-from carom.studies.load_tables import load_entries, load_tables
 from carom.studies.wording import Wording
 
+PLANE = "is_compliant contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
+LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
+_IN_BOTH = (
+    ("restitution seen", "{restitution} in the fastest impact"),
+    ("slip energy (heat)", "{heat}"),
+    ("heating goes on", "with {lasting_power}"),
+    ("friction power", "up to {power}"),
+    ("race", "{race_at_end:speed} at the end, at most {fastest_race:speed}"),
+    ("in contact to the end", "since {in_contact_since:time} after {since}"),
+)
+COMPLIANT = (
+    ("peak force", "{force}, {force_at:time} after {since}"),
+    ("depth", "{depth}"),
+    ("pressure of balls", "{pressure:pressure} on the most loaded one"),
+    ("largest impulse", "{impulse}, {impulse_at:time} after {since} (that of one contact)"),
+    ("contacts", "{contacts:contact}, {contact_time} in contact"),
+    ("of which it left", "{bounces:bounce}"),
+    *_IN_BOTH,
+)
+RIGID = (
+    ("hardest impact", "impulse {impulse}, {impulse_at:time} after {since}; a rigid wall has no peak force"),
+    ("contacts", "{contacts:impact}"),
+    ("lasting contact", "force up to {force}, {contact_time} together"),
+    *_IN_BOTH,
+)
+"""What people see of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
+WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
 MOST_EVENTS = 20_000
-DROP, SHAFT = "time: settled_at:time outcome=outcome.label meaning=outcome.meaning", "speed_at_end:speed left_out:speed"
+DROP, SHAFT = (
+    "time: settled_at:time outcome=outcome.label meaning=outcome.meaning magnets",
+    "speed_at_end:speed left_out:speed",
+)
+
+
+@dataclass(frozen=True)
+class LoadCheck:
+    """A load against its limit, in the SI unit of the limit.
+
+    Attributes
+    ----------
+    name : {"impulse", "force", "power", "heat", "depth", "pressure", "impacts"}
+    value : float
+        Load of the motion, up to where its end was known.
+    limit : float
+    endless : bool
+        Whether the load goes on growing, because the motion has settled in contact.
+    after : float
+        Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
+    touchdown_bearing : int or None
+        Counted from 1, of a rotor with several.
+    """
+
+    name: str
+    value: float
+    limit: float
+    endless: bool
+    after: float
+    touchdown_bearing: int | None = None
+
+    @property
+    def exceeded(self) -> bool:
+        """Whether the load exceeds its limit, now or if the motion goes on."""
+        return self.value > self.limit or self.endless
+
+    @property
+    def words(self) -> str:
+        """The check in words."""
+        value, limit = (LoadLimits.format(self.name, each) for each in (self.value, self.limit))
+        where = "" if self.touchdown_bearing is None else f" at touchdown bearing {self.touchdown_bearing}"
+        text = f"{LIMIT_FIELDS[self.name].words}{where}: {value}, limit {limit}"
+        if self.value > self.limit:
+            return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
+        if not self.endless:
+            return f"{text}: kept"
+        when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
+        return f"{text}: exceeded{when}, as the motion goes on in contact"
+
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON; values in the SI unit of the limit."""
+        return record(self, "name exceeded endless value_si=value limit_si=limit reached_after_si=after")
+
+
+@checked
+def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
+    """Compare the loads of a motion with the limits that are stated; nothing without scales.
+
+    Heat and impacts of a motion that has settled in contact have no end, so they exceed any limit in time.
+
+    Raises
+    ------
+    InputError
+        There is a limit of the pressure, but the touchdown bearing does not state its balls.
+    """
+    si = loads.si()
+    if si is None:
+        return ()
+    if limits.pressure is not None and loads.pressure is None:
+        raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
+    values = {**si, "impacts": float(loads.contacts)}
+    found = []
+    for name, limit in limits.given.items():
+        grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.goes_on_bouncing}
+        endless, value = grows.get(name, False), values[name]
+        after = math.inf
+        if value > limit:
+            after = 0.0
+        elif endless and name == "heat":
+            after = (limit - value) / si["lasting_power"]
+        found.append(LoadCheck(name, value, limit, endless, after))
+    return tuple(found)
+
+
+def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
+    """The loads of all planes against the limits that are stated; of several the checks name theirs."""
+    several = len(loads.planes) > 1
+    return tuple(
+        replace(check, touchdown_bearing=place if several else None)
+        for place, plane in enumerate(loads.planes, start=1)
+        for check in check_loads(plane, limits)
+    )
+
+
+def worst_of(checks: Iterable[Sequence[LoadCheck]]) -> tuple[LoadCheck, ...]:
+    """The worst check of each limit over several motions."""
+    return tuple(
+        max(each, key=lambda check: (check.exceeded, check.value > check.limit, check.value))
+        for each in zip(*checks, strict=True)
+    )
+
+
+def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str, str]]]]:
+    """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``."""
+    planes = loads.planes
+    tables = [
+        (f"Touchdown bearing {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since))
+        for each in planes
+    ]
+    if loads.shaft is not None:
+        tables[-1][1].append(("shaft", _shaft_words(loads.shaft)))
+    return tables
+
+
+def _shaft_words(shaft: Braking) -> str:
+    """Its speed at the end, and what the drive would do where its torque is left out."""
+    before, end = (Wording(shaft.scales).write(each, "speed") for each in (1.0, shaft.speed_at_end))
+    text = f"{end} at the end, {before} before"
+    if shaft.left_out == 0.0:
+        return text
+    change = f"{'add' if shaft.left_out > 0.0 else 'take'} {Wording(shaft.scales).write(abs(shaft.left_out), 'speed')}"
+    return f"{text}; the torque of the drive is left out in flight, where it would {change}"
+
+
+def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
+    """The loads of each plane as JSON, with the limits."""
+    return [_entry(plane, limits) for plane in loads.planes]
+
+
+def _rows(plane: TouchdownLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
+    if plane.is_compliant and plane.force_at is None:
+        rows = [("peak force", "none: it did not touch")]
+    else:
+        rows = Wording(plane.scales).rows(COMPLIANT if plane.is_compliant else RIGID, plane, since=since)
+    return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, outcome))]
+
+
+def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
+    whirl = plane.whirl
+    entry = {"touchdown_bearing": plane.plane + 1, **record(plane, PLANE, plane.scales)}
+    entry["loads"] = record(plane, LOADS, plane.scales)
+    if plane.pressure is not None:
+        entry["loads"]["pressure_si"] = plane.pressure
+    if not plane.is_compliant:
+        # Impacts on a rigid wall have no force; this one is that of lasting contact.
+        entry["loads"]["force_is_of_lasting_contact"] = True
+    entry["whirl"] = whirl and record(whirl, WHIRL, whirl.scales)
+    if whirl is not None and whirl.frequency_si is not None:
+        entry["whirl"]["frequency_si"] = whirl.frequency_si
+    entry["limits"] = [check.document() for check in check_loads(plane, limits)]
+    return entry
+
+
+def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
+    """Sense and frequency, and whether it goes on."""
+    turns = number(whirl.lasted / (2.0 * math.pi), 3)
+    if whirl.direction is None:
+        return "none"
+    rate = f"{number(abs(whirl.angular_speed), 4)} Ω"
+    if whirl.frequency_si is not None:
+        rate = f"{number(whirl.frequency_si, 4)} Hz ({number(abs(whirl.angular_speed), 3)} times the shaft)"
+    if whirl.goes_on:
+        return f"{whirl.direction}, {rate}; it goes on"
+    seen = "and is not known to go on" if not outcome.settled else "in the mean"
+    return f"{whirl.direction}, {rate}, over the last {turns} turns of the shaft, {seen}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -83,7 +277,7 @@ class DropStudy(Result):
         """The drop as JSON."""
         case, loads = self.case, self.loads
         gravity, scales = case.gravity or ASSUMED, loads.scales
-        document: dict[str, Any] = {
+        return {
             "name": case.name,
             "disturbance": self.echo.document(scales),
             **rotor_of(case).document(),
@@ -91,12 +285,10 @@ class DropStudy(Result):
             "gravity_assumed": self.assumed,
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **record(loads, DROP, scales),
+            **record(self, "reduction"),
+            "shaft": loads.shaft and record(loads.shaft, SHAFT, scales),
+            "touchdown_bearings": load_entries(loads, case.limits),
         }
-        if loads.shaft is not None:
-            document["shaft"] = record(loads.shaft, SHAFT, scales)
-        shown = {"reduction": self.reduction, "magnets": loads.magnets}
-        document |= {name: part.document() for name, part in shown.items() if part is not None}
-        return document | {"touchdown_bearings": load_entries(loads, case.limits)}
 
 
 def drop_of(case: Case) -> DropStudy | None:

@@ -1,4 +1,4 @@
-"""Every fact of a study, topic by topic: the motions, what disturbances did, what would change it, and what is not covered."""
+"""Every fact of a study, topic by topic: the motions, what disturbances did, loads, what would change it, and what is not covered."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from carom.attractors.names import LEVITATION
 from carom.base.outcome import STEADY_WORDS, Outcome
+from carom.base.results import record
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
@@ -13,21 +14,65 @@ from carom.motions.magnets import pull_words
 from carom.orbits.orbit import Orbit
 from carom.parameters import GRAVITY
 from carom.parameters.formats import number
-from carom.parameters.indentation import indentation_of_force, indentation_of_impact, is_compliant
+from carom.parameters.indentation import is_compliant
+from carom.rotors import ReducedMachine
 from carom.studies.advice_facts import advice_facts
-from carom.studies.coverage import not_covered
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, touching
 from carom.studies.facts import Fact
-from carom.studies.levitation_facts import bearing_facts, critical_speed_facts, levitation_facts
-from carom.studies.proven import proofs_of
-from carom.studies.questions import unfinished_facts
+from carom.studies.levitating import bearing_facts, levitation_facts
+from carom.studies.questions import LABELS, UNFINISHED
 from carom.studies.study_data import StudyData
 from carom.studies.summaries import ranges_along
-from carom.studies.touchdown_facts import accuracy_facts, drop_facts, drop_headline, load_facts
-from carom.studies.verdict import verdict_facts
-from carom.studies.wording import counted, listed, no_rigid_wall, steel_words
+from carom.studies.verdict import proofs_of, verdict_facts
+from carom.studies.wording import Wording, counted, indentation_of_steel, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
+REDUCTION = (
+    "Whether it levitates and all linear results are of all modes. Motions with contact are of {vectors} vectors, {modes} of them modes of the free rotor: "
+    "when the free rotor comes to a touchdown bearing straight, tilting or bending, half as many vectors more change the force of the first contact by {error} %.{damped}"
+)
+DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
+ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
+BORNE = {
+    True: (
+        ("orbit", "orbit up to {radius} from the centre"),
+        ("contacts", "{contacts:contact}, {force}, {contact_time} in contact"),
+    ),
+    False: (
+        ("orbit", "orbit up to {radius} from the centre"),
+        ("impacts", "{contacts:impact}, impulse {impulse}"),
+        ("lasting", "{force} in {contact_time} of lasting contact"),
+    ),
+}
+"""What is stated of a compliant touchdown bearing, and of a rigid one."""
+HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
+NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
+SAMPLED = "Disturbances other than those simulated{but}. They are samples: one between them, or a larger one, may end elsewhere."
+PROVEN_KICKS = ", but for the kicks that are proven to come back"
+LONGER_MOTIONS = (
+    "Periodic motions with two or more impacts a period, bouncing that never repeats, and motions that alternate between bounces and lasting contact. "
+    "They are named only if a simulated disturbance ended in one."
+)
+RIGID_WALL = (
+    "A touchdown bearing that moves, turns or is compliant: the wall is rigid, so the load of an impact is an impulse."
+)
+COMPLIANT_WALL = "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated."
+PLANAR = (
+    "Changes of speed, gravity, a rotor that bends or tilts, and controllers that do more than a spring and a damper."
+)
+LINEAR = "Changes of speed, coefficients of supports at other speeds, and limits of the magnetic bearings that the file does not state."
+SYMMETRY = (
+    f"What rests on the symmetry of a turn: {STEADY_WORDS['rub']}s, orbits in closed form, and that a kick does the same whatever the angle of the "
+    "unbalance is as it acts. Here that is the angle in the machine file; with others some kicks may end elsewhere."
+)
+CLOSED_FORMS = (
+    "What is known in closed form for the planar rotor alone: whether rolling lasts and from which speed whirl runs away to it, for which damping and "
+    "stiffness each motion exists, and that no orbit is missing."
+)
+AT_LIMITS = (
+    "Other angles of the unbalance to the axes of the magnetic bearings, along which their limits act, as a disturbance acts than that of the "
+    "machine file. Saturation of the iron and limits of the voltage are not modelled."
+)
 
 
 def facts_of(study: StudyData) -> Iterator[Fact]:
@@ -37,7 +82,6 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     yield from advice_facts(study)
     yield Fact("Levitation", _levitation(study))
     yield from levitation_facts(study.levitating)
-    yield from critical_speed_facts(study.levitating)
     yield Fact("Rub", _rub(study))
     yield Fact("Bouncing", _bouncing(study))
     yield Fact("Backward whirl", _backward_whirl(study))
@@ -52,9 +96,20 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     yield from load_facts(study)
     yield from drop_facts(study)
     yield from accuracy_facts(study)
-    yield from unfinished_facts(study.unfinished)
+    yield from unfinished_facts(study)
     for text in not_covered(study):
         yield Fact("Not covered", text)
+
+
+def unfinished_facts(study: StudyData) -> Iterator[Fact]:
+    """What was not followed to its end, and how much of it was."""
+    if study.unfinished:
+        shown = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in study.unfinished]
+        text = (
+            f"Not followed to the end: {listed(shown)}. Each question of a study has a fixed number of events, so that "
+            "its answer does not depend on the computer; a time limit ends it earlier."
+        )
+        yield Fact("Not reached", text, values={"questions": [record(each, UNFINISHED) for each in study.unfinished]})
 
 
 def _levitation(study: StudyData) -> str:
@@ -92,7 +147,7 @@ def _rub(study: StudyData) -> str:
     say, rub = study.wording, stable or rubs[0]
     wall = study.rotor.system.contacts[rub.plane].wall
     load = _load(study, rub.normal_force)
-    if wall.friction and not is_compliant(indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)):
+    if wall.friction and not is_compliant(indentation_of_steel(study.rotor, force=rub.normal_force)):
         load += f", and friction would heat the contact with {say.power(wall.friction * rub.normal_force * wall.surface_speed)}"
     coexists = "coexists with levitation" if study.levitates else "exists"
     holds = "is stable: it can hold the rotor" if stable else "is not stable in every direction"
@@ -101,7 +156,7 @@ def _rub(study: StudyData) -> str:
 
 def _load(study: StudyData, force: float) -> str:
     """A force of lasting contact with its multiple of the weight of the rotor, or that no rigid wall bears it."""
-    indentation, scales = indentation_of_force(study.rotor.in_rigid_wall, force), study.rotor.scales
+    indentation, scales = indentation_of_steel(study.rotor, force=force), study.rotor.scales
     if is_compliant(indentation):
         return f"one that the rigid model cannot predict: {steel_words(indentation)}"
     weight = f" ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)" if scales else ""
@@ -110,8 +165,7 @@ def _load(study: StudyData, force: float) -> str:
 
 def _of_impact(study: StudyData, impulse: float) -> str:
     """Return a clause on whether the rigid wall is a valid model for the normal impulse of an impact; empty if it is."""
-    at = study.rotor.in_rigid_wall
-    text = no_rigid_wall(indentation_of_impact(at, impulse / (1.0 + at.d))) if at else ""
+    text = no_rigid_wall(indentation_of_steel(study.rotor, impulse))
     return f"; {text}" if text else ""
 
 
@@ -200,3 +254,87 @@ def _no_return(study: StudyData, runaway: Runaway, roll: Rolling) -> str:
         f"{whirl} times the speed of the shaft). The bearing then carries up to {_load(study, force)}, and in {ROLLING}, where it ends, "
         f"{_load(study, roll.largest_force)}."
     )
+
+
+def load_facts(study: StudyData) -> Iterator[Fact]:
+    """What each kind that must be survived asks of the bearings at its full size, and the worst of all against limits."""
+    for each in study.full_size:
+        label = LABELS[each.kind]
+        size = study.wording.size_of(each.kind)(each.size)
+        lines = [f"{label} of {size}, the worst of {each.back.total} all around, of which {each.back.count} came back:"]
+        several = len(each.bearings) > 1
+        for bearing in each.bearings:
+            borne = Wording(bearing.scales).rows(BORNE[bearing.is_compliant], bearing)
+            at = f"touchdown bearing {bearing.touchdown_bearing}: " if several else ""
+            lines.append(f"{at}{', '.join(text for _, text in borne)}{'' if bearing.contacts else ', no contact'}")
+        if each.whirls:
+            lines.append(f"those that do not come back go round {listed(list(each.whirls))}")
+        yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", label, values=each.document())
+        yield from (Fact("Touchdown loads", f"{label}, {check.words}.", label) for check in each.checks)
+
+
+def drop_headline(study: StudyData) -> Iterator[Fact]:
+    """The drop with its loads, as it belongs to the verdict."""
+    drop = study.drop
+    if drop is None:
+        return
+    shown = [
+        f"{title and f'{title.lower()} '}{', '.join(f'{label} {words}' for label, words in rows if label in HEADLINE) or 'no contact'}"
+        for title, rows in drop.tables
+    ]
+    limits = "" if study.case.limits.given else "; no limit of a touchdown bearing is stated to compare them with"
+    loads = drop.loads
+    ending = "not settled" if loads.outcome is Outcome.TIME_REACHED else loads.outcome.words
+    text = f"{ending} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
+    yield Fact("Verdict", f"{text}{ASSUMED if drop.assumed else ''}", "Drop", "sampled")
+
+
+def drop_facts(study: StudyData) -> Iterator[Fact]:
+    """How the drop ends, and its loads against limits; the verdict has what each bearing bears."""
+    drop = study.drop
+    if drop is None:
+        yield Fact("Drop", NO_DROP if study.levitates else "It does not levitate, so there is no drop.")
+        return
+    yield Fact("Drop", f"{drop.echo.words}. {drop.headline}")
+    for check in drop.checks:
+        yield Fact("Drop", f"{check.words}.")
+
+
+def accuracy_facts(study: StudyData) -> Iterator[Fact]:
+    """What the reduction of a flexible machine leaves out, and how far the linear law of magnets holds."""
+    reduced = study.reduced
+    if reduced is not None:
+        values = {"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes}
+        yield Fact("Accuracy", reduction_words(reduced), values=values)
+    along = [(LABELS[each.kind], found) for each in study.full_size for found in (each.magnets, each.reduction)]
+    if study.drop is not None:
+        along.append(("Drop", study.drop.reduction))
+    for kind, found in along:
+        if found is not None and found.words:
+            yield Fact("Accuracy", f"{kind}, the worst: {found.words}", values=found.document())
+
+
+def reduction_words(reduced: ReducedMachine) -> str:
+    """What the reduction of a machine leaves out."""
+    ratio = reduced.damped.damping_ratio
+    return REDUCTION.format(
+        vectors=reduced.vectors,
+        modes=reduced.modes,
+        error=number(100.0 * reduced.error, 2),
+        damped=DAMPED.format(ratio=number(ratio)) if ratio else "",
+    )
+
+
+def not_covered(study: StudyData) -> tuple[str, ...]:
+    """What the study does not cover, by what the rotor has."""
+    rotor, exact = study.rotor, study.known.orbits
+    shown = {
+        SAMPLED.format(but=PROVEN_KICKS if study.kicks is not None and study.kicks.share else ""): True,
+        LONGER_MOTIONS: True,
+        COMPLIANT_WALL if (rotor.system.arrays["stiffness"] > 0.0).any() else RIGID_WALL: True,
+        PLANAR if exact else LINEAR: True,
+        SYMMETRY: study.under_gravity,
+        CLOSED_FORMS: not exact,
+        AT_LIMITS: bool(rotor.system.limits),
+    }
+    return tuple(text for text, holds in shown.items() if holds)

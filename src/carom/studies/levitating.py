@@ -3,13 +3,13 @@
 Of a flexible machine all this is of all its modes, without the vectors that only contact needs.  Of other rotors the whirls are those of the
 exponents of the equations, and the sensitivity is known in closed form where magnetic bearings with a proportional and a derivative gain hold one
 mass.  With ``F = -(ki P - ks) x - ki D x'`` of all bearings together, ``k = ki P - ks`` and ``c = ki D``, it is ``|S|² = (m y + ks)²/((k - m y)² + c² y)`` with
-the square ``y`` of the frequency.  Its derivative vanishes at one ``y`` alone.
+the square ``y`` of the frequency.  Its derivative vanishes at one ``y`` alone.  In words speeds are in rpm, frequencies in Hz, lengths in µm, in the fixed frame.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -19,6 +19,7 @@ from carom.base.results import Result, record
 from carom.models import Rotor
 from carom.parameters import Case
 from carom.parameters.fields import RPM
+from carom.parameters.formats import number
 from carom.rotors import (
     Campbell,
     FlexibleMachine,
@@ -33,11 +34,18 @@ from carom.rotors.loop_sensitivity import zone_of
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.rotors.whirls import turns
 from carom.studies.critical_speeds import Critical, response_curve, usual_range
+from carom.studies.facts import Fact
+from carom.studies.wording import listed, micrometres, rpm
 
 SLOWEST, FASTEST, FOLLOWED = 0.05, 1.5, 40
 """Multiples of the speed of the machine between which whirls are followed, and the number of speeds."""
 WHIRLS = 10
 COLLOCATION = "bearing frequency_hz=whirl.frequency sense=whirl.sense node_between=opposed node_at=hardly"
+SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
+RULE = (
+    "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width; its annex on magnetic "
+    "bearings may state others."
+)
 
 
 @dataclass(frozen=True)
@@ -48,6 +56,11 @@ class LoopPeak:
     peak: float
     frequency: float
     zone: str | None
+
+    @property
+    def hertz(self) -> float:
+        """The frequency in Hz."""
+        return self.frequency / math.tau
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,17 +103,6 @@ class Levitating(Result):
     collocations: tuple[Collocation, ...] = ()
 
     @property
-    def least_damped(self) -> WhirlMode | None:
-        """The whirl with the smallest damping ratio of those listed."""
-        return min(self.whirls, key=lambda each: each.damping_ratio, default=None)
-
-    @property
-    def measured_at(self) -> str:
-        """Where peaks of the response are measured."""
-        sensors = self.response is not None and self.response.sensors.forward.shape[1]
-        return "sensors of magnetic bearing" if sensors else "touchdown bearing"
-
-    @property
     def met(self) -> bool:
         """Whether every separation that API 617 requires is kept."""
         return all(each.separation.met for each in self.criticals)
@@ -108,21 +110,16 @@ class Levitating(Result):
     def document(self) -> dict[str, Any]:
         """As plain data for JSON, in SI units; planes and bearings count from 1."""
         known, now = self.campbell, self.at_speed
+        speeds = zip(known.speeds.tolist(), known.levitates.tolist(), strict=True) if known else ()
         found: dict[str, Any] = {
             "whirls": [record(each, "frequency_hz=frequency sense damping_ratio") for each in self.whirls],
-            "levitates_over_speed": [
-                {"speed_rpm": speed / RPM, "levitates": bool(holds)}
-                for speed, holds in (zip(known.speeds.tolist(), known.levitates, strict=True) if known else ())
-            ],
+            "levitates_over_speed": [{"speed_rpm": speed / RPM, "levitates": holds} for speed, holds in speeds],
             "critical_speeds": [each.document() for each in self.criticals],
             "collocation": [
                 record(each, COLLOCATION) | {"sensor": abs(each.sensor), "magnet": abs(each.magnet)}
                 for each in self.collocations
             ],
-            "sensitivity": [
-                record(each, "bearing peak zone") | {"frequency_hz": each.frequency / (2.0 * math.pi)}
-                for each in self.loops
-            ],
+            "sensitivity": [record(each, "bearing peak zone frequency_hz=hertz") for each in self.loops],
         }
         if now is not None:
             sizes = {"touchdowns_si": now.touchdowns.major, "sensors_si": now.sensors.major}
@@ -189,3 +186,94 @@ def _loops(found: Sensitivity) -> tuple[LoopPeak, ...]:
     zones = found.zones or [None] * len(found.peaks)
     rows = zip(found.peaks.tolist(), found.peak_frequencies.tolist(), zones, strict=True)
     return tuple(LoopPeak(place, *row) for place, row in enumerate(rows, start=1))
+
+
+def levitation_facts(found: Levitating) -> Iterator[Fact]:
+    """Whirls at the speed of the machine, and of a flexible machine at others, its response to unbalance, and the peaks of that with their separation."""
+    if found.whirls:
+        text = whirl_words(found.speed, found.whirls, dimensionless=found.dimensionless)
+        least = min(each.damping_ratio for each in found.whirls)
+        yield Fact("Levitation", text, "Whirls", "closed form", {"damping_ratio": least})
+    else:
+        yield Fact("Levitation", "All that is free fades before it goes round once.", "Whirls")
+    if found.campbell is not None:
+        yield Fact("Levitation", other_speeds_words(found.campbell), "Other speeds")
+    if found.at_speed is not None and found.machine is not None:
+        yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
+    if found.machine is not None and found.response is None:
+        yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be stated.")
+    for each in found.criticals:
+        yield Fact("Critical speeds", each.words, values={"speed_si": each.speed, "met": each.separation.met})
+    if found.response is not None:
+        low, high = (rpm(found.response.speeds[end]) for end in (0, -1))
+        none = "" if found.criticals else "The response has no peak. "
+        yield Fact("Critical speeds", f"{none}Searched from {low} to {high}.")
+    if found.criticals:
+        yield Fact("Critical speeds", RULE)
+
+
+def whirl_words(speed: float, whirls: Sequence[WhirlMode], *, dimensionless: bool = False) -> str:
+    """The least damped of the whirls at a speed, rad/s; without dimensions in units of the speed."""
+    worst = min(whirls, key=lambda each: each.damping_ratio)
+    kind = f"the {len(whirls)} slowest whirls" if worst.damping_ratio >= 0.0 else "all whirls"
+    often = frequency_words(worst, dimensionless=dimensionless)
+    return (
+        f"At {'its speed Ω' if dimensionless else rpm(speed)} the least damped of {kind} is one of {often}, {worst.sense}, with a "
+        f"damping ratio of {number(worst.damping_ratio, 2)}."
+    )
+
+
+def frequency_words(whirl: WhirlMode, *, dimensionless: bool) -> str:
+    """How often it goes round: in Hz, or in units of the speed of the shaft."""
+    return f"{number(abs(whirl.exponent.imag), 3)} Ω" if dimensionless else f"{number(whirl.frequency, 3)} Hz"
+
+
+def other_speeds_words(found: Campbell) -> str:
+    """Whether a free motion grows at other speeds of the shaft, with the same gains and supports."""
+    looked = f"{len(found.speeds)} speeds from {rpm(found.speeds[0])} to {rpm(found.speeds[-1])}"
+    if found.levitates.all():
+        return f"No free motion of the machine grows at any of {looked}."
+    grows = found.speeds[~found.levitates]
+    return f"Of {looked}, a free motion grows at {len(grows)} between {rpm(grows[0])} and {rpm(grows[-1])}: the rotor does not levitate there."
+
+
+def response_words(at_speed: SynchronousResponse) -> str:
+    """The whirl by unbalance at one speed."""
+    places = {"touchdown bearing": at_speed.touchdowns, "the sensors of bearing": at_speed.sensors}
+    words = [
+        [f"{micrometres(each)} at {place} {count}" for count, each in enumerate(sizes.major[0], start=1)]
+        for place, sizes in places.items()
+    ]
+    reached = ", and ".join(listed(each) for each in words if each)
+    sizes = "longer half axes" if at_speed.touchdowns.backward.any() else "radii"
+    return f"Its unbalance makes it whirl with {sizes} of {reached}."
+
+
+def bearing_facts(found: Levitating) -> Iterator[Fact]:
+    """Sensitivity of the loops, and whirls of which a node lies at a bearing."""
+    if any(each.zone is None for each in found.loops):
+        text = "No sensitivity is stated of a loop that is unstable: it measures how far a stable one is from that."
+        yield Fact("Magnetic bearings", text, "Sensitivity")
+    elif found.loops:
+        shown = listed([f"{_peak(each)}, zone {each.zone}, of bearing {each.bearing}" for each in found.loops])
+        yield Fact("Magnetic bearings", f"Largest sensitivity: {shown} ({SENSITIVITY_LIMITS}).", "Sensitivity")
+    doubtful = [each for each in found.collocations if each.opposed or each.hardly]
+    for each in doubtful:
+        whirl = each.whirl
+        name = (
+            f"{whirl.sense} whirl of {number(whirl.frequency, 3)} Hz (damping ratio {number(whirl.damping_ratio, 2)})"
+        )
+        what = "at its sensors" if abs(each.sensor) <= abs(each.magnet) else "at its actuator"
+        text = f"Bearing {each.bearing}: the {name} has a node {what}: the bearing cannot damp it."
+        if each.opposed:
+            text = f"A node of the {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
+        yield Fact("Magnetic bearings", text, "Non-collocation")
+    if found.collocations and not doubtful:
+        text = f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet."
+        yield Fact("Magnetic bearings", text, "Non-collocation")
+
+
+def _peak(loop: LoopPeak) -> str:
+    decibels = number(20.0 * math.log10(loop.peak), 3)
+    at = f" at {number(loop.hertz, 3)} Hz" if loop.frequency < math.inf else ", at high frequencies"
+    return f"{number(loop.peak, 3)} ({decibels} dB){at}"

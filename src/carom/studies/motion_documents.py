@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from operator import itemgetter
 from types import SimpleNamespace
 from typing import Any
 
@@ -13,7 +14,7 @@ from carom.motions import drop_loads
 from carom.motions.history import LastingContact
 from carom.motions.trajectories import Trajectory
 from carom.parameters import LoadLimits
-from carom.studies.load_tables import load_entries
+from carom.studies.drops import load_entries
 
 _TIMES = ("time", "start", "end", "peak_time")
 STATE = "U=position V=velocity"
@@ -50,16 +51,12 @@ def _stage(motion: Trajectory, limits: LoadLimits) -> dict[str, Any]:
         **motion.rotor.document(),
         "start": record(motion.start, STATE),
         **record(motion, "outcome=outcome.label meaning=outcome.meaning multiplicity time"),
-        "impacts": _in_order("time", [entry for seen in motion.at_each for entry in _impacts(seen)]),
-        "contacts": _in_order("start", [entry for seen in motion.at_each for entry in _contacts(seen)]),
+        "impacts": sorted((each for seen in motion.at_each for each in _impacts(seen)), key=itemgetter("time")),
+        "contacts": sorted((each for seen in motion.at_each for each in _contacts(seen)), key=itemgetter("start")),
         "final": record(motion.final, STATE),
         "touchdown_bearings": [entry | {"final": _end(seen)} for entry, seen in loads],
         **({} if motion.scales is None else {"scales_si": record(motion.scales, SCALES)}),
     }
-
-
-def _in_order(key: str, entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    return sorted(entries, key=lambda entry: entry[key])
 
 
 def _impacts(motion: Trajectory) -> list[dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""The questions of a study, how many events each may take, and what is stated where these did not suffice.
+"""What a machine may have to survive, the questions of a study, and how many events each may take.
 
 An event, an impact or a step of lasting contact, takes some 10 microseconds, of a rotor of 64 modes 70; a motion without contact counts as
 60.  Motions of planar rotors on a rigid wall do not count (:mod:`carom.motions.budget`).
@@ -6,25 +6,29 @@ An event, an impact or a step of lasting contact, takes some 10 microseconds, of
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from typing import Literal
 
-from carom.base.results import record
+from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.models import Rotor
-from carom.motions.budget import Question
-from carom.studies.facts import Fact
-from carom.studies.wording import listed
+from carom.parameters import Required
 
+Kind = Literal["kick", "shock", "blade_loss"]
+"""Kinds of disturbances that a machine may have to survive."""
+OF_ANOTHER_KIND = 0.2
+"""Number of shocks, and of losses of a blade, relative to that of kicks, where such are required."""
+LABELS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
 DESCRIBED, PRESENT = "where disturbances end", "the share of {} that comes back"
-SMALLEST = "the smallest {} that does not come back"
+SMALLEST = "the smallest {} that do not come back"
 ALONG = "recovery along {}"
 CHANGE = "the least change"
 FULL_SIZE, DROP = "what must be survived, at its full size all around", "the drop"
 EVENTS = {
     DESCRIBED: 100_000,
     PRESENT: 300_000,
-    SMALLEST.format("kick"): 200_000,
-    SMALLEST.format("shock"): 150_000,
-    SMALLEST.format("loss of a blade"): 100_000,
+    SMALLEST.format(VelocityKick.noun): 200_000,
+    SMALLEST.format(BaseShock.noun): 150_000,
+    SMALLEST.format(BladeLoss.noun): 100_000,
     ALONG: 120_000,
     CHANGE: 100_000,
     FULL_SIZE: 100_000,
@@ -38,17 +42,25 @@ FEWEST = 60
 """Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
 
 
+def required_disturbances(required: Required, count: int, seed: int = 0) -> tuple[Sample, ...]:
+    """Kinds of disturbances that a machine must survive, with the number of each; ``count`` is that of kicks.
+
+    Kicks out of levitation, uniform over the disc of their velocities; shocks and losses of a blade where they are required.
+    """
+    more = max(1, round(OF_ANOTHER_KIND * count))
+    kinds = required_kinds(required)
+    return tuple(Sample(model, count if kind == "kick" else more, seed) for kind, _, model in kinds)
+
+
+def required_kinds(required: Required) -> Iterator[tuple[Kind, float, Disturbance]]:
+    """The kinds that must be survived, with their size, in the order of :func:`required_disturbances`."""
+    yield "kick", required.kick, VelocityKick(required.kick)
+    if required.shock:
+        yield "shock", required.shock.peak, BaseShock(required.shock.peak, required.shock.duration)
+    if required.blade_loss:
+        yield "blade_loss", required.blade_loss, BladeLoss(required.blade_loss, required.blade_loss_node)
+
+
 def events_for(rotor: Rotor, question: str) -> int:
     """Events of a question for a rotor."""
     return round(EVENTS[question] * min(1.0, FEW_MODES / rotor.system.modes))
-
-
-def unfinished_facts(questions: Sequence[Question]) -> Iterator[Fact]:
-    """What was not followed to its end, and how much of it was."""
-    if questions:
-        shown = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in questions]
-        text = (
-            f"Not followed to the end: {listed(shown)}. Each question of a study has a fixed number of events, so that "
-            "its answer does not depend on the computer; a time limit ends it earlier."
-        )
-        yield Fact("Not reached", text, values={"questions": [record(each, UNFINISHED) for each in questions]})

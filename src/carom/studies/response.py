@@ -1,61 +1,121 @@
-"""Unbalance response over the speed of the shaft, with contact where the rotor touches."""
+"""Unbalance response over the speed of the shaft, with contact where the rotor touches, and what it says about the machine, in sentences."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from functools import cached_property
-from importlib.metadata import version
-from typing import Any, ClassVar
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from carom.base.arguments import checked
-from carom.base.outcome import InputError
-from carom.base.results import in_a_line
+from carom.base.outcome import STEADY_WORDS, InputError
 from carom.closed_forms import contact_changes, find_equilibria, rolling, rub_angles
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.parameters import read_quantity
-from carom.parameters.fields import RPM
-from carom.rotors.synchronous import SynchronousResponse
+from carom.parameters.formats import number
 from carom.studies.critical_speeds import response_curve, usual_range
 from carom.studies.levitating import WHIRLS, whirls_of
-from carom.studies.response_data import ResponseData, Rubs, SpeedStretch, Steady, stretches_between
-from carom.studies.standards import ASSUMPTIONS, FULL_SPEED, vibration_limit
+from carom.studies.response_data import Rubs, SpeedStretch, Steady, UnbalanceResponse, stretches_between
+from carom.studies.standards import FULL_SPEED, vibration_limit
+from carom.studies.wording import listed, micrometres, rpm
 
+RUB = STEADY_WORDS["rub"]
+_WHY_NO_RUBS = "they are found in one touchdown bearing, at constant speed, where nothing stands in the fixed frame; carom attractors finds on which motions disturbances end."
 RUB_SPEEDS = 121
 """About as many speeds of the curve at which rubs are looked for."""
 NARROWED = 1e-6
 """Relative width to which ends of stretches without a closed form are bisected."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class UnbalanceResponse(ResponseData):
-    """Response of a machine to its unbalance over the speed of the shaft.
+def sentences(response: UnbalanceResponse) -> tuple[str, ...]:
+    """Present speed, critical speeds with their separation, limits, and where the rotor touches."""
+    peaks = [f"Critical speed: {each.words}" for each in response.criticals]
+    if not peaks:
+        peaks = [f"The response has no peak between {rpm(response.interval[0])} and {rpm(response.interval[1])}."]
+    found = [_present(response), *peaks, _limit(response), _saturation(response), *_contact(response)]
+    return tuple(sentence for sentence in found if sentence)
 
-    Its attributes are those of :class:`~carom.studies.response_data.ResponseData`.
-    """
 
-    figure: ClassVar[str] = "unbalance_response"
+def _present(response: UnbalanceResponse) -> str:
+    speed, now = response.present, response.now
+    sizes, allowed = now.touchdowns.major[0], float(vibration_limit(np.array(speed)))
+    worst = response.worst
+    width, several = 2.0 * float(sizes[worst]), len(sizes) > 1
+    where = f" at touchdown bearing {worst + 1}" if several else ""
+    sagging = f" beside a sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
+    if not response.steady_at_present.contact_free:
+        return (
+            f"At {rpm(speed)}, the present speed, the unbalance would need a contact-free whirl of {micrometres(width)} peak to "
+            f"peak{where}{sagging}, and the clearance allows {micrometres(2.0 * float(now.clearances[worst]))}: the rotor touches."
+        )
+    over, speeds = width / allowed, response.speeds
+    inside = speeds[0] <= speed <= speeds[-1]
+    lag = response.lags[int(np.abs(speeds - speed).argmin()), worst] if inside else now.lags[0, worst]
+    ratio = f", which is exceeded {number(over, 3)} times" if over > 1.0 else ""
+    return (
+        f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak{where}{sagging} "
+        f"({number(float(now.reach[0, worst]), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), "
+        f"{number(float(np.degrees(lag)), 3)}° behind the unbalance. API 617 allows {micrometres(allowed)} there{ratio}."
+    )
 
-    def rows(self) -> list[tuple[str, str]]:
-        """The machine, the range, and what is said of it."""
-        ends = " to ".join(f"{speed / RPM:,.6g}" for speed in self.interval)
-        return [("case", self.case.name), ("speeds", f"{ends} rpm"), *(("", in_a_line(line)) for line in self.words)]
 
-    @cached_property
-    def words(self) -> tuple[str, ...]:
-        """What the response says about the machine, in sentences."""
-        from carom.studies.response_words import sentences  # only here: a study does without
+def _limit(response: UnbalanceResponse) -> str:
+    over = [stretch for stretch in response.exceeds_api_617 if stretch.what]
+    if not over:
+        return "The limit of API 617 is nowhere exceeded in this range."
+    if len(over) == len(response.exceeds_api_617) == 1:
+        return "The limit of API 617 is exceeded at every speed of this range."
+    return f"The limit of API 617 is exceeded {_from_to(over)}."
 
-        return sentences(self)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the response as ``carom response --json`` prints it."""
-        return _document(self)
+def _saturation(response: UnbalanceResponse) -> str:
+    asking = response.saturating
+    if not asking:
+        return ""
+    over = [stretch for stretch in asking if stretch.what]
+    if over:
+        return f"The magnetic bearings saturate {_from_to(over)}: there the rotor does not whirl as is calculated here."
+    most = float(response.whirl.saturation.max())
+    return f"The magnetic bearings saturate nowhere in this range: at most {number(100.0 * most, 3)} % of a limit is asked."
+
+
+def _contact(response: UnbalanceResponse) -> list[str]:
+    """Where it touches, and which motions in contact are possible."""
+    said: dict[str, Callable[[Steady], Any]] = {
+        "No levitation is possible {}: the response calculated there is virtual.": lambda it: not it.contact_free,
+        f"In contact, a stable {RUB} can hold the rotor {{}}.": lambda it: not it.contact_free and it.stable_rubs,
+        f"No stable {RUB} exists there {{}}: the rotor bounces or whirls backward.": lambda it: (
+            not it.contact_free and it.stable_rubs == 0
+        ),
+        f"Levitation and a stable {RUB} are both possible {{}}: which of them the rotor takes depends on how it came there.": lambda it: (
+            it.contact_free and it.stable_rubs
+        ),
+        f"Once begun, {STEADY_WORDS['rolling']} lasts {{}}.": lambda it: it.rolls,
+    }
+    stretches = {text: [each for each in response.stretches if holds(each.what)] for text, holds in said.items()}
+    found = [text.format(_from_to(where)) for text, where in stretches.items() if where]
+    if all(each.what.contact_free for each in response.stretches):
+        found.insert(0, "Without a disturbance the rotor touches nowhere in this range.")
+    if response.rubs is None:
+        found.append(f"{RUB.capitalize()}s are not part of this: {_WHY_NO_RUBS}")
+    elif not response.exact:
+        found.append(f"{RUB.capitalize()}s were looked for at {len(response.rubs.speeds)} speeds; rolling was not.")
+    return [*found, "Bouncing motions are not part of this: carom bifurcations --along speed finds them."]
+
+
+def _from_to(stretches: list[SpeedStretch]) -> str:
+    """Ranges of speeds in words, with neighbours joined; empty where there are none."""
+    joined: list[tuple[float, float]] = []
+    for stretch in stretches:
+        if joined and joined[-1][1] == stretch.low:
+            joined[-1] = joined[-1][0], stretch.high
+        else:
+            joined.append((stretch.low, stretch.high))
+    return listed([f"from {rpm(low)} to {rpm(high)}" for low, high in joined]) if joined else ""
 
 
 @checked
@@ -99,12 +159,13 @@ def unbalance_response(
     low, high = read_interval(along, interval or usual_range(whirls, run))
     whirl, criticals = response_curve(case, whirls, (low, high), run, (low, high, present, FULL_SPEED))
     exact = exact_results(model).rubs
-    found = UnbalanceResponse(case, whirl, (low, high), run, criticals, None, (), exact)
-    rubs = _rubs(found, model, along)
-    return replace(found, rubs=rubs, stretches=_stretches(replace(found, rubs=rubs), model, along))
+    found = UnbalanceResponse(case, whirl, (low, high), run, criticals, exact)
+    found = replace(found, rubs=_rubs(found, model, along))
+    found = replace(found, stretches=_stretches(found, model, along))
+    return replace(found, words=sentences(found))
 
 
-def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
+def _rubs(found: UnbalanceResponse, model: Rotor, along: Axis) -> Rubs | None:
     """Synchronous rubs over the speed in one touchdown bearing, where nothing stands in the fixed frame."""
     system = model.system
     if found.exact:
@@ -124,7 +185,7 @@ def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     return Rubs(speeds, lags, radii)
 
 
-def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[SpeedStretch, ...]:
+def _stretches(found: UnbalanceResponse, model: Rotor, along: Axis) -> tuple[SpeedStretch, ...]:
     """Ranges of speeds with the same steady motions; their ends are exact, or bisected between the speeds at which rubs were looked for."""
 
     def steady(speed: float) -> Steady:
@@ -165,74 +226,3 @@ def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:
     if low > high:
         raise InputError("operating", f"{low:g} to {high:g}", "the lowest operating speed, then the highest")
     return low, high
-
-
-def _document(response: UnbalanceResponse) -> dict[str, Any]:
-    """Return the document of a response over speed: speeds in rad/s and rpm, amplitudes in clearances and in m."""
-    rubs = response.rubs
-    highest = max(response.criticals, key=lambda each: each.amplitude, default=None)
-    return {
-        "name": response.case.name,
-        "carom": version("carom"),
-        **rotor_of(response.case).document(),
-        "speeds_si": list(response.interval),
-        "present": _at(response, response.present) | {"steady": response.steady_at_present._asdict()},
-        "critical": None if highest is None else _at(response, highest.speed),
-        "amplification_factor": highest.factor if highest else None,
-        "criticals": [each.document() for each in response.criticals],
-        "operating_si": list(response.operating),
-        "zone_limits": list(response.case.zones.limits),
-        "exceeds_api_617": [_stretch(entry) for entry in response.exceeds_api_617 if entry.what],
-        "saturates": [_stretch(entry) for entry in response.saturating if entry.what],
-        "steady": [_stretch(entry) | entry.what._asdict() for entry in response.stretches],
-        "curve": {
-            "speed_si": response.speeds.tolist(),
-            "amplitude": response.amplitude.tolist(),
-            "peak_to_peak_si": response.peak_to_peak_si.tolist(),
-            "api_617_limit_si": vibration_limit(response.speeds).tolist(),
-        },
-        "touchdowns": _bearings(response.whirl),
-        "rubs": rubs and {"speed_si": rubs.speeds.tolist(), "lags": rubs.lags.tolist(), "radii": rubs.radii.tolist()},
-        "words": list(response.words),
-        "assumptions": list(ASSUMPTIONS),
-    }
-
-
-def _at(response: ResponseData, speed: float) -> dict[str, Any]:
-    """Contact-free response at a speed: that of the touchdown bearing where the rotor comes closest, then those of all."""
-    found = response.at(speed)
-    worst = int(found.reach[0].argmax())
-    size = float(found.touchdowns.major[0, worst])
-    return {
-        "speed_si": speed,
-        "rpm": speed / RPM,
-        "amplitude": size / float(found.clearances[worst]),
-        "peak_to_peak_si": 2.0 * size,
-        "lag": float(found.lags[0, worst]),
-        "admissible": bool(found.reach.max() < 1.0),
-        "zone": response.zone_at(speed) or None,
-        "api_617_limit_si": float(vibration_limit(np.array(speed))),
-        "touchdowns": _bearings(found),
-        "saturation": float(found.saturation.max()) if found.saturation.size else None,
-    }
-
-
-def _bearings(found: SynchronousResponse) -> list[dict[str, Any]]:
-    """Amplitudes 0-to-peak at each touchdown bearing, from 1 on, over the speeds of a response."""
-    places = zip(found.clearances.tolist(), found.sags.tolist(), strict=True)
-    return [
-        {
-            "bearing": place + 1,
-            "clearance_si": clearance,
-            "sag_si": sag,
-            "amplitude_si": found.touchdowns.major[:, place].tolist(),
-            "forward_si": np.abs(found.touchdowns.forward[:, place]).tolist(),
-            "backward_si": np.abs(found.touchdowns.backward[:, place]).tolist(),
-            "lag": found.lags[:, place].tolist(),
-        }
-        for place, (clearance, sag) in enumerate(places)
-    ]
-
-
-def _stretch(stretch: SpeedStretch) -> dict[str, Any]:
-    return {"from_si": stretch.low, "to_si": stretch.high, "from_rpm": stretch.low / RPM, "to_rpm": stretch.high / RPM}

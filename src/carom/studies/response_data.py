@@ -6,18 +6,24 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from importlib.metadata import version
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from carom.base.arguments import checked
-from carom.base.results import Result
+from carom.base.results import Result, in_a_line, record
+from carom.models import rotor_of
 from carom.parameters import Case, Scales
+from carom.parameters.fields import RPM
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies.critical_speeds import Critical
-from carom.studies.standards import vibration_limit
+from carom.studies.standards import ASSUMPTIONS, vibration_limit
+
+RESPONSE = "speeds_si=interval operating_si=operating criticals zone_limits=case.zones.limits words"
+CURVE = "speed_si=speeds amplitude peak_to_peak_si api_617_limit_si=allowed_si"
 
 
 class Steady(NamedTuple):
@@ -54,6 +60,11 @@ class SpeedStretch(NamedTuple):
     high: float
     what: Any
 
+    def document(self) -> dict[str, float]:
+        """Its ends, as plain data for JSON."""
+        low, high = self.low, self.high
+        return {"from_si": low, "to_si": high, "from_rpm": low / RPM, "to_rpm": high / RPM}
+
 
 class Rubs(NamedTuple):
     """Synchronous rubs over the speed: first one that is stable, then one that is not; ``nan`` where there is none.
@@ -74,7 +85,7 @@ class Rubs(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ResponseData(Result):
+class UnbalanceResponse(Result):
     """Response of a machine to its unbalance over the speed of the shaft.
 
     Speeds are in rad/s, amplitudes 0-to-peak, in clearances unless a name ends in ``_si``.
@@ -89,13 +100,15 @@ class ResponseData(Result):
     operating : tuple of float
         Lowest and highest operating speed.
     criticals : tuple of Critical
+    exact : bool
+        Whether all steady motions in contact have closed forms, so that the ends of the stretches are exact; otherwise rubs were looked for at the speeds
+        of their curve, and rolling was not.
     rubs : Rubs or None
         ``None`` where they are not known: under weight, in several touchdown bearings, or where bearings are anisotropic.
     stretches : tuple of SpeedStretch
         Ranges of speeds with the same steady motions, :class:`Steady`.
-    exact : bool
-        Whether all steady motions in contact have closed forms, so that the ends of the stretches are exact; otherwise rubs were looked for at the speeds
-        of their curve, and rolling was not.
+    words : tuple of str
+        What the response says about the machine, in sentences.
     """
 
     case: Case
@@ -103,9 +116,37 @@ class ResponseData(Result):
     interval: tuple[float, float]
     operating: tuple[float, float]
     criticals: tuple[Critical, ...]
-    rubs: Rubs | None
-    stretches: tuple[SpeedStretch, ...]
     exact: bool
+    rubs: Rubs | None = None
+    stretches: tuple[SpeedStretch, ...] = ()
+    words: tuple[str, ...] = ()
+
+    figure: ClassVar[str] = "unbalance_response"
+
+    def rows(self) -> list[tuple[str, str]]:
+        """The machine, the range, and what is said of it."""
+        ends = " to ".join(f"{speed / RPM:,.6g}" for speed in self.interval)
+        return [("case", self.case.name), ("speeds", f"{ends} rpm"), *(("", in_a_line(line)) for line in self.words)]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the response as ``carom response --json`` prints it."""
+        rubs, highest = self.rubs, max(self.criticals, key=lambda each: each.amplitude, default=None)
+        return {
+            "name": self.case.name,
+            "carom": version("carom"),
+            **rotor_of(self.case).document(),
+            **record(self, RESPONSE),
+            "present": _at(self, self.present) | {"steady": self.steady_at_present._asdict()},
+            "critical": highest and _at(self, highest.speed),
+            "amplification_factor": highest and highest.factor,
+            "exceeds_api_617": [each.document() for each in self.exceeds_api_617 if each.what],
+            "saturates": [each.document() for each in self.saturating if each.what],
+            "steady": [each.document() | each.what._asdict() for each in self.stretches],
+            "curve": record(self, CURVE),
+            "touchdowns": _bearings(self.whirl),
+            "rubs": rubs and record(rubs, "speed_si=speeds lags radii"),
+            "assumptions": list(ASSUMPTIONS),
+        }
 
     @property
     def scales(self) -> Scales:
@@ -175,16 +216,14 @@ class ResponseData(Result):
 
     def reaching(self, share: float) -> list[float]:
         """Speeds at which sag and whirl reach a share of the clearance, refined between speeds of the curve."""
-        return crossings(self.speeds, self.reach - share, lambda speed: float(self.at(speed).reach.max()) - share)
+        return self._zeros(lambda found: found.reach.max(axis=1) - share)
 
     @cached_property
     def saturating(self) -> tuple[SpeedStretch, ...]:
         """Over which speeds sag and whirl ask more of the magnetic bearings than their limits; empty without limits."""
-        asked = self.whirl.saturation
-        if not asked.shape[1]:
+        if not self.whirl.saturation.shape[1]:
             return ()
-        edges = crossings(self.speeds, asked.max(axis=1) - 1.0, lambda at: float(self.at(at).saturation.max()) - 1.0)
-        return stretches_between(self.interval, edges, lambda at: bool(self.at(at).saturation.max() > 1.0))
+        return self._exceeding(lambda found: found.saturation.max(axis=1) - 1.0)
 
     @property
     def allowed_si(self) -> np.ndarray:
@@ -194,24 +233,23 @@ class ResponseData(Result):
     @cached_property
     def exceeds_api_617(self) -> tuple[SpeedStretch, ...]:
         """Over which speeds the contact-free vibration exceeds the limit of API 617."""
+        # As an angle it is finite at the peak of an undamped rotor.
+        return self._exceeding(
+            lambda found: (
+                np.arctan2(2.0 * found.touchdowns.major.max(axis=1), vibration_limit(found.speeds)) - 0.25 * np.pi
+            )
+        )
 
-        def over(speed: float) -> float:
-            width, allowed = 2.0 * self.at(speed).touchdowns.major.max(), vibration_limit(np.array(speed))
-            return float(np.arctan2(width, allowed)) - 0.25 * math.pi  # finite at the peak of an undamped rotor
+    def _exceeding(self, value: Callable[[SynchronousResponse], np.ndarray]) -> tuple[SpeedStretch, ...]:
+        """Over which speeds a value is above zero."""
+        return stretches_between(self.interval, self._zeros(value), lambda at: bool(value(self.at(at))[0] > 0.0))
 
-        values = np.arctan2(self.peak_to_peak_si, self.allowed_si) - 0.25 * math.pi
-        edges = crossings(self.speeds, values, over)
-        return stretches_between(self.interval, edges, lambda speed: over(speed) > 0.0)
-
-
-def crossings(speeds: np.ndarray, values: np.ndarray, function: Callable[[float], float]) -> list[float]:
-    """Zeros of a function between neighbouring speeds at which its values differ in sign."""
-    changes = np.flatnonzero(np.diff(np.sign(values)) != 0.0)
-    return [
-        float(brentq(function, speeds[each], speeds[each + 1]))
-        for each in changes
-        if values[each] * values[each + 1] < 0.0
-    ]
+    def _zeros(self, value: Callable[[SynchronousResponse], np.ndarray]) -> list[float]:
+        """Speeds at which a value is zero, refined between neighbouring ones of the curve at which its sign differs."""
+        speeds, signs = self.speeds, np.sign(value(self.whirl))
+        changes = np.flatnonzero(signs[:-1] * signs[1:] < 0.0)
+        ends = [(speeds[each], speeds[each + 1]) for each in changes]
+        return [float(brentq(lambda speed: float(value(self.at(speed))[0]), *each)) for each in ends]
 
 
 def stretches_between(
@@ -228,3 +266,39 @@ def stretches_between(
         else:
             found.append(SpeedStretch(first, last, here))
     return tuple(found)
+
+
+def _at(response: UnbalanceResponse, speed: float) -> dict[str, Any]:
+    """Contact-free response at a speed: that of the touchdown bearing where the rotor comes closest, then those of all."""
+    found = response.at(speed)
+    worst = int(found.reach[0].argmax())
+    size = float(found.touchdowns.major[0, worst])
+    return {
+        "speed_si": speed,
+        "rpm": speed / RPM,
+        "amplitude": size / float(found.clearances[worst]),
+        "peak_to_peak_si": 2.0 * size,
+        "lag": float(found.lags[0, worst]),
+        "admissible": bool(found.reach.max() < 1.0),
+        "zone": response.zone_at(speed) or None,
+        "api_617_limit_si": float(vibration_limit(np.array(speed))),
+        "touchdowns": _bearings(found),
+        "saturation": float(found.saturation.max()) if found.saturation.size else None,
+    }
+
+
+def _bearings(found: SynchronousResponse) -> list[dict[str, Any]]:
+    """Amplitudes 0-to-peak at each touchdown bearing, from 1 on, over the speeds of a response."""
+    places = zip(found.clearances.tolist(), found.sags.tolist(), strict=True)
+    return [
+        {
+            "bearing": place + 1,
+            "clearance_si": clearance,
+            "sag_si": sag,
+            "amplitude_si": found.touchdowns.major[:, place].tolist(),
+            "forward_si": np.abs(found.touchdowns.forward[:, place]).tolist(),
+            "backward_si": np.abs(found.touchdowns.backward[:, place]).tolist(),
+            "lag": found.lags[:, place].tolist(),
+        }
+        for place, (clearance, sag) in enumerate(places)
+    ]

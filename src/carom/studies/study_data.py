@@ -20,12 +20,11 @@ from carom.rotors import ReducedMachine
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
 from carom.studies.drops import DropStudy
-from carom.studies.full_size import FullSize
-from carom.studies.kinds import Kind, required_disturbances
 from carom.studies.levitating import Levitating
+from carom.studies.questions import Kind, required_disturbances
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.survives import Survives, unrecovered_kinds
+from carom.studies.survives import FullSize, Survives, unrecovered_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
@@ -134,14 +133,16 @@ class StudyData(Result):
 
     def requirement_document(self) -> dict[str, Any]:
         """What must be survived, as plain data for JSON."""
-        required, scales, requirement = self.required, self.rotor.scales, self.case.requirement
-        columns = "kick blade_loss blade_loss_node"
-        document = {"source": requirement.source, "frame": "fixed", **record(required, columns)}
-        document["shock"] = required.shock and record(required.shock, "peak duration")
-        if scales is not None:
-            stated = requirement.complete(scales)
-            document |= record(stated, "kick_si=kick blade_loss_si=blade_loss")
-            document["shock_si"] = stated.shock and record(stated.shock, "peak duration")
+        requirement, scales = self.case.requirement, self.rotor.scales
+        document: dict[str, Any] = {
+            "source": requirement.source,
+            "frame": "fixed",
+            "blade_loss_node": self.required.blade_loss_node,
+        }
+        stated: dict[str, Any] = {"": self.required, **({"_si": requirement.complete(scales)} if scales else {})}
+        for unit, required in stated.items():
+            document |= record(required, f"kick{unit}=kick blade_loss{unit}=blade_loss")
+            document[f"shock{unit}"] = required.shock and record(required.shock, "peak duration")
         return document
 
     @property

@@ -17,13 +17,12 @@ from carom.parameters import Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_impact
 from carom.parameters.numbers import own_numbers
 from carom.studies.endings import motion_words
-from carom.studies.kinds import LABELS
-from carom.studies.proven import is_proven
+from carom.studies.questions import LABELS
 from carom.studies.ranges import Motion
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
-from carom.studies.verdict import SURVIVED, condition_of, survived_cells
-from carom.studies.wording import Wording, counted, no_rigid_wall
+from carom.studies.verdict import SURVIVED, condition_of, is_proven, survived_cells
+from carom.studies.wording import Wording, counted, indentation_of_steel, no_rigid_wall
 
 State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
 
@@ -97,8 +96,7 @@ def motion_rows(study: StudyData) -> list[MotionRow]:
     proven = {f"orbit {orbit.name}" for orbit in study.orbits if is_proven(study.proof, orbit)}
     rows = [replace(row, remark=_joined("proven" * (row.name in proven), row.remark)) for row in rows]
     simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
-    others = [member for member in study.attractors if member.name not in simple]
-    return rows + [_seen(study.wording, member, study.attractors, study.rotor.in_rigid_wall) for member in others]
+    return rows + [_seen(study, member) for member in study.attractors if member.name not in simple]
 
 
 def _joined(*remarks: str) -> str:
@@ -171,10 +169,9 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     return MotionRow(name, "stable" if orbit.stable else "unstable", period, size, impulse, force, share, remark)
 
 
-def _seen(say: Wording, member: Attractor, found: AttractorSet, at: Parameters | None) -> MotionRow:
-    impulse, force = member.largest_impulse, member.largest_force
-    by_impulse = indentation_of_impact(at, impulse / (1.0 + at.d)) if at else math.nan
-    soft = no_rigid_wall(max(indentation_of_force(at, force), by_impulse))
+def _seen(study: StudyData, member: Attractor) -> MotionRow:
+    say, impulse, force = study.wording, member.largest_impulse, member.largest_force
+    soft = no_rigid_wall(indentation_of_steel(study.rotor, impulse, force))
     lasts, known = member.survival.words if member.survival else "", "" if member.count else "from a start next to it"
     return MotionRow(
         member.name.words,
@@ -182,7 +179,7 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, at: Parameters |
         say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
         force=_force(say, force, soft) if force > 0 else "",
-        trials=_share(found, member.name),
+        trials=_share(study.attractors, member.name),
         remark=_joined(lasts, known, soft),
     )
 

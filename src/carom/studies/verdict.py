@@ -1,7 +1,8 @@
-"""The verdict of a study: what the machine must survive, what it survives, which share comes back, and what else may hold the rotor.
+"""The verdict of a study: what the machine must survive, what it survives and what of it is proven, which share comes back, and what else may hold the rotor.
 
 It never promises that a machine recovers.  Disturbances are samples, and motions that none of them reached may exist.
-The best possible verdict is that every disturbance tried came back; of kicks it may be that all of them are proven to.
+The best possible verdict is that every disturbance tried came back; of kicks it may be that all of them are proven to.  Only what a
+:class:`~carom.proofs.Proof` has decided is called proven.
 """
 
 from __future__ import annotations
@@ -9,19 +10,35 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
 from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.base.results import record
 from carom.basins import Share, SmallestUnrecovered
 from carom.disturbances.plans import ANY_INSTANT
+from carom.orbits.orbit import Orbit
+from carom.parameters import Scales
+from carom.parameters.formats import number, rounded_down, shown_in
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
-from carom.studies.kinds import LABELS, Kind, required_kinds
-from carom.studies.proven import proven_kicks_document
+from carom.studies.questions import LABELS, Kind
 from carom.studies.study_data import StudyData
 from carom.studies.survives import decides
-from carom.studies.wording import Wording, listed
+from carom.studies.wording import Wording, counted, listed
 
+KICKS = (
+    "all_up_to:velocity sure_up_to:velocity impacts kicks_up_to=largest:velocity share_proven=share share_refuted=refuted_share "
+    "share_open=open_share"
+)
+_SAID = {
+    "levitation inside": "levitation lies inside the wall",
+    "levitation stable": "levitation is stable",
+    "machine orbits": "",
+    "kicks never touch": "no kick out of levitation below {speed} touches",
+    "steps of the unbalance never touch": "no step of the eccentricity below {change} touches",
+}
+"""What is said of the claims of a proof that are about the whole machine, with their sizes; the statement itself where nothing stands here."""
+_KINDS = {"speed": "velocity", "change": "length"}
 Level = Literal["no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"]
 NEARLY_ALL = 0.95
 """Share from which on of disturbances that do not come back it is said that nearly all are such."""
@@ -38,6 +55,46 @@ SURVIVED = {
 }
 """What is said of each kind of disturbance: headings of a table, and words before the size in a sentence."""
 _fact = partial(Fact, "Verdict")
+
+
+def proven_words(proof: Any, scales: Scales | None = None) -> str:
+    """What a proof has decided, and what it has not."""
+    facts = []
+    for claim in proof.with_status("proven"):
+        if claim.name in _SAID:
+            sizes = {}
+            for name, kind in _KINDS.items():
+                if name in claim.enclosures:
+                    factor, unit = shown_in(kind, scales)
+                    sizes[name] = f"{number(rounded_down(factor * float(claim.enclosures[name].low)))} {unit}"
+            words = _SAID[claim.name].format(**sizes)
+            facts.append(words or f"{claim.statement[0].lower()}{claim.statement[1:-1]}")
+    text = f"In ball arithmetic, for the numbers of the machine as doubles: {'; '.join(facts) or 'nothing'}."
+    if undecided := proof.with_status("undecided"):
+        text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
+    return text
+
+
+def proven_kicks_document(kicks: Any) -> dict[str, Any]:
+    """What is proven of kicks, as plain data for JSON."""
+    return record(kicks, KICKS, kicks.rotor.scales) | {
+        "open": [record(part, "reason share") for part in kicks.parts if part.open]
+    }
+
+
+def proofs_of(study: StudyData) -> Iterator[Fact]:
+    """What was proven of the motions, if it was asked for; the verdict has what was proven of kicks."""
+    if study.proof is not None:
+        yield Fact("Proven", proven_words(study.proof, study.rotor.scales), evidence="proven")
+
+
+def is_proven(proof: Any, orbit: Orbit) -> bool:
+    """Whether what a study says of an orbit is proven: that it is a motion or not, and stable or not."""
+    if proof is None:
+        return False
+    shown = {f"{orbit.name} admissible": orbit.admissible, f"{orbit.name} stable": orbit.stable}
+    known = {claim.name: claim.status for claim in proof if claim.name in shown}
+    return all(known.get(name) == ("proven" if holds else "refuted") for name, holds in shown.items())
 
 
 @dataclass(frozen=True)
@@ -92,7 +149,7 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
             entry: SmallestUnrecovered = getattr(study.survives, name)
             yield _fact(_survived(study, name, entry), LABELS[name], None, values)
     if study.share is not None and study.share.total:
-        words, values = f"{study.share.words}, weighted by area", study.share.document
+        words, values = f"{study.share.words}, weighted by area", study.share.document()
         yield _fact(words, "Share", "sampled", values)
     if study.kicks is not None:
         yield _fact(study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks))
@@ -200,7 +257,7 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
         outcome = f"Not decided whether it comes back from what it must survive, {zone}"
         return "not-decided", outcome, "too few disturbances could be followed"
     outcome = f"Came back each time from what it must survive, {zone}"
-    if kicks_surely_return(study) and len(required_kinds(study.required)) == 1:
+    if kicks_surely_return(study) and not (study.required.shock or study.required.blade_loss):
         outcome = f"Comes back from every kick that it must survive, {zone}"
     return "all-tried-came-back", outcome, _reservations(study)
 

@@ -12,10 +12,11 @@ from typing import Any
 
 from carom.base.arguments import checked
 from carom.base.results import KINDS
-from carom.models import Span
+from carom.models import Rotor, Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
+from carom.parameters.fields import RPM
 from carom.parameters.formats import format_entry, format_quantity, number, own_entry
-from carom.parameters.indentation import is_compliant
+from carom.parameters.indentation import indentation_of_force, indentation_of_impact, is_compliant
 from carom.parameters.numbers import own_numbers
 
 SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
@@ -40,9 +41,27 @@ def listed(items: list[str]) -> str:
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
 
 
+def rpm(speed: float) -> str:
+    """A speed given in rad/s, in rpm: ``1,759 rpm``."""
+    return f"{number(speed / RPM, max(4, len(f'{speed / RPM:.0f}')))} rpm" if speed < math.inf else "any speed"
+
+
+def micrometres(length: float) -> str:
+    """A length given in m, in µm: ``134 µm``."""
+    return f"{number(1e6 * length, 3 if length < 1e-3 else 4)} µm"
+
+
 def entry_words(entry: str) -> str:
     """An entry of the machine file as people say it: ``derivative gain``; a dimensionless number by its symbol."""
     return DIMENSIONLESS_FIELDS[entry].symbol if entry in DIMENSIONLESS_FIELDS else entry.replace("_", " ")
+
+
+def indentation_of_steel(rotor: Rotor, impulse: float = 0.0, force: float = 0.0) -> float:
+    """Least indentation, in clearances, of a rigid wall of solid steel by a normal impulse and a force; ``nan`` if unknown."""
+    at = rotor.in_rigid_wall
+    if at is None:
+        return math.nan
+    return max(indentation_of_impact(at, impulse / (1.0 + at.d)), indentation_of_force(at, force))
 
 
 def no_rigid_wall(indentation: float) -> str:

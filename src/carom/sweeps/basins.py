@@ -46,6 +46,7 @@ class BasinsTask:
     too."""
 
     kind: ClassVar[str] = "basins"
+    dimensions: ClassVar[tuple[Dimension, ...]] = (OUTCOMES,)
 
     @property
     def variables(self) -> tuple[Variable, ...]:

@@ -7,7 +7,6 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -119,14 +118,17 @@ class SweepPlan:
         return math.prod(part.stop - part.start for part in self.region(number))
 
     def points_of(self, number: int) -> Iterator[tuple[int, ...]]:
-        """Return the indices of the points of a chunk in the grid; the last axis varies fastest."""
-        return product(*(range(part.start, part.stop) for part in self.region(number)))
+        """Yield the indices of the points of a chunk in the grid; the last axis varies fastest."""
+        region = self.region(number)
+        for place in np.ndindex(*(part.stop - part.start for part in region)):
+            yield tuple(part.start + step for part, step in zip(region, place, strict=True))
 
     @checked
     def values(self, point: tuple[int, ...]) -> dict[str, float]:
         """Return the values of the parameters that vary, at a point of the grid."""
-        inside = [0 <= place < most for place, most in zip(point, self.shape, strict=False)]
-        if len(point) != len(self.shape) or not all(inside):
+        if len(point) != len(self.shape) or any(
+            not 0 <= place < most for place, most in zip(point, self.shape, strict=True)
+        ):
             raise InputError("point", point, f"indices of the grid of shape {self.shape}")
         return {axis.name: float(axis.values[place]) for axis, place in zip(self.axes, point, strict=True)}
 
@@ -195,8 +197,10 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     sizes.reverse()
     chunks = math.prod(-(-count // size) for count, size in zip(shape, sizes, strict=True))
     if chunks > MOST_CHUNKS:
-        allowed = f"at most {MOST_CHUNKS} are allowed; {-(-points // MOST_CHUNKS)} or more points"
-        raise InputError("chunk", chunk, f"gives {chunks} chunks, {allowed}")
+        least = -(-points // MOST_CHUNKS)
+        raise InputError(
+            "chunk", chunk, f"gives {chunks} chunks, at most {MOST_CHUNKS} are allowed; {least} or more points"
+        )
     return tuple(sizes)
 
 

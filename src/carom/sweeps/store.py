@@ -13,9 +13,10 @@ import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
-from functools import partial, reduce
-from itertools import chain, islice
+from dataclasses import asdict
+from functools import reduce
 from pathlib import Path
+from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -63,7 +64,7 @@ class SweepStore:
         self.path, self.plan = Path(path), plan
         self.damaged: list[int] = []
         self._finished, self._sizes = np.zeros(plan.chunks, bool), _sizes(plan)
-        self._failed = np.zeros(plan.chunks, int)
+        self._failed: dict[int, int] = {}
         self._digest = plan.digest
         try:
             if is_new(self.path):
@@ -87,7 +88,7 @@ class SweepStore:
                 self.damaged.append(number)
                 continue
             self._finished[number] = True
-            self._failed[number] = len(found.failures)
+            self._note(found)
 
     def _record(self, number: int) -> ChunkRecord | None:
         """Return the record of a finished chunk, or None if it or a file of the chunk is damaged, missing or another's."""
@@ -97,6 +98,12 @@ class SweepStore:
         except FileNotFoundError:
             return None
         return found if found is not None and found.sums == sums else None
+
+    def _note(self, found: ChunkRecord) -> None:
+        """Keep what the record of a finished chunk says."""
+        self._failed.pop(found.number, None)
+        if found.failures:
+            self._failed[found.number] = len(found.failures)
 
     def _files(self, number: int) -> dict[str, Path]:
         """Return the files of a chunk by variable name; that of the status, which is written last, comes last."""
@@ -114,17 +121,22 @@ class SweepStore:
     @property
     def failed(self) -> int:
         """Number of points that failed."""
-        return int(self._failed.sum())
+        return sum(self._failed.values())
 
     def waiting(self, retry_failed: bool = False) -> Iterator[int]:
         """Yield the chunks that are not finished, in order; then those with failures, if they are to be tried again."""
-        again = np.flatnonzero(self._failed).tolist() if retry_failed else []
+        again = sorted(self._failed) if retry_failed else []
         yield from (*np.flatnonzero(~self._finished).tolist(), *again)
 
     def failures(self) -> list[dict[str, Any]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
-        records = (self._record(number) for number in np.flatnonzero(self._failed).tolist())
-        return list(islice(chain.from_iterable(each.failures for each in records if each), MOST_FAILURES))
+        found: list[dict[str, Any]] = []
+        for number in sorted(self._failed):
+            shown = self._record(number)
+            found += shown.failures if shown else []
+            if len(found) >= MOST_FAILURES:
+                break
+        return found[:MOST_FAILURES]
 
     # ------------------------------------------------------------------------------------------------- writing
 
@@ -146,7 +158,9 @@ class SweepStore:
         self._writers = ThreadPoolExecutor(_WRITERS, thread_name_prefix="carom-store")
         return self
 
-    def __exit__(self, *problem: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, problem: BaseException | None, trace: TracebackType | None
+    ) -> None:
         if self._writers is not None:
             self._writers.shutdown()
         self._writers = None
@@ -160,39 +174,48 @@ class SweepStore:
         if self._writers is None:
             raise RuntimeError("the store is not open for writing")
         plan, number = self.plan, chunk.number
-        data = {each.name: _sealed(_padded(plan, chunk.arrays[each.name], each.fill)) for each in plan.variables}
-        sums = {name: checksum(content) for name, content in data.items()}
-        kept = ChunkRecord(self._digest, number, sums, chunk.failures)
-        files = {file: data[name] for name, file in self._files(number).items()}
-        status, status_data = files.popitem()
+        fills = {variable.name: variable.fill for variable in plan.variables}
+        files = {
+            file: _sealed(_padded(plan, chunk.arrays[name], fills[name])) for name, file in self._files(number).items()
+        }
+        sums = {name: checksum(files[file]) for name, file in self._files(number).items()}
+        failures = [asdict(failure) for failure in chunk.failures]
+        kept = ChunkRecord(self._digest, number, sums, failures)
+        status = list(files)[-1]
+        status_data = files.pop(status)
         files[record_file(self.path, number)] = kept.data
-        write = partial(write_whole, parts=self.path / PARTS)
         try:
             self._let_wait(number)
-            list(self._writers.map(write, files, files.values()))
+            list(self._writers.map(self._write_file, files, files.values()))
             list(self._writers.map(sync_directory, {file.parent for file in files}))
-            write(status, status_data)
+            self._write_file(status, status_data)
             sync_directory(status.parent)
         except OSError as problem:
             raise self._refusal(problem, shown=True) from None
         self._finished[number] = True
-        self._failed[number] = len(kept.failures)
+        self._note(kept)
 
     def _let_wait(self, number: int) -> None:
         """Make a chunk that is computed again wait until all its files are new, so that nobody reads a mixture."""
         list(self._files(number).values())[-1].unlink(missing_ok=True)
         self._finished[number] = False
-        self._failed[number] = 0
+        self._failed.pop(number, None)
+
+    def _write_file(self, target: Path, data: bytes) -> None:
+        write_whole(target, data, self.path / PARTS)
 
     def _refusal(self, problem: OSError, shown: bool = False) -> InputError:
         reason = problem.strerror or str(problem)
-        if shown:
-            kept = f"{np.count_nonzero(self._finished)} of {self.plan.chunks} chunks are stored"
-            allowed = f"cannot be written ({reason}); {kept}; fix this, and the same command resumes the sweep"
-        else:
+        if not shown:
             place = f": {problem.filename}" if problem.filename and Path(problem.filename) != self.path else ""
-            allowed = f"cannot be read or written ({reason}{place}); fix this or give another directory"
-        return InputError(OPTION, self.path, allowed)
+            return InputError(
+                OPTION, self.path, f"cannot be read or written ({reason}{place}); fix this or give another directory"
+            )
+        finished = int(np.count_nonzero(self._finished))
+        kept = f"{finished} of {self.plan.chunks} chunks are stored"
+        return InputError(
+            OPTION, self.path, f"cannot be written ({reason}); {kept}; fix this, and the same command resumes the sweep"
+        )
 
 
 @checked
@@ -232,9 +255,10 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     path = Path(path)
     try:
         attributes_of(path, "store")
-        return xarray.open_zarr(path, chunks=None, consolidated=True)
+        data = xarray.open_zarr(path, chunks=None, consolidated=True)
     except OSError as problem:
         raise InputError("store", path, f"cannot be read ({problem.strerror or problem}: {problem.filename})") from None
+    return data
 
 
 # ------------------------------------------------------------------------------------------------------------ chunks

@@ -12,7 +12,7 @@ from carom.base.arguments import Whole, checked
 from carom.base.outcome import STEADY_WORDS
 from carom.base.results import fields_of, in_si
 from carom.parameters import Case, Zones
-from carom.sweeps.variables import LEVITATES, Variable, with_si
+from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.models import Rotor
@@ -66,6 +66,7 @@ class StudyTask:
     has_scales: bool = False
 
     kind: ClassVar[str] = "study"
+    dimensions: ClassVar[tuple[Dimension, ...]] = ()
 
     @property
     def variables(self) -> tuple[Variable, ...]:
@@ -78,8 +79,9 @@ class StudyTask:
         if not self.disturbances:
             return "none, closed forms only"
         kinds = "kicks of the levitating rotor and starts anywhere in the clearance"
-        up_to = "at up to the speed that must be survived, in the fixed frame"
-        return f"{self.disturbances} at each point: {kinds}, {up_to}"
+        return (
+            f"{self.disturbances} at each point: {kinds}, at up to the speed that must be survived, in the fixed frame"
+        )
 
     @property
     def seconds(self) -> float:
@@ -147,16 +149,15 @@ class StudyTask:
         from carom.studies.questions import DESCRIBED, events_for
         from carom.studies.survives import comes_to_rest
 
-        names = ("recovered", "recovered_low", "recovered_high")
         if not rotor.system.is_planar and not comes_to_rest(rotor):
-            return {"attractors": 0, **dict.fromkeys(names, 0.0)}
+            return {"attractors": 0, **dict.fromkeys(("recovered", "recovered_low", "recovered_high"), 0.0)}
         with Budget().question(DESCRIBED, events_for(rotor, DESCRIBED)):
             found = find_attractors(rotor, seed=seed, count=self.disturbances, fastest=fastest, threads=1)
         smallest, share = found.smallest_unrecovered_kick, share_of_kicks(found)
         back = (share.fraction, share.low, share.high) if share else (0.0, 0.0, 0.0)
         return {
             "attractors": sum(member.count > 0 for member in found),
-            **dict(zip(names, back, strict=True)),
+            **dict(zip(("recovered", "recovered_low", "recovered_high"), back, strict=True)),
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 

@@ -13,10 +13,17 @@ from carom.parameters.formats import number
 from carom.rotors.reduced_machine import UNHELD
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.studies import unbalance_response
-from carom.studies.levitating import WHIRLS, levitating, whirls_of
-from carom.studies.levitation_facts import bearing_facts, frequency_words, response_words, whirl_words
-from carom.studies.response_words import micrometres
-from carom.studies.touchdown_facts import reduction_words
+from carom.studies.findings import reduction_words
+from carom.studies.levitating import (
+    WHIRLS,
+    bearing_facts,
+    frequency_words,
+    levitating,
+    response_words,
+    whirl_words,
+    whirls_of,
+)
+from carom.studies.wording import micrometres
 
 ALONG = "Along a motion the error may be larger: carom simulate and carom drop follow it again with twice as many vectors, and tell what that changes."
 ALL = 1000
