@@ -12,6 +12,7 @@ from carom.base.outcome import InputError
 from carom.basins import Basin, smallest_unrecovered
 from carom.basins.document import basin_document
 from carom.disturbances import Coordinate, Disturbance, Grid, Sample, Starts, VelocityKick
+from carom.parameters import own_size
 
 SCALES = cm.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
@@ -126,3 +127,11 @@ def test_what_cannot_be_saved_is_refused():
 def test_a_coordinate_has_a_unit_that_exists():
     with pytest.raises(InputError, match="scale = weight: one of: mass, length"):
         Coordinate("load", "weight of it", 0.0, 1.0, "weight")
+
+
+def test_a_size_may_be_an_impulse():
+    assert own_size("blow", "3 N s", "impulse", SCALES) == pytest.approx(
+        3.0 / SCALES.impulse, rel=1e-15
+    )  # one division
+    with pytest.raises(InputError, match="an impulse"):
+        own_size("blow", "3 N", "impulse", SCALES)

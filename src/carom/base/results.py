@@ -58,7 +58,7 @@ class Result(Tabular):
             There is no figure of such a result.
         """
         if not self.figure:
-            raise InputError("plot", type(self).__name__, "a result that carom.plots has a figure of")
+            raise InputError("plot", type(self).__name__, "a result with a figure; draw its arrays with matplotlib")
         return getattr(box("figures"), self.figure)(self, *args, **options)
 
     def rows(self) -> list[tuple[str, str]]:

@@ -67,7 +67,7 @@ class Grown:
                 raise CaromError("the motion stops hitting the wall: it has no exponents of impacts")
             slopes = self.flow.derivative(self.vector, motion)
             if not np.isfinite(slopes).all():
-                raise CaromError("the derivative of the motion is not known: it goes beyond the model beside it")
+                raise CaromError("no exponents: a motion that starts next to this one leaves the range of the model")
             self.directions, triangle = np.linalg.qr(slopes @ self.directions)
             found.append(np.log(np.maximum(np.abs(np.diag(triangle)), NOTHING)))
             durations.append(motion.time)

@@ -21,6 +21,7 @@ _KINDS = {
     "velocity": ("a velocity", "mm/s", "50 mm/s"),
     "acceleration": ("an acceleration", "g", "20 g"),
     "unbalance": ("an unbalance", "g mm", "5000 g mm"),
+    "impulse": ("an impulse", "N s", "3 N s"),
     "time": ("a time", "ms", "11 ms"),
     "speed": ("an angular speed", "rpm", "9000 rpm"),
     "angle": ("an angle", "deg", "30 deg"),
@@ -66,7 +67,7 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
         Name of the option or entry, for error messages.
     given : object
         A real number, or text; in ``"20 g"`` the unit is the standard gravity.
-    kind : {"length", "velocity", "acceleration", "unbalance", "time", "speed", "angle"}
+    kind : {"length", "velocity", "acceleration", "unbalance", "impulse", "time", "speed", "angle"}
     scales : Scales or None
         Needed for values with units.
     bare : bool

@@ -22,6 +22,7 @@ from carom.studies.facts import Fact, about, paragraphs
 from carom.studies.findings import not_covered
 from carom.studies.levitating import Levitating, frequency_words
 from carom.studies.summaries import (
+    MOTION_COLUMNS,
     MotionRow,
     motion_rows,
     survived_rows,
@@ -79,6 +80,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         findings=[entry for entry in paragraphs(study.facts) if entry[0] != "Not covered"],
         machine=study.case.rows(),
         whirls=_whirls(study.levitating),
+        motion_columns=MOTION_COLUMNS,
         motions=motion_rows(study),
         holding=_holding(study),
         left_out=sum(not orbit.admissible for orbit in study.orbits),
