@@ -15,7 +15,7 @@ from carom.core import events
 from carom.core.advance import advance
 from carom.core.block import load_products
 from carom.core.event_log import EventLog
-from carom.core.flow import displacement, squared_modulus
+from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LEVELS, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
@@ -312,3 +312,21 @@ def longest_block(task):
 
 def _direction(rng: np.random.Generator) -> complex:
     return complex(np.exp(2j * math.pi * rng.uniform()))
+
+
+def complex_normal(rng, *shape):
+    return rng.normal(size=shape) + 1j * rng.normal(size=shape)
+
+
+def by_steps(task, horizon):
+    """Outcome and time of the first crossing on the longest block by certified steps alone; checks the state there."""
+    work, origin, level, spread, bounds = at_start(task)
+    outcome, time = events._step_safely(
+        task.arrays, task.table, task.plane, origin, level, task.start, spread, horizon, bounds, work
+    )
+    if outcome == Outcome.CONTACT:
+        position, speed, _ = (complex(value) for value in task.flight.state(time))
+        noise = 16 * EPSILON * task.flight.spread(time) * (1.0 + task.flight.fastest * time)
+        assert abs(displacement(task.arrays, task.plane, work.end) - position) <= noise
+        assert abs(velocity(task.arrays, task.plane, work.end) - speed) <= noise * (1.0 + task.flight.fastest)
+    return outcome, time

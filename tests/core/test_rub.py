@@ -7,113 +7,36 @@ from functools import partial
 import mpmath
 import numpy as np
 import pytest
-from compilation import sized
 from machines import PAPER, fly, random_parameters
 from scipy.integrate import solve_ivp
+from sliding import (
+    BACKWARD,
+    FLIGHT,
+    FORWARD,
+    ROLLING,
+    SIGN,
+    SLENDER,
+    ExactSlide,
+    next_event,
+    on_wall,
+    polar,
+    pull_of,
+    push_of,
+    series_of,
+)
 
 from carom.base.outcome import Phase
 from carom.core.contact_series import rub_series
-from carom.core.flow import acceleration, displacement, fly_all, velocity
-from carom.core.layout import ORDER, rotor_record, rub_workspace
+from carom.core.flow import displacement, velocity
+from carom.core.layout import ORDER, rub_workspace
 from carom.core.rounding import push_rounding, speed_rounding
 from carom.core.rub import (
     first_transition,
-    lift_off,
     next_phase,
-    rest_on_wall,
     turn_ahead,
-    wall_push,
 )
 from carom.core.taylor import STEP_FRACTION, first_fall, series_step, sum_series
 from carom.models import jeffcott
-from carom.parameters import Parameters
-
-FLIGHT, FORWARD, BACKWARD, ROLLING = Phase.FLIGHT, Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING
-SIGN = {FORWARD: 1, BACKWARD: -1}
-SLENDER = PAPER.replace(radius_ratio=1.2)
-
-
-def on_wall(parameters, angle, rate):
-    """Amplitudes of a state that moves along the wall."""
-    position = cmath.rect(1.0, angle)
-    amplitudes = jeffcott(parameters).system.amplitudes(position, 1j * rate * position)
-    return np.array(amplitudes)
-
-
-def series_of(parameters, angle, rate, phase):
-    rotor = jeffcott(parameters).system.arrays
-    work = rub_workspace(2)
-    rub_series(rotor, np.array([phase]), on_wall(parameters, angle, rate), work)
-    return rotor, work
-
-
-def polar(rotor, amplitudes):
-    """Angle, rate, distance from the wall and radial speed."""
-    position, speed = displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes)
-    local = position.conjugate() * speed
-    return cmath.phase(position), local.imag, abs(position) - 1.0, local.real
-
-
-def push_of(parameters, angle, rate):
-    """Normal force, from Newton's law across the wall."""
-    return parameters.rho * math.cos(angle - parameters.phi) + (1 + rate) ** 2 - parameters.omega**2
-
-
-def pull_of(parameters, angle, rate):
-    """Acceleration along the wall without friction."""
-    return -parameters.gamma * (1 + rate) - parameters.rho * math.sin(angle - parameters.phi)
-
-
-class ExactSlide:
-    """Sliding with 40 digits in the angle and its rate: power series of order 40 from the recurrence of sine and cosine."""
-
-    ORDER = 40
-
-    def __init__(self, parameters: Parameters, angle: float, rate: float, sign: int) -> None:
-        self.numbers = {name: mpmath.mpf(getattr(parameters, name)) for name in ("gamma", "omega", "rho", "phi", "mu")}
-        self.sign = sign
-        self.starts, self.pieces = [mpmath.mpf(0)], [self._expand(mpmath.mpf(angle), mpmath.mpf(rate))]
-
-    def push(self, x, w):
-        """Normal force."""
-        rho, phi, omega = (self.numbers[name] for name in ("rho", "phi", "omega"))
-        return rho * mpmath.cos(x - phi) + (1 + w) ** 2 - omega**2
-
-    def _expand(self, angle, rate):
-        gamma, omega, rho, phi, mu = (self.numbers[name] for name in ("gamma", "omega", "rho", "phi", "mu"))
-        x, w = [angle], [rate]
-        sine, cosine = [mpmath.sin(angle - phi)], [mpmath.cos(angle - phi)]
-        for k in range(self.ORDER):
-            square = sum(w[j] * w[k - j] for j in range(k + 1))
-            push = rho * cosine[k] + square + 2 * w[k] + (1 - omega**2 if k == 0 else 0)
-            spin = w[k] + (1 if k == 0 else 0)
-            sine.append(sum(cosine[j] * w[k - j] for j in range(k + 1)) / (k + 1))
-            cosine.append(-sum(sine[j] * w[k - j] for j in range(k + 1)) / (k + 1))
-            x.append(w[k] / (k + 1))
-            w.append((-gamma * spin - rho * sine[k] - self.sign * mu * push) / (k + 1))
-        return x, w, mpmath.mpf(0.25) / (1 + abs(rate))
-
-    def state(self, time):
-        """Angle and rate at a time; the series of this order leave nothing at 25 digits on their steps."""
-        while time > self.starts[-1] + self.pieces[-1][2]:
-            step = self.pieces[-1][2]
-            ends = [_sum(series, step) for series in self.pieces[-1][:2]]
-            self.starts.append(self.starts[-1] + step)
-            self.pieces.append(self._expand(*ends))
-        place = max(0, sum(start <= time for start in self.starts) - 1)
-        return [_sum(series, time - self.starts[place]) for series in self.pieces[place][:2]]
-
-    def error(self, time: float, angle: float, rate: float) -> float:
-        """Distance of a state from the exact one."""
-        x, w = self.state(mpmath.mpf(time))
-        return float(abs(mpmath.expj(x) - mpmath.expj(mpmath.mpf(angle))) + abs(w - mpmath.mpf(rate)) / (1 + abs(w)))
-
-
-def _sum(series, time):
-    total = mpmath.mpf(0)
-    for coefficient in reversed(series):
-        total = total * time + coefficient
-    return total
 
 
 def test_the_exact_slide_solves_its_equation():
@@ -249,22 +172,6 @@ def test_flight_is_a_series_without_force():
 
 
 # --------------------------------------------------------------------------------------------------- transitions
-
-
-def next_event(parameters, angle, rate, phase):
-    """Walk to the end of a phase: its time, what follows, whether slip stops, and the amplitudes there."""
-    rotor = jeffcott(parameters).system.arrays
-    amplitudes, work, time = on_wall(parameters, angle, rate), rub_workspace(2), 0.0
-    for _ in range(200):
-        rub_series(rotor, np.array([phase]), amplitudes, work)
-        step = series_step(work)
-        duration, following, slip_stops = first_transition(rotor, 0, phase, step, work)
-        sum_series(work, duration, amplitudes)
-        rest_on_wall(rotor, 0, amplitudes, phase == ROLLING)
-        time += duration
-        if duration < step:
-            return time, following, slip_stops, amplitudes
-    raise AssertionError("the phase does not end")
 
 
 @pytest.mark.parametrize(
@@ -453,231 +360,3 @@ def test_turns_are_found_to_rounding():
     time = turn_ahead(0, cmath.rect(1.0, 0.4 - surface_speed * ahead), -1.0, step, work)
     assert time == pytest.approx(ahead, abs=1e-15)
     assert turn_ahead(0, cmath.rect(1.0, 0.4 - surface_speed * 1.5 * step), -1.0, step, work) == step
-
-
-# ---------------------------------------------------------------------------------------------------- lift-off
-
-
-def test_push_and_its_rate():
-    """The push against Newton's law, its rate against differences along the flight."""
-    random = np.random.default_rng(21)
-    for _ in range(100):
-        parameters = random_parameters(random)
-        angle, rate = random.uniform(-3, 3), random.normal() * 3.0
-        rotor = jeffcott(parameters).system.arrays
-        amplitudes = on_wall(parameters, angle, rate)
-        push, change = wall_push(rotor, 0, amplitudes)
-        rounding = push_rounding(rotor, 0, amplitudes)
-        assert push == pytest.approx(push_of(parameters, angle, rate), abs=rounding)
-        h = 1e-4
-
-        def free_push(amplitudes, rotor=rotor):
-            position, speed = displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes)
-            return (position.conjugate() * acceleration(rotor, 0, amplitudes)).real + abs(speed) ** 2
-
-        sides = fly_all(rotor, np.array([amplitudes] * 4), h * np.array([-2.0, -1.0, 1.0, 2.0]))
-        values = [free_push(side) for side in sides]
-        difference = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * h)
-        scale = (1.0 + abs(rate)) ** 6 * (1.0 + parameters.gamma + parameters.omega) ** 6
-        assert change == pytest.approx(difference, abs=1e-15 * scale / h + scale * h**4)
-
-
-def test_rounding_of_push_and_speed_bounds_what_doubles_lose():
-    """The stated rounding errors against the forces of the same amplitudes in many digits."""
-    random = np.random.default_rng(22)
-    for _ in range(200):
-        parameters = random_parameters(random, omega=1.0 + 10 ** random.uniform(-4, -1))
-        angle, rate = random.uniform(-3, 3), random.normal() * 10 ** random.uniform(-2, 3)
-        rotor = jeffcott(parameters).system.arrays
-        amplitudes = on_wall(parameters, angle, rate)
-        rest_on_wall(rotor, 0, amplitudes, False)
-        _, w, _, radial = polar(rotor, amplitudes)
-        assert abs(radial) < speed_rounding(rotor, 0, amplitudes)
-        assert abs(w - rate) < speed_rounding(rotor, 0, amplitudes)
-        push, _ = wall_push(rotor, 0, amplitudes)
-        assert abs(push - push_of(parameters, angle, rate)) < push_rounding(rotor, 0, amplitudes)
-
-
-def departures(count):
-    """States that slid until the push vanished, away from places where its rate does too."""
-    random = np.random.default_rng(31)
-    found = 0
-    while found < count:
-        parameters = random_parameters(random, mu=float(random.uniform(0, 1)), gamma=float(random.uniform(0.01, 0.5)))
-        angle, rate = random.uniform(-3, 3), random.normal() * 2.0
-        surface_speed = parameters.radius_ratio + 1.0
-        if push_of(parameters, angle, rate) < 0.01 or abs(surface_speed + rate) < 0.1:
-            continue
-        time, following, _, amplitudes = _follow_slide(
-            parameters, angle, rate, FORWARD if surface_speed + rate > 0 else BACKWARD
-        )
-        if following != FLIGHT or time > 30.0:
-            continue
-        found += 1
-        yield parameters, amplitudes
-
-
-def _follow_slide(parameters, angle, rate, phase):
-    try:
-        return next_event(parameters, angle, rate, phase)
-    except AssertionError:
-        return math.inf, phase, False, None
-
-
-def test_lift_off_leaves_as_the_cube_of_time():
-    for parameters, amplitudes in departures(sized(20, 5)):
-        rotor = jeffcott(parameters).system.arrays
-        push, change = wall_push(rotor, 0, amplitudes)
-        assert abs(push) < 2 * push_rounding(rotor, 0, amplitudes)
-        assert change < 0.0
-        start = amplitudes.copy()
-        time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, rub_workspace(2))
-        assert time > 0.0
-        position, speed = displacement(rotor, 0, start), velocity(rotor, 0, start)
-        # It does not come back at once, and where it ends agrees with the flight.
-        end, _ = fly(parameters, position, speed, time)
-        assert displacement(rotor, 0, amplitudes) == pytest.approx(end, abs=1e-12)
-        for share in np.linspace(0.05, 0.95, 10):
-            there, _ = fly(parameters, position, speed, share * time)
-            assert abs(there) < 1.0 + 1e-14
-        assert returned == (abs(abs(end) - 1.0) < 1e-13 and time < 1.0)
-        # The cubic law, where the next term of the series is small.
-        work = rub_workspace(2)
-        rub_series(rotor, np.array([FLIGHT]), start, work)
-        early = min(time, 1e-2 * abs(change) / (1.0 + abs(work.push[0, 2])))
-        if abs(change) * early**3 > 1e-9:
-            there, _ = fly(parameters, position, speed, early)
-            assert 1.0 - abs(there) == pytest.approx(-change * early**3 / 6, rel=0.02)
-
-
-def test_a_short_hop_is_followed_to_its_landing():
-    """Where the push turns negative for a moment only, the rotor is back after ``4N'/N''`` and no sooner."""
-    parameters = Parameters(gamma=0.02, omega=0.9, rho=0.5, phi=0.0, mu=0.2, d=0.5, radius_ratio=5.0)
-    # θ̇ with N = 0 and a rate of N that is small and negative at an angle where N'' is positive.
-    for angle in np.linspace(-3.1, 3.1, 200):
-        square = parameters.omega**2 - parameters.rho * math.cos(angle)
-        if square <= 0.0:
-            continue
-        for sign in (1, -1):
-            rate = -1.0 + sign * math.sqrt(square)
-            amplitudes = on_wall(parameters, angle, rate)
-            rotor, work = jeffcott(parameters).system.arrays, rub_workspace(2)
-            rub_series(rotor, np.array([FLIGHT]), amplitudes, work)
-            change, bend = work.push[0, 1], 2 * work.push[0, 2]
-            if not (change < -1e-9 and bend > 0.0 and -4 * change / bend < 0.05):
-                continue
-            start = amplitudes.copy()
-            time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, work)
-            assert returned
-            assert time == pytest.approx(-4 * change / bend, rel=0.01)
-            with mpmath.workdps(40):
-                assert time == pytest.approx(_hop(parameters, angle, rate, time), rel=1e-6)
-            assert np.abs(amplitudes - start).max() < 1.0
-            return
-    raise AssertionError("no hop found")
-
-
-def _hop(parameters, angle, rate, guess):
-    """Return time of a hop, from the flight with many digits."""
-    from machines import ExactMotion
-
-    motion = ExactMotion(parameters)
-    start = mpmath.expj(mpmath.mpf(angle))
-    spin = 1j * mpmath.mpf(rate) * start
-    return float(mpmath.findroot(lambda t: (abs(motion.fly(start, spin, t)[0]) ** 2 - 1) / t**3, guess))
-
-
-def test_a_start_without_push_that_is_pressed_on_does_not_leave():
-    parameters = PAPER
-    angle = parameters.phi - 1.0
-    rate = -1.0 + math.sqrt(parameters.omega**2 - parameters.rho * math.cos(1.0))
-    amplitudes = on_wall(parameters, angle, rate)
-    rotor = jeffcott(parameters).system.arrays
-    assert wall_push(rotor, 0, amplitudes)[1] > 0.0
-    time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, rub_workspace(2))
-    assert time < 1e-14
-    assert returned
-
-
-# ------------------------------------------------------------------------------------------------- any rotor
-
-
-class CoupledRotor:
-    """Two coupled complex coordinates ``q̈ = −Dq̇ − Kq + f + bF`` with contact at ``y = w·q``: four modes, one plane."""
-
-    def __init__(self, seed: int, friction: float, surface_speed: float) -> None:
-        random = np.random.default_rng(seed)
-
-        def noise(size):
-            return random.normal(size=size) + 1j * random.normal(size=size)
-
-        self.damping = 0.2 * np.eye(2) + 2j * np.eye(2) + 0.1 * noise((2, 2))
-        self.stiffness = np.diag([-0.4, 3.0]) + 0.3 * noise((2, 2))
-        self.load = 0.5 * noise(2)
-        self.row = np.array([1.0, 0.4 + 0.1j])
-        self.column = np.array([0.8, 0.3 - 0.2j])
-        self.column = self.column / (self.row @ self.column)
-        self.friction, self.surface_speed = friction, surface_speed
-        rest = np.linalg.solve(self.stiffness, self.load)
-        matrix = np.block([[np.zeros((2, 2)), np.eye(2)], [-self.stiffness, -self.damping]])
-        exponents, vectors = np.linalg.eig(matrix)
-        self.rest, self.inverse = rest, np.linalg.inv(vectors)
-        self.arrays = rotor_record(
-            exponents=exponents,
-            driven=np.zeros(4, bool),
-            offsets=np.array([self.row @ rest]),
-            rows=(self.row @ vectors[:2])[None],
-            columns=self.inverse @ np.concatenate([np.zeros(2), self.column])[:, None],
-            friction=np.array([friction]),
-            restitution=np.array([0.5]),
-            surface_speed=np.array([surface_speed]),
-        )
-
-    def start(self, angle: float, rate: float) -> np.ndarray:
-        """A state on the wall with given rate along it."""
-        position = cmath.rect(1.0, angle)
-        first = np.array([position - self.row[1] * (0.2 - 0.1j), 0.2 - 0.1j])
-        speed = np.array([1j * rate * position - self.row[1] * (-0.1 + 0.3j), -0.1 + 0.3j])
-        return np.concatenate([first, speed])
-
-    def amplitudes(self, state: np.ndarray) -> np.ndarray:
-        return self.inverse @ (state - np.concatenate([self.rest, np.zeros(2)]))
-
-    def push(self, state: np.ndarray) -> float:
-        position, speed = self.row @ state[:2], self.row @ state[2:]
-        free = self.row @ (self.load - self.stiffness @ state[:2] - self.damping @ state[2:])
-        return float((position.conjugate() * free).real + abs(speed) ** 2)
-
-    def motion(self, _: float, state: np.ndarray, sign: int) -> np.ndarray:
-        """Equations of index 1: the multiplier is the force that keeps ``d²|y|²/dt²`` zero."""
-        free = self.load - self.stiffness @ state[:2] - self.damping @ state[2:]
-        position = self.row @ state[:2]
-        if sign == 0:
-            force = -(self.surface_speed**2) * position - self.row @ free
-        else:
-            force = -complex(1.0, sign * self.friction) * self.push(state) * position
-        return np.concatenate([state[2:], free + self.column * force])
-
-
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("phase", [FORWARD, BACKWARD, ROLLING])
-def test_a_rotor_of_four_modes_stays_on_the_wall(seed, phase):
-    sign = {**SIGN, ROLLING: 0}[phase]
-    rotor = CoupledRotor(seed, friction=0.2, surface_speed=3.0)
-    state = rotor.start(0.3, {FORWARD: 2.5, BACKWARD: -7.0, ROLLING: -3.0}[phase])
-    amplitudes, work, time = rotor.amplitudes(state), rub_workspace(4), 0.0
-    for _ in range(12):
-        rub_series(rotor.arrays, np.array([phase]), amplitudes, work)
-        step = series_step(work)
-        push = work.push[0] @ step ** np.arange(ORDER + 1)
-        sum_series(work, step, amplitudes)
-        rest_on_wall(rotor.arrays, 0, amplitudes, phase == ROLLING)
-        time += step
-    expected = solve_ivp(rotor.motion, (0.0, time), state, "DOP853", args=(sign,), rtol=1e-13, atol=1e-13).y[:, -1]
-    position, speed = displacement(rotor.arrays, 0, amplitudes), velocity(rotor.arrays, 0, amplitudes)
-    assert abs(abs(position) - 1.0) < 4e-15
-    assert abs((position.conjugate() * speed).real) < 1e-14
-    assert position == pytest.approx(rotor.row @ expected[:2], abs=1e-10)
-    assert speed == pytest.approx(rotor.row @ expected[2:], abs=1e-9)
-    assert np.abs(amplitudes - rotor.amplitudes(expected)).max() < 1e-9
-    assert push == pytest.approx(rotor.push(expected), abs=1e-9)

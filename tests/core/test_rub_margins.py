@@ -341,57 +341,6 @@ def test_a_dip_after_a_summit_is_not_passed_over(step):
         assert taylor.first_fall(margin, 0.6 * step, 1e-14) == 0.6 * step
 
 
-def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
-    """A rotor that is pulled off the wall from rest on it, followed for less than a step."""
-    parameters = PAPER.replace(omega=3.0)
-    arrays = jeffcott(parameters).system.arrays
-    amplitudes = np.array(jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
-    assert rub.wall_push(arrays, 0, amplitudes)[0] < -1.0
-    expected = fly_all(arrays, amplitudes[None], np.array([1e-3]))[0]
-    work = rub_workspace(2)
-    # Scratch arrays carry nothing from one call to the next.
-    work.first_margin[:] = -1e9
-    time, returned = rub.lift_off(arrays, np.array([FLIGHT]), amplitudes, 1e-3, work)
-    assert (time, returned) == (1e-3, False)
-    assert amplitudes == pytest.approx(expected, abs=1e-14)
-
-
-def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_rounding_of_that_force():
-    """At speeds along the wall where the force is next to zero and falls."""
-    tried = 0
-    for angle in np.arange(0.0, 6.0, 0.5):
-        rotor = jeffcott(PAPER.replace(phi=angle))
-        turning = math.sqrt(max(PAPER.omega**2 - PAPER.rho * math.cos(angle), 0.0)) - 1.0
-        for share, leaves in ((0.8, True), (1.2, False)):
-            for _ in range(4):
-                amplitudes = np.array(rotor.system.amplitudes(1.0 + 0j, complex(0.0, turning)))
-                push, change = rub.wall_push(rotor.system.arrays, 0, amplitudes)
-                rounding = push_rounding(rotor.system.arrays, 0, amplitudes)
-                turning += (share * rounding - push) / (2.0 * (1.0 + turning) + 1e-300)
-            if change > -0.1:
-                continue
-            assert push == pytest.approx(share * rounding, rel=5e-3)
-            time, returned = rub.lift_off(rotor.system.arrays, np.array([FLIGHT]), amplitudes, 1e-3, rub_workspace(2))
-            assert (time, returned) == ((1e-3, False) if leaves else (0.0, True))
-            tried += 1
-    assert tried >= 6
-
-
-def test_what_an_earlier_call_left_behind_does_not_change_a_lift_off():
-    """In a flight to its return, many times as long as the one above."""
-    parameters = PAPER.replace(omega=3.0)
-    arrays = jeffcott(parameters).system.arrays
-    found = []
-    for left in (0.0, -1e15):
-        amplitudes = np.array(jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
-        work = rub_workspace(2)
-        work.first_margin[:] = left
-        found.append((*rub.lift_off(arrays, np.array([FLIGHT]), amplitudes, 10.0, work), amplitudes))
-    assert found[0][0] > 0.01
-    assert found[0][:2] == found[1][:2]
-    assert np.array_equal(found[0][2], found[1][2])
-
-
 def test_the_value_and_slope_of_a_margin():
     margin = np.random.default_rng(7).normal(size=ORDER + 1)
     derivative = margin[1:] * np.arange(1, ORDER + 1)
