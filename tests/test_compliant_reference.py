@@ -44,9 +44,6 @@ def test_a_hunt_crossley_wall_restitutes_as_it_should(exponent, dissipation):
 # ------------------------------------------------------------------------------------- polar coordinates, 20 digits
 
 
-PARAMETERS = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21}
-
-
 # ------------------------------------------------------------------------------------------------ several planes
 
 

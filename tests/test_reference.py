@@ -1,15 +1,11 @@
 """The high-precision reference itself: values against mpmath, crossings against dense sampling."""
 
-import math
-
 import mpmath
 import numpy as np
 import pytest
 from flights import inside_task, near_grazing_task, parameters, random_wall_task, rotors
 from flint import acb, arb
-from reference import Flight, first_crossing, jeffcott_equilibrium, jeffcott_flight, unit
-
-from carom.models import jeffcott
+from reference import Flight, first_crossing, jeffcott_flight, unit
 
 
 @pytest.mark.parametrize(("gamma", "omega"), [(0.1, 0.76), (4.0, 0.7), (1.4, 0.7), (1.4 + 1e-15, 0.7), (0.0, 2.0)])
@@ -89,9 +85,3 @@ def test_a_start_that_is_pressed_on_is_refused():
     flight = jeffcott_flight(0.1, 0.7, 0.4, 0.2, unit(machine.phi), acb(0))
     with pytest.raises(ArithmeticError, match="leave"):
         first_crossing(flight, 10.0, radial_speed=0.0)
-
-
-def test_equilibrium_and_exponents_agree_with_the_rotor():
-    rotor = jeffcott(parameters(0.3, 0.8))
-    assert complex(jeffcott_equilibrium(0.3, 0.8, 0.4, 0.2)) == pytest.approx(rotor.equilibrium, rel=1e-15)
-    assert math.isclose(abs(rotor.equilibrium), 0.4 / abs(0.8**2 - 1 + 0.3j))

@@ -1,6 +1,5 @@
 """The page in a real browser: loaded, dragged, typed into, copied from, restarted, and attacked."""
 
-import math
 from pathlib import Path
 
 import pytest
@@ -68,30 +67,6 @@ def test_the_machine_is_copied(page, kind, part):
     page.locator(f'[data-copy="{kind}"]').click()
     expect(page.locator("#copied")).to_contain_text("is in the clipboard")
     assert part in said(page, "navigator.clipboard.readText()")
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "value"),
-    [
-        ("speed", "20 Hz", 1200.0),
-        ("speed", "1 759 rpm", 1759.0),
-        ("eccentricity", "300 um", 0.3),
-        ("stiffness", "980 N/mm", 980_000.0),
-    ],
-)
-def test_typed_units_place_slider_and_cursor(page, name, text, value):
-    page.locator(f"#box-{name}").fill(text)
-    page.keyboard.press("Enter")
-    number = said(page, "carom.number")
-    answered(page, "diagram", number)
-    # As exact as the server tells it, with twelve digits.
-    assert said(page, f"carom.controls.value('{name}')") == pytest.approx(value, rel=1e-11)
-    assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-11)
-    low, high = (float(page.locator(f'[data-name="{name}"]').get_attribute(f"data-{end}")) for end in ("low", "high"))
-    share = math.log(value / low) / math.log(high / low) if name == "stiffness" else (value - low) / (high - low)
-    assert float(page.locator(f'[data-name="{name}"] .slider').input_value()) == pytest.approx(
-        1000 * share, abs=1
-    )  # its steps
 
 
 def test_what_was_set_is_in_the_address(open_page):

@@ -13,7 +13,6 @@ import pytest
 import carom
 from carom.base.outcome import CaromError
 from carom.explorer.notebook import encoded
-from carom.explorer.page import questions
 
 MACHINE = carom.load("examples/keogh-cole.toml")
 SOON = 120
@@ -83,21 +82,6 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch):
     carom.explorer.notebook._figure_class.cache_clear()
     with pytest.raises(CaromError, match=r'need anywidget; install it with: pip install "carom\[notebook\]"$'):
         carom.explorer.explore(MACHINE)
-
-
-@pytest.mark.jit_only
-def test_a_flexible_machine_is_drawn_at_each_of_its_touchdown_bearings(browser, monkeypatch):
-    monkeypatch.setattr(questions, "opening_range", lambda rotor, plane: plane.usual)
-    monkeypatch.setattr(questions, "PATIENCE_SLOW", 0.5)
-    case = carom.load("examples/tum-flexible-rotor.toml", ["gravity=0"])
-    with shown(carom.explorer.explore(case)) as figure:
-        page, until = hosted(browser, figure, "background: #fff; color: #000")
-        motion = until("motion")
-        assert page.locator("#levitation").inner_text().startswith("It levitates")
-        for plane, found in enumerate(motion["planes"]):
-            assert found["words"] in page.locator(f"#motion-{plane}-words").inner_text()
-        assert motion["words"].strip() in page.locator("#motion-0-words").inner_text()
-        assert page.problems == []
 
 
 def hosted(browser, figure, colours):

@@ -189,7 +189,7 @@ def test_as_many_pages_as_there_can_be(monkeypatch):
 def test_malformed_sessions_leave_the_page_answering():
     patch = [json.dumps({"msgid": "1", "msgtype": "PATCH-DOC"}), "{}", "{}"]
     with serving() as (explorer, run):
-        for place in range(50):
+        for place in range(12):
             token, protocol = [(None, "bokeh"), ("junk", "bokeh"), (None, "other")][place % 3]
             connection = connect(explorer, run, token, protocol)
             for part in (patch, ["nonsense"] * 3)[place % 2]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from linear_rotors import single, tilting
+from linear_rotors import tilting
 
 import carom
 from carom.base.outcome import InputError
@@ -38,13 +38,3 @@ def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
     assert "touchdown bearing 2" in both.axes[0].get_title()
     with pytest.raises(InputError, match="plane = 2"):
         carom.plots.equilibria_and_orbits(found, plane=2)
-
-
-def test_an_orbit_of_a_tighter_bearing_touches_the_circle():
-    found = carom.find_orbits(single(1).model, impacts=1, guesses=60)
-    stable = next(orbit for orbit in found if orbit.stable)
-    assert stable.extremes.radius == pytest.approx(1.0, abs=1e-12)
-    rotating, _ = stable.plot().axes
-    (line,) = (line for line in rotating.lines if line.get_gid() == "path")
-    assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-12)
-    found.plot()

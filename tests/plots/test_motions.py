@@ -32,14 +32,6 @@ def test_motion_shows_every_impact_in_both_frames_by_whirl_direction(bouncing, r
         assert len(read.lines(axes, "path")) == 1
 
 
-def test_motion_starts_and_ends_where_it_does(damped, bouncing, read):
-    rotating, fixed = plots.motion(bouncing).axes
-    for axes, turn in ((rotating, 1.0), (fixed, np.exp(1j * bouncing.time))):
-        (end,) = read.lines(axes, "end")
-        last = damped.mm * bouncing.final.position * turn
-        assert (end.get_xdata()[0], end.get_ydata()[0]) == pytest.approx((last.real, last.imag))
-
-
 @pytest.mark.jit_only
 def test_fast_rolling_keeps_to_the_circle(weak, read):
     """Rolling backward the rotor goes round some nine times in 1/Omega: no chord may cut across."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from drawn_legends import fits
+from drawn_legends import fits, legend_words
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
 
@@ -43,10 +43,6 @@ def painted(axes):
     return mesh.get_facecolors().reshape(-1, 4)
 
 
-def words(figure):
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-
-
 def test_both_have_the_same_range_and_colours(before, after):
     figure = plots.basin_pair([("now", before), ("then", after)], 0.8)
     now, then = figure.axes
@@ -59,8 +55,8 @@ def test_both_have_the_same_range_and_colours(before, after):
         same = np.all(np.isclose(painted(axes)[:, :3], green), axis=1)
         assert np.array_equal(same[exists], back[exists])
     assert not before.recovered[before.exists].all()
-    assert {"levitation", "must survive: up to 103 mm/s"} <= set(words(figure))
-    assert len(words(figure)) == len(set(before.motions) | set(after.motions)) + 1
+    assert {"levitation", "must survive: up to 103 mm/s"} <= set(legend_words(figure))
+    assert len(legend_words(figure)) == len(set(before.motions) | set(after.motions)) + 1
     assert (now.get_xlabel(), now.get_ylabel()) == ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")
     assert then.get_ylabel() == ""
     for axes in figure.axes:

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from drawn_legends import legend_words
 from matplotlib.collections import QuadMesh
 from matplotlib.path import Path
 from sweep_tasks import Failing, basins_plan
@@ -44,10 +45,6 @@ def shades(figure):
     return mesh.get_array()
 
 
-def words(figure):
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-
-
 def cells(figure, key):
     """Middles of the cells that are drawn as having no value for one reason."""
     (patch,) = [entry for entry in figure.axes[0].patches if entry.get_gid() == key]
@@ -72,7 +69,7 @@ def test_shades_are_the_stored_numbers_in_their_places(failing):
     assert axes.get_xlabel() == r"scaled damping $\gamma$"
     assert axes.get_title() == "a title"
     assert figure.axes[1].get_ylabel() == "what varies"
-    assert words(figure) == ["failed"]
+    assert legend_words(figure) == ["failed"]
 
 
 def test_cells_without_a_value_say_why(failing, studies):
@@ -84,7 +81,7 @@ def test_cells_without_a_value_say_why(failing, studies):
     figure = plots.sweep_map(known, "value")
     blank = known.value.isnull()
 
-    assert words(figure) == ["no levitation", "no such value", "not computed yet", "failed"]
+    assert legend_words(figure) == ["no levitation", "no such value", "not computed yet", "failed"]
     np.testing.assert_array_equal(cells(figure, "waiting"), (blank & (known.status == 0)).values)
     np.testing.assert_array_equal(cells(figure, "failed"), (blank & (known.status == 2)).values)
     computed = blank & (known.status == 1)

@@ -128,20 +128,6 @@ def test_any_letter_that_matters_is_refused(document):
 
 
 @pytest.mark.parametrize(
-    "change",
-    [
-        {"bits": 128},
-        {"options": {"kicks_up_to": "6.8", "most_impacts": 3}},
-        {"options": {"kicks_up_to": "6.7", "most_impacts": "3"}},
-        {"options": {"kicks_up_to": "6.7"}},
-    ],
-)
-def test_other_terms_are_refused(document, change):
-    with pytest.raises(InputError, match="is refused"):
-        check({**document, **change})
-
-
-@pytest.mark.parametrize(
     ("machine", "largest", "words"),
     [
         (SPINDLE, "120", "has no unit"),

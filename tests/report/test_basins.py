@@ -1,6 +1,5 @@
 """What the report begins with: the basin now and after the change that was checked."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,8 +8,7 @@ from studies import study_once
 from carom.basins import map_basins
 from carom.disturbances import KickPlane
 from carom.loading import load
-from carom.report import basins, report_page
-from carom.studies.advice import Recommendation
+from carom.report import basins
 
 KEOGH_COLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 
@@ -47,18 +45,3 @@ def test_the_change_is_the_one_that_was_checked(real, monkeypatch):
     assert now == "now\nstiffness 980,000 N/m"
     assert after == f"after the change\nstiffness {change.terms.text}"
     assert there.share_recovered.fraction == 1.0
-
-
-@pytest.mark.parametrize(
-    ("kind", "said"), [("no-change-found", "no damping or stiffness"), ("nothing-buildable", "magnetic bearings")]
-)
-def test_without_advice_words_say_so(kind, said, real, monkeypatch):
-    changes = real.recommendation.changes if kind == "nothing-buildable" else ()
-    result = replace(real, recommendation=Recommendation(kind, changes, ()))
-    ((title, _),), _ = drawn(monkeypatch, result)
-    assert title == ""
-    assert "No change is advised" in basins.caption(result)
-    assert said in basins.caption(result)
-    page = report_page(result, [])
-    assert "after the change" not in page
-    assert ("Beyond the limits" in page) == (kind == "nothing-buildable")

@@ -56,14 +56,3 @@ def test_special_points_are_those_of_the_library(case, picture):
         [point.x for point in picture.points], [point.value for point in found.points], rtol=1e-9
     )
     assert {point.words for point in picture.points} >= {"period doubling, B1,d", "fold of synchronous rubs"}
-
-
-def test_bars_end_where_steady_motions_do(case, picture):
-    (levitation,) = (bar for bar in picture.bars if bar.words == "levitation")
-    (rub,) = (bar for bar in picture.bars if bar.words != "levitation")
-    step = (7000.0 - 280.0) / 200.0
-    assert levitation.low == pytest.approx(670.971, abs=step)
-    assert levitation.high == 7000.0
-    assert rub.high == pytest.approx(3407.85, abs=step)
-    points = {point.words: point.x for point in picture.points}
-    assert points["fold of synchronous rubs"] - rub.high < step

@@ -48,21 +48,6 @@ def test_document_has_every_row(found, written):
     assert meeting["value"] == pytest.approx([0.1779723, 0.7811076], abs=5e-8)
 
 
-def test_table_has_every_row(found, written):
-    place, _ = written
-    table = (place / "table.md").read_text(encoding="utf-8")
-    for row in found.numbers:
-        assert row.place in table
-        assert row.printed in table
-    for misprint in found.misprints:
-        assert misprint.right.replace("|", "\\|") in table
-    assert all(region.part in table for region in found.plane.regions)
-    # Every line of a table has as many cells as its head.
-    for block in table.split("\n\n"):
-        lines = [line.replace("\\|", "") for line in block.splitlines() if line.startswith("|")]
-        assert len({line.count("|") for line in lines}) <= 1
-
-
 def test_nothing_is_left_of_an_interrupted_write(found, tmp_path):
     def interrupt(report):
         if report.share > 0.0:
