@@ -16,4 +16,4 @@ print(orbit.margins)
 
 # %%
 # What to see: three periods of the orbit.  All bounces are alike, since the orbit is closed exactly, not read from a decaying motion.
-figure = cm.plots.radius(orbit)
+figure = cm.plots.radius(orbit.trajectory(3))

@@ -15,4 +15,4 @@ print(f"grazes at gamma = {grazing.value:.10f}; beyond it is {branch.orbits[0].r
 # %%
 # What to see: between two impacts, at the triangles, the curve just touches the wall.  With less damping it would cross it: the orbit is no
 # motion any more.
-figure = cm.plots.radius(grazing.orbit)
+figure = cm.plots.radius(grazing.orbit.trajectory(2))

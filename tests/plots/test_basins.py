@@ -111,5 +111,3 @@ def test_gain_map(rotor):
     shares = next(entry for entry in axes.collections if isinstance(entry, QuadMesh)).get_array()
     np.testing.assert_array_equal(np.ma.getmaskarray(shares), ~levitates)
     np.testing.assert_array_equal(shares[levitates], found.dataset["recovered"].values.T[levitates])
-    with pytest.raises(InputError, match="measure"):
-        plots.gain_map(found, measure="beauty")

@@ -42,8 +42,8 @@ def shown_inline(figure):
     "write", [lambda figure: written(figure, "png"), lambda figure: written(figure, "svg"), shown_inline]
 )
 def test_settings_of_the_user_do_not_show_when_the_user_writes(damped, write):
-    plain = write(plots.radius(damped.orbits["B1,d"]))
-    figure = plots.radius(damped.orbits["B1,d"])
+    plain = write(plots.radius(damped.orbits["B1,d"].trajectory(3)))
+    figure = plots.radius(damped.orbits["B1,d"].trajectory(3))
     with mpl.rc_context(SETTINGS):
         assert write(figure) == plain
 
@@ -79,7 +79,7 @@ def test_garbage_is_collected_after_drawing_as_before(damped, tmp_path):
     for wanted in (True, False):
         (gc.enable if wanted else gc.disable)()
         try:
-            plots.save(plots.radius(damped.orbits["B1,d"]), tmp_path / "a", ("svg",))
+            plots.save(plots.radius(damped.orbits["B1,d"].trajectory(3)), tmp_path / "a", ("svg",))
             assert gc.isenabled() is wanted
         finally:
             gc.enable()

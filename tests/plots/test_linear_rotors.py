@@ -12,7 +12,7 @@ pytestmark = pytest.mark.jit_only
 
 def test_equilibria_are_drawn_in_the_circle_of_each_plane():
     found = carom.find_equilibria(tilting().model)
-    figure = found.plot("rotor on two bearings")
+    figure = found.plot()
     assert [panel.get_title() for panel in figure.axes] == [
         "co-rotating frame, touchdown bearing 1",
         "co-rotating frame, touchdown bearing 2",

@@ -60,14 +60,13 @@ def cells(figure, key):
 
 
 def test_shades_are_the_stored_numbers_in_their_places(failing):
-    figure = plots.sweep_map(failing, "value", "a title")
+    figure = plots.sweep_map(failing, "value")
     axes = figure.axes[0]
 
     np.testing.assert_array_equal(shades(figure).filled(np.nan), failing.value.values.T)
     assert shades(figure).mask.sum() == 5
     assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")
     assert axes.get_xlabel() == r"scaled damping $\gamma$"
-    assert axes.get_title() == "a title"
     assert figure.axes[1].get_ylabel() == "what varies"
     assert legend_words(figure) == ["failed"]
 

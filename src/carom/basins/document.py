@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.attractors import MotionName
 from carom.base.outcome import Outcome
 from carom.base.results import fields_of, in_si
 from carom.basins.brackets import SmallestUnrecovered
@@ -23,7 +24,29 @@ from carom.closed_forms.contact_free import contact_free_blade_loss, contact_fre
 from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
+from carom.parameters.columns import Column
+from carom.parameters.formats import format_quantity
 from carom.parameters.scaling import SCALING
+
+
+def _interval(name: MotionName, basin: Basin) -> str:
+    share = basin.share_of(name)
+    return f"{100 * share.low:.3g} to {100 * share.high:.3g} %" if share.drawn else ""
+
+
+def _decided(name: MotionName, basin: Basin) -> str:
+    index, times = basin.dataset["motion"].values, basin.dataset["time"].values
+    return format_quantity(float(np.median(times[index == basin.motions.index(name)])), "time", basin.scales)
+
+
+MOTION = (
+    Column("", "where they end", lambda name, _: name.words),
+    Column("", "starts", lambda name, basin: str(basin.share_of(name).count)),
+    Column("", "share", lambda name, basin: f"{100 * basin.share_of(name).fraction:.4g} %"),
+    Column("", "95 % interval", _interval),
+    Column("", "decision time (median)", _decided),
+)
+"""Of each motion, by its name, what people see of a basin."""
 
 
 def basin_document(

@@ -11,11 +11,12 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Annotated, Any, TextIO
 
 import typer
@@ -178,18 +179,14 @@ def _lost_interrupts_repeated() -> Iterator[None]:
 
     def shown(lost: sys.UnraisableHookArgs) -> None:
         if not issubclass(lost.exc_type, KeyboardInterrupt | SystemExit):
-            usual(lost)
-            return
+            return usual(lost)
         number = signal.SIGINT if issubclass(lost.exc_type, KeyboardInterrupt) else signal.SIGTERM
         again = threading.Timer(AGAIN, _thread.interrupt_main, (number,))
         again.daemon = True
-        again.start()
+        return again.start()
 
-    sys.unraisablehook = shown
-    try:
+    with _replaced(sys, "unraisablehook", shown):
         yield
-    finally:
-        sys.unraisablehook = usual
 
 
 @contextmanager
@@ -220,11 +217,18 @@ def _warnings_on_one_line() -> Iterator[None]:
         else:
             usual(message, category, *place, **more)
 
-    warnings.showwarning = shown
+    with _replaced(warnings, "showwarning", shown):
+        yield
+
+
+@contextmanager
+def _replaced(module: ModuleType, hook: str, by: Callable[..., None]) -> Iterator[None]:
+    usual = getattr(module, hook)
+    setattr(module, hook, by)
     try:
         yield
     finally:
-        warnings.showwarning = usual
+        setattr(module, hook, usual)
 
 
 def _complain(message: str) -> None:

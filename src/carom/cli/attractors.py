@@ -54,15 +54,16 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
     from carom.basins import share_of_kicks
     from carom.cli.fitting import print_table
     from carom.parameters.columns import table_of
-    from carom.studies.document import SEEN
+    from carom.studies.document import ACROSS, MEASURED, SEEN
 
     screen = console()
+    measured = list(zip(found, known, strict=True))
     headings, rows = table_of(SEEN, found, found)
-    shown = [[*row, _across(measured)] for row, measured in zip(rows, known, strict=True)]
+    across, cells = table_of(ACROSS, measured, found)
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
-    headings.append("largest exponent across the motion")
-    print_table(screen, "Motions on which disturbances end", headings, shown)
+    shown = [row + cell for row, cell in zip(rows, cells, strict=True)]
+    print_table(screen, "Motions on which disturbances end", headings + across, shown)
     if share := share_of_kicks(found):
         screen.print(f"{share.words}.")
     for entry in found:
@@ -72,28 +73,6 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
     if exponents:
         screen.print()
         note = "In Ω, ± standard errors; -inf: contact removes this direction."
-        columns = ("motion", "exponents", "impacts measured")
-        print_table(screen, "Lyapunov exponents", columns, _exponents(found, known), note=note)
+        print_table(screen, "Lyapunov exponents", *table_of(MEASURED, measured, found), note=note)
     screen.print()
     screen.print(found.argument)
-
-
-def _across(exponents: LyapunovExponents | None) -> str:
-    """The largest exponent across the motion."""
-    if exponents is None:
-        return "-"
-    value, error = exponents.across
-    return f"{value:.3g}" + (f" ± {error:.1g}" if error else "")
-
-
-def _exponents(found: AttractorSet, known: list[LyapunovExponents | None]) -> list[tuple[str, str, str]]:
-    """Rows of all exponents."""
-    rows = []
-    for entry, measured in zip(found, known, strict=True):
-        if measured is None:
-            rows.append((entry.name.words, "not known", "-"))
-            continue
-        pairs = zip(measured.values, measured.errors, strict=True)
-        shown = [f"{value:.4g} ± {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
-        rows.append((entry.name.words, ", ".join(shown), f"{measured.impacts:,}" if measured.errors.any() else "exact"))
-    return rows

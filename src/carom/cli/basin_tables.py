@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-import numpy as np
 from rich.console import Console
 
 from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.basins import Basin, GainMap, SmallestUnrecovered
+from carom.basins.document import MOTION
 from carom.basins.families import size_coordinate
 from carom.basins.gains import WANTED
 from carom.cli.fitting import print_table
 from carom.cli.tables import print_rows
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.parameters.formats import format_angle, format_quantity
+from carom.parameters.columns import table_of
+from carom.parameters.formats import format_angle
 from carom.studies.wording import Wording
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | None, contact_free: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that does not come back."""
     screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales, at=basin.instants)}.")
-    drawn = basin.share_recovered.drawn
-    headings, rows = ("where they end", "starts", "share", "95 % interval", "decision time (median)"), []
-    index, times = basin.dataset["motion"].values, basin.dataset["time"].values
-    for name in basin.fractions:
-        share = basin.share_of(name)
-        when = float(np.median(times[index == basin.motions.index(name)]))
-        interval = f"{100 * share.low:.3g} to {100 * share.high:.3g} %" if drawn else ""
-        fraction, decided = f"{100 * share.fraction:.4g} %", format_quantity(when, "time", basin.scales)
-        rows.append((name.words, str(share.count), fraction, interval, decided))
-    print_table(screen, "", headings, rows, note="Decision time: when the outcome was certain.")
+    note = "Decision time: when the outcome was certain."
+    print_table(screen, "", *table_of(MOTION, basin.fractions, basin), note=note)
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
     if basin.irregular:
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()}: {basin.irregular['survival']}.")

@@ -88,19 +88,21 @@ def prove(
     """
     theorems = dict(zip(list(_ALLOWED)[1:], (kicks_up_to, shocks_up_to, unbalance_up_to, states_up_to), strict=True))
     sizes = {name: size for name, size in theorems.items() if size is not None}
-    limits = {"--most-impacts": most_impacts, "--time-limit": time_limit}
-    others = {
-        "--impacts": impacts,
-        **dict(zip(_RANGE, (along, start, stop), strict=True)),
-    }
-    given = {name: value for name, value in {**others, **limits}.items() if value not in (None, [], ())}
+    others = ("--impacts", *_RANGE, "--most-impacts", "--time-limit")
+    values = (impacts, along, start, stop, most_impacts, time_limit)
+    given = {name: value for name, value in zip(others, values, strict=True) if value not in (None, [], ())}
     with progress("loading") as tell:
         check_output(out)
         part = tell.part(0.0, _DRAWING)
         if check is not None:
             if machine is not None or settings or sizes or given:
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
-            proof = _checked(check, out, part)
+            from carom.proofs import check as verify
+
+            proof = verify(check, progress=part)
+            if out is not None and proof.theorem != DRAWN:
+                allowed = "allowed with --check only for a proof of kicks, which has a figure"
+                raise InputError("--out", shown(out), allowed)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
         else:
@@ -122,23 +124,8 @@ def prove(
         console().print(f"Figure: {Path(out) / PICTURE}.svg", soft_wrap=True)
 
 
-def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
-    """Verify a certificate; only of kicks there is something to write."""
-    from carom.proofs import check as verify
-
-    proof = verify(check, progress=tell)
-    if out is not None and proof.theorem != DRAWN:
-        raise InputError("--out", shown(out), "allowed with --check only for a proof of kicks, which has a figure")
-    return proof
-
-
 def _proven(
-    machine: str,
-    settings: Iterable[str],
-    theorem: str,
-    size: str,
-    given: dict[str, Any],
-    tell: Reporter,
+    machine: str, settings: Iterable[str], theorem: str, size: str, given: dict[str, Any], tell: Reporter
 ) -> Proof:
     """Prove a theorem."""
     from carom import proofs
@@ -147,19 +134,20 @@ def _proven(
     more = {name.removeprefix("--").replace("-", "_"): value for name, value in given.items()}
     if not theorem:
         if len(box) > 1:
-            raise InputError(
-                "--along", shown(list(box)), "must be one parameter; several are allowed only with --kicks-up-to"
-            )
+            allowed = "must be one parameter; several are allowed only with --kicks-up-to"
+            raise InputError("--along", shown(list(box)), allowed)
         along, interval = next(iter(box.items()), (None, None))
         return proofs.prove(machine, settings, along=along, interval=interval, progress=tell, **more)
-    if theorem == "--states-up-to":
-        return proofs.prove_states(machine, size, settings, progress=tell)
+    if box:
+        more["along"] = box
     searches: dict[str, Any] = {
         "--kicks-up-to": proofs.prove_kicks,
         "--shocks-up-to": proofs.prove_shocks,
         "--unbalance-up-to": proofs.prove_unbalance_steps,
+        "--states-up-to": proofs.prove_states,
     }
-    return searches[theorem](machine, size, settings, progress=tell, **more, **({"along": box} if box else {}))
+    proof: Proof = searches[theorem](machine, size, settings, progress=tell, **more)
+    return proof
 
 
 def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -> None:
@@ -197,9 +185,9 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
     if len(set(names)) < len(names):
         raise InputError("--along", shown(names), "names each parameter once")
     for name, first, last in zip(names, starts, stops, strict=True):
-        for side, end in (("--from", first), ("--to", last)):
-            check_exact(side, end, name)
-    return {name: (first, last) for name, first, last in zip(names, starts, stops, strict=True)}
+        check_exact("--from", first, name)
+        check_exact("--to", last, name)
+    return dict(zip(names, zip(starts, stops, strict=True), strict=True))
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:
@@ -224,7 +212,5 @@ def _print_proof(proof: Proof, checked: bool) -> None:
 
 
 def _assumed(proof: Proof) -> str:
-    moved = (
-        [proof.options["along"]] if "along" in proof.options else [name for name, *_ in proof.options.get("box", ())]
-    )
+    moved = [proof.options.get("along"), *(name for name, *_ in proof.options.get("box", ()))]
     return ", ".join(f"{name} {'from' if name in moved else '='} {text}" for name, text in proof.assumed.items())

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from carom.base.outcome import STEADY_WORDS, InputError
+from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.output import hand_over, write_output
 from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from carom.disturbances.echo import Echo
     from carom.parameters import Case
     from carom.studies import UnbalanceResponse
 
 
+Interval = tuple[float, float] | None
 FROM = option(
     "SPEED", "Lowest speed, such as '500 rpm'; by default a range around critical and present speed.", "--from"
 )
@@ -58,9 +57,7 @@ def response(
     hand_over(out, document, as_json, lambda: _print(found, echo, out))
 
 
-def _read(
-    case: Case, start: str | None, end: str | None, operating: str | None
-) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+def _read(case: Case, start: str | None, end: str | None, operating: str | None) -> tuple[Interval, Interval]:
     """Read both ranges, and refuse a machine without a speed."""
     from carom.cli.starts import read_ends, read_range
     from carom.models import axis
@@ -72,14 +69,14 @@ def _read(
     if (start is None) != (end is None):
         option, given = ("--to", start) if end is None else ("--from", end)
         raise InputError(option, None, f"give both --from and --to, or none of them (the other one is {given})")
-    interval = None
-    if start is not None and end is not None:
-        interval = read_ends(start, end, along)
+    interval = None if start is None or end is None else read_ends(start, end, along)
     return interval, None if operating is None else read_range("--operating", operating, along)
 
 
 def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     from carom.cli.fitting import print_table
+    from carom.parameters.columns import table_of
+    from carom.studies.response import BEARING, STRETCH
     from carom.studies.wording import rpm
 
     screen = console()
@@ -89,36 +86,8 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     for sentence in found.words:
         screen.print(sentence)
     screen.print()
-    _print_bearings(screen, found)
-    columns, rows = ("from", "to", STEADY_WORDS["contact-free"], f"{STEADY_WORDS['rub']}s", STEADY_WORDS["rolling"]), []
-    for stretch in found.stretches:
-        steady = stretch.what
-        kinds = {"stable": steady.stable_rubs, "unstable": steady.unstable_rubs}
-        rubs = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count) or "none"
-        rubs = "not known" if steady.stable_rubs is None else rubs
-        free = "possible" if steady.contact_free else "virtual: the rotor touches"
-        rolls = "not known" if steady.rolls is None else "holds" if steady.rolls else "does not hold"
-        rows.append((rpm(stretch.low), rpm(stretch.high), free, rubs, rolls))
-    print_table(screen, "Steady motions over speed", columns, rows)
+    bearings = range(len(found.now.clearances))
+    print_table(screen, f"At {rpm(found.present)}", *table_of(BEARING, bearings, found))
+    print_table(screen, "Steady motions over speed", *table_of(STRETCH, found.stretches, found))
     if out is None:
         screen.print("Figure and response.json: add --out DIR")
-
-
-def _print_bearings(screen: Console, found: UnbalanceResponse) -> None:
-    """Print the whirl at each touchdown bearing at the present speed."""
-    import numpy as np
-
-    from carom.cli.fitting import print_table
-    from carom.parameters.formats import number
-    from carom.studies.wording import micrometres, rpm
-
-    now = found.now
-    columns = ("touchdown bearing", "amplitude, 0-to-peak", "forward", "backward", "sag", "share of clearance", "lag")
-    rows = []
-    parts = (now.touchdowns.major, np.abs(now.touchdowns.forward), np.abs(now.touchdowns.backward))
-    for place in range(len(now.clearances)):
-        sizes = (micrometres(float(each[0, place])) for each in parts)
-        share = f"{number(100.0 * float(now.reach[0, place]), 3)} %"
-        lag = f"{number(float(np.degrees(now.lags[0, place])), 3)}°"
-        rows.append((str(place + 1), *sizes, micrometres(float(now.sags[place])), share, lag))
-    print_table(screen, f"At {rpm(found.present)}", columns, rows)

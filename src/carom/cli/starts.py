@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from types import MappingProxyType
@@ -135,15 +135,18 @@ def _of_command_line(field: Field) -> Field:
 
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
     """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first."""
-    allowed = f"must be two different values of {varied.name} with a comma between them"
-    ends = [read_value(option, part, varied) for part in split_text(option, text, (2,), allowed)]
-    return _ascending(option, text, allowed, ends)
+    return _two(option, text, varied.name, lambda part: read_value(option, part, varied))
 
 
 def read_ends(start: str, end: str, varied: Axis) -> tuple[float, float]:
     """Read ``--from`` and ``--to``, the ends of a range of a parameter in either order; return the smaller one first."""
     allowed = "must be another value than --from; which of the two is larger does not matter"
     return _ascending("--to", end, allowed, [read_value("--from", start, varied), read_value("--to", end, varied)])
+
+
+def _two(option: str, text: str, name: str, read: Callable[[str], float]) -> tuple[float, float]:
+    allowed = f"must be two different values of {name} with a comma between them"
+    return _ascending(option, text, allowed, [read(part) for part in split_text(option, text, (2,), allowed)])
 
 
 def _ascending(option: str, text: str, allowed: str, ends: list[float]) -> tuple[float, float]:
@@ -239,13 +242,13 @@ def _stated_by(case: Case, option: str, given: str, entry: str) -> Case:
 
 def _read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
     """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
-    allowed = f"must be two different values of {entry} with a comma between them"
-    ends = []
-    for part in split_text(option, text, (2,), allowed):
+
+    def read(part: str) -> float:
         try:
             read_quantity(_of_command_line(SETTABLE[entry]), part)
-            ends.append(float(case.replace(**{entry: part}).si[set_by(entry)]))
+            return float(case.replace(**{entry: part}).si[set_by(entry)])
         except InputError as problem:
             first = problem.errors[0]
             raise InputError(option, first.value, f"{entry} {first.allowed}") from None
-    return _ascending(option, text, allowed, ends)
+
+    return _two(option, text, entry, read)

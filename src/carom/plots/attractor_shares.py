@@ -20,7 +20,7 @@ _ROW, _EDGES = 0.26, 0.9
 
 @checked
 @styled
-def attractors(found: AttractorSet, title: str | None = None) -> Figure:
+def attractors(found: AttractorSet) -> Figure:
     """Draw the share of the disturbances that end on each attractor, of any rotor.
 
     An attractor that only starts next to it have reached has no bar.
@@ -32,6 +32,4 @@ def attractors(found: AttractorSet, title: str | None = None) -> Figure:
     counts = [f"{member.count} of {total}" for member in found]
     share_bars(drawn, by_row, counts, [100.0 * look.share for look in by_row])
     drawn.set_xlabel("share of the disturbances (%)")
-    if title:
-        drawn.set_title(title)
     return figure

@@ -14,9 +14,9 @@ from matplotlib.patches import Circle
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances import outward_from
-from carom.plots.cells import MotionLook, around, finish, looks_of, motion_looks, paint, share_bars
+from carom.plots.cells import MotionLook, finish, looks_of, motion_looks, paint, share_bars
 from carom.plots.figure import StyledFigure
-from carom.plots.plane import clearance_circle, label_frame, point
+from carom.plots.plane import around, circle, clearance_circle, label_frame, one_axes, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import clearance, display_unit, formula, number
 
@@ -34,11 +34,13 @@ _LINE = 22
 """Letters of a line of words in place of a picture."""
 _REACH = 1.04
 """Half-width of the axes, relative to the largest disturbance."""
+OF_ONE_SIZE: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour, "gid": "circle"}
+"""Look of the circle of all disturbances of one size."""
 
 
 @checked
 @styled
-def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str | None = None) -> Figure:
+def basin(basin: Basin, smallest: SmallestUnrecovered | None = None) -> Figure:
     """Draw where disturbances end, as a picture that depends on their coordinates.
 
     By size and direction: a disc, and beside it the shares at each size.  By two other coordinates, such as the
@@ -48,7 +50,7 @@ def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str 
     """
     motions, along, kind = motion_looks(basin), basin.coordinates, basin.plan.model.kind
     if basin.dataset["outcome"].dims == ("start",):
-        return _bars(basin, motions, title)
+        return _bars(basin, motions)
     if not (len(along) == 2 or (len(along) == 1 and along[0].periodic)):
         raise InputError("basin", f"a grid of {kind}", "a grid over two coordinates, of releases, or a sample")
     round_ = len(along) == 2 and along[1].periodic
@@ -70,7 +72,7 @@ def basin(basin: Basin, smallest: SmallestUnrecovered | None = None, title: str 
         axes.set_title("(a)", loc="left", y=1.0)
         panel.set_title("(b)", loc="left", y=1.0)
         _stacked(panel, basin, motions)
-    return finish(figure, motions, title, columns=1 if len(along) == 1 else 3 if round_ else 2)
+    return finish(figure, motions, columns=1 if len(along) == 1 else 3 if round_ else 2)
 
 
 @checked
@@ -111,15 +113,12 @@ def basin_pair(panels: Sequence[tuple[str, Basin | Cells]], required: float | No
         draw_cells(axes, entry, motions)
         axes.label_outer()
         if required is not None:
-            _circle(axes, factor * required, f"must survive: up to {number(factor * required, 3)} {formula(unit)}")
-    reach = _REACH * max(
-        1.25
-        if size.periodic
-        else basin.plan.model.coordinates[0].shown_in(basin.scales)[0] * float(basin.plan.model.coordinates[0].high)
-        for basin in basins
-    )
+            words = f"must survive: up to {number(factor * required, 3)} {formula(unit)}"
+            circle(axes, factor * required, **OF_ONE_SIZE, label=words)
+    sizes = [(basin.plan.model.coordinates[0], basin.scales) for basin in basins]
+    reach = _REACH * max(1.25 if size.periodic else size.shown_in(of)[0] * float(size.high) for size, of in sizes)
     drawn[0].set(xlim=(-reach, reach), ylim=(-reach, reach))  # and so the others
-    return finish(figure, motions, None, columns=2, shares=False)
+    return finish(figure, motions, columns=2, shares=False)
 
 
 def _by_place(basin: Cells) -> bool:
@@ -204,7 +203,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
 def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> None:
     """Mark the smallest kick or shock found that does not come back and the circle of those that cannot reach the wall."""
     factor = basin.coordinates[0].shown_in(basin.scales)[0]
-    _circle(axes, factor * smallest.contact_free, "below: proven never to touch")
+    circle(axes, factor * smallest.contact_free, **OF_ONE_SIZE, label="below: proven never to touch")
     if smallest.size is None:
         return
     place = smallest.size * np.exp(1j * (smallest.angle or 0.0))
@@ -215,27 +214,16 @@ def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> N
     axes.plot([factor * place.real], [factor * place.imag], **look, gid="smallest", label=words)
 
 
-def _circle(axes: Axes, radius: float, words: str) -> None:
-    """Draw the circle of all disturbances of one size."""
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    look: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour}
-    axes.plot(*around(turn, np.array(radius)), **look, label=words, gid="circle")
-
-
-def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
+def _bars(basin: Basin, motions: list[MotionLook]) -> Figure:
     """Draw the shares of a sample with their confidence intervals."""
-    figure = StyledFigure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
-    axes = figure.subplots()
+    figure, axes = one_axes((0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
     shares = [basin.share_of(basin.motions[entry.index]) for entry in motions]
     ends = [(100.0 * share.low, 100.0 * share.high) for share in shares]
-    share_bars(
-        axes, motions, [f"{number(100.0 * share.fraction, 3)} %" for share in shares], [high for _, high in ends]
-    )
+    words = [f"{number(100.0 * share.fraction, 3)} %" for share in shares]
+    share_bars(axes, motions, words, [high for _, high in ends])
     for row, span in enumerate(ends):
         axes.plot(span, [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
     axes.set_xlabel(f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence")
-    if title:
-        figure.suptitle(title)
     return figure
 
 

@@ -136,17 +136,8 @@ def share_bars(axes: Axes, looks: Sequence[MotionLook], words: Sequence[str], en
     axes.set(xlim=(0.0, 115.0), xticks=range(0, 101, 20))
 
 
-def around(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
-    """Places in the plane at angles and distances."""
-    return radius * np.cos(angle), radius * np.sin(angle)
-
-
-def finish(
-    figure: Figure, motions: Sequence[MotionLook], title: str | None, columns: int, *, shares: bool = True
-) -> Figure:
-    """Add the title, and below a legend of motions, with their shares, and of all that is labelled in the axes."""
-    if title:
-        figure.suptitle(title)
+def finish(figure: Figure, motions: Sequence[MotionLook], columns: int, *, shares: bool = True) -> Figure:
+    """Add below a figure a legend of motions, with their shares, and of all that is labelled in the axes."""
     handles: list[Any] = [*(entry.patch(share=shares) for entry in motions), *unique_entries(figure.axes)[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, len(handles)))
     return figure

@@ -10,22 +10,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 
-from carom.base.arguments import Count, Positive, checked
+from carom.base.arguments import Positive, checked
 from carom.base.outcome import Outcome
 from carom.plots.figure import StyledFigure, narrow
-from carom.plots.plane import MANY_POINTS, Floats, axes_of, finish, key, marker_size, orbit_impacts, orbit_path, point
+from carom.plots.plane import MANY_POINTS, Floats, key, marker_size, one_axes, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
-from carom.plots.words import axis_label, axis_time, clearance, display_unit, number, orbit_look, orbit_title
+from carom.plots.words import axis_label, axis_time, clearance, display_unit, number
 
 if TYPE_CHECKING:
     from carom.motions.contacts import ContactLog
     from carom.motions.courses import Course
     from carom.motions.ledger import EnergyLedger
     from carom.motions.trajectories import Trajectory
-    from carom.orbits.orbit import Orbit
     from carom.parameters import Scales, Zones
 
-_PERIODS = 3
 _FIRST = 12
 """Contacts shown in the left column, before the whole motion."""
 _SHORT = 0.25
@@ -50,52 +48,25 @@ SLIP = Look("#d55e00", "slip of the contact", line="-", width=0.9)
 
 @checked
 @styled
-def radius(
-    motion: Trajectory | Orbit,
-    zones: Zones | None = None,
-    periods: Count = _PERIODS,
-    title: str | None = None,
-    *,
-    axes: Axes | None = None,
-) -> Figure:
+def radius(motion: Trajectory, zones: Zones | None = None) -> Figure:
     """Draw the distance of the rotor centre from the bearing centre over time, with the wall and the impacts.
-
-    Near the wall a second axis of a machine in SI units shows the gap in micrometres.
 
     Parameters
     ----------
     zones : carom.parameters.Zones, optional
         Vibration zones A to D, drawn as bands behind the curve.
-    periods : int
-        Number of periods drawn of an orbit.
-    title : str, optional
-        Default: for an orbit its name and stability in words.
     """
-    from carom.motions.trajectories import Trajectory
-
-    figure, drawn = axes_of(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
-    if isinstance(motion, Trajectory):
-        if motion.begins + motion.time > 0.0:
-            _distance(drawn, motion, sampled(motion, motion.begins + motion.time))
-        else:
-            place = clearance(motion.scales) * np.abs(motion.at_plane(np.zeros(1))[0])
-            _curve(drawn, np.zeros(1), place, motion.scales, replace(LOOKS["path"], words="radius"))
-            point(drawn, complex(0.0, place[0]), "end", label=f"end: {motion.outcome.words}", clip=False)
+    figure, drawn = one_axes((ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
+    if motion.begins + motion.time > 0.0:
+        _distance(drawn, motion, sampled(motion, motion.begins + motion.time))
     else:
-        title = title or orbit_title(motion)
-        look, (times, position), (impact_times, speeds) = (
-            LOOKS[orbit_look(motion)],
-            orbit_path(motion, periods),
-            orbit_impacts(motion, periods),
-        )
-        unit = display_unit("time", motion.scales)[0]
-        _curve(drawn, unit * times, np.abs(position), motion.scales, replace(look, words=f"radius ({look.words})"))
-        _impacts(drawn, unit * impact_times, speeds > -1.0, clearance(motion.scales))
+        place = clearance(motion.scales) * np.abs(motion.at_plane(np.zeros(1))[0])
+        _curve(drawn, np.zeros(1), place, motion.scales)
+        point(drawn, complex(0.0, place[0]), "end", label=f"end: {motion.outcome.words}", clip=False)
     if zones is not None:
         drawn.set_ylim(bottom=0.0)
         _zones(drawn, zones, clearance(motion.scales))
-    _gap_axis(drawn, motion.scales)
-    return finish(figure, drawn, axes, title, columns=5)
+    return key(figure, [drawn], columns=5)
 
 
 @checked
@@ -142,7 +113,7 @@ def touchdown(
             words = f"impulse at most {number(float(impacts.normal_impulse.max()), 3)} {unit}"
             panels[0].plot([], [], ls="none", label=words, gid="hardest")
         if ledger is not None:
-            energies(ledger, axes=panels[-1])
+            _energies(panels[-1], ledger)
         margin = _MARGIN * float(course.times[-1])
         panels[-1].set(xlim=(-margin, float(course.times[-1])), xlabel=axis_time(course.scales))
         for axes in panels:
@@ -155,32 +126,31 @@ def touchdown(
         grid[0, 0].set_title("the first contacts", y=1.0)
         rests = "until it rests or whirls" if end <= settled < whole else "as far as it is drawn"
         grid[0, 1].set_title("the whole motion" if end == whole else rests, y=1.0)
-    if title:
-        figure.suptitle(title)
-    key(figure, grid.ravel().tolist(), columns=4)
-    return figure
+    return key(figure, grid.ravel().tolist(), columns=4, title=title)
 
 
 @checked
 @styled
-def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
+def energies(ledger: EnergyLedger) -> Figure:
     """Draw the energy of the rotor and the works that change it; circulatory ones, of weight and in a wall where there are any."""
-    figure, drawn = axes_of(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    figure, drawn = one_axes((TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    _energies(drawn, ledger)
+    return key(figure, [drawn], columns=3)
+
+
+def _energies(axes: Axes, ledger: EnergyLedger) -> None:
     scales = ledger.scales
     largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
     unit, short = display_unit("energy", scales)
     if scales and unit * largest >= _LARGE:
         unit, short = 1e-3 * unit, f"k{short}"
     times = display_unit("time", scales)[0] * ledger.times
-    drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
+    axes.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
         values = getattr(ledger, name)
         if name not in ("circulatory", "forces", "wall_loss") or values.any():
-            drawn.plot(times, unit * values, **look.stroke, label=look.words)
-    drawn.set(xlim=(0.0, float(times[-1])), xlabel=axis_time(scales), ylabel=f"energy, work since the start ({short})")
-    if axes is None:
-        key(figure, [drawn], columns=3)
-    return figure
+            axes.plot(times, unit * values, **look.stroke, label=look.words)
+    axes.set(xlim=(0.0, float(times[-1])), xlabel=axis_time(scales), ylabel=f"energy, work since the start ({short})")
 
 
 def sampled(motion: Trajectory, until: float) -> Course:
@@ -188,35 +158,34 @@ def sampled(motion: Trajectory, until: float) -> Course:
     from carom.motions.courses import course_of
 
     course = course_of(motion, until)
-    scales, impacts = course.scales, course.impacts
-    time, length, force, impulse = (display_unit(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
-    speed = 1.0 if scales is None else scales.velocity
-    if impacts is not None:
-        impacts = replace(
-            impacts,
-            time=time * impacts.time,
-            normal_impulse=impulse * impacts.normal_impulse,
-            friction_impulse=impulse * impacts.friction_impulse,
-            slip_before=speed * impacts.slip_before,
-        )
-    return replace(
+    factors = {kind: display_unit(kind, course.scales)[0] for kind in ("time", "length", "force", "impulse")}
+    factors["speed"] = 1.0 if course.scales is None else course.scales.velocity
+
+    def shown(part: Any, **kinds: str) -> dict[str, Any]:
+        known = {name: getattr(part, name) for name in kinds}
+        return {name: factors[kinds[name]] * value for name, value in known.items() if value is not None}
+
+    if (impacts := course.impacts) is not None:
+        sizes = shown(impacts, time="time", normal_impulse="impulse", friction_impulse="impulse", slip_before="speed")
+        impacts = replace(impacts, **sizes)
+    places = shown(
         course,
-        times=time * course.times,
-        place=length * course.place,
-        mount=None if course.mount is None else length * course.mount,
-        force=force * course.force,
-        friction=force * course.friction,
-        slip=speed * course.slip,
-        race=None if course.race is None else speed * course.race,
-        impacts=impacts,
-        stages=tuple(time * each for each in course.stages),
+        times="time",
+        place="length",
+        mount="length",
+        force="force",
+        friction="force",
+        slip="speed",
+        race="speed",
     )
+    stages = tuple(factors["time"] * each for each in course.stages)
+    return replace(course, **places, impacts=impacts, stages=stages)
 
 
 def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
     """Draw the distance from the centre with the contacts, and why the motion ends."""
     scales, distance = course.scales, np.abs(course.place)
-    _curve(axes, course.times, distance, scales, replace(LOOKS["path"], words="radius"), soft=course.impacts is None)
+    _curve(axes, course.times, distance, scales)
     rolls = course.slip <= _STICKS * (1.0 if scales is None else scales.velocity)
     for meaning, those in (("slide", course.held & ~rolls), ("roll", course.held & rolls)):
         if those.any():
@@ -234,24 +203,12 @@ def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
         point(axes, place, "end", label=f"end: {motion.outcome.words}", clip=False)
 
 
-def _curve(
-    axes: Axes, times: Floats, distance: Floats, scales: Scales | None, look: Look, *, soft: bool = False
-) -> None:
+def _curve(axes: Axes, times: Floats, distance: Floats, scales: Scales | None) -> None:
     """Draw a distance over time with the wall, from the bearing centre on, or enlarged if it stays near the wall."""
     wall = clearance(scales)
     axes.axhline(wall, **LOOKS["wall"].stroke, label="wall (touchdown bearing)", gid="wall")
-    outside = (distance > wall * (1.0 + 1e-9)) & (not soft)
-    beyond = LOOKS["outside"]
-    for part, drawn in ((~outside, look), (outside, beyond)):
-        if part.any():
-            axes.plot(
-                times,
-                np.where(part, distance, np.nan),
-                **drawn.stroke | {"lw": max(drawn.width, 0.7)},
-                rasterized=len(times) > MANY_POINTS,
-                label=drawn.words,
-                gid="outside" if drawn is beyond else "path",
-            )
+    look = LOOKS["path"].stroke | {"lw": 0.7, "rasterized": len(times) > MANY_POINTS}
+    axes.plot(times, distance, **look, label="radius", gid="path")
     lowest, highest = float(distance.min()), max(wall, float(distance.max()))
     whole = lowest < 0.5 * wall or highest - lowest < 1e-9 * wall
     bottom = 0.0 if whole else lowest - 0.12 * (highest - lowest)
@@ -276,22 +233,6 @@ def _zones(axes: Axes, zones: Zones, wall: float) -> None:
     for low, high, letter, shade in zip(edges[:-1], edges[1:], zones.labels, ZONE_SHADES, strict=True):
         axes.axhspan(low, high, color=shade, lw=0, zorder=0, gid=f"zone {letter}")
         axes.text(0.992, (low + high) / 2.0, letter, transform=beside, ha="right", va="center", fontsize=7)
-
-
-def _gap_axis(axes: Axes, scales: Scales | None) -> None:
-    """Near the wall of a known machine, show the gap in micrometres: the radii would have many equal digits."""
-    wall = clearance(scales)
-    if scales is None or axes.get_ylim()[0] <= 0.9 * wall:
-        return
-
-    def turned(value: Any) -> Any:
-        """From mm to µm, which are 0 at the wall."""
-        return 1e3 * (wall - np.asarray(value))
-
-    def back(gap: Any) -> Any:
-        return wall - 1e-3 * np.asarray(gap)
-
-    axes.secondary_yaxis("right", functions=(turned, back)).set_ylabel("gap to the wall (\N{GREEK SMALL LETTER MU}m)")
 
 
 def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:

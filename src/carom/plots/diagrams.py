@@ -100,7 +100,10 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
         )
     present = _mark_present(diagram, (*upper, below), unit)
     marked = _mark_points(diagram, upper, below, unit)
-    figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
+    kinds = ("stable", "unstable") if diagram.orbits or diagram.several else ()
+    lines = [LOOKS[kind].entry(f"{kind} orbit") for kind in kinds]
+    handles = [*lines, *(look.entry() for look in marked), *present]
+    figure.legend(handles=handles, loc="outside lower center", ncols=4)
     return figure
 
 
@@ -116,11 +119,7 @@ def _speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
 
 
 def _speed_line(
-    axes: Axes,
-    diagram: Diagram,
-    branch: OrbitBranch,
-    speeds: np.ndarray,
-    at_special_points: list[float],
+    axes: Axes, diagram: Diagram, branch: OrbitBranch, speeds: np.ndarray, at_special_points: list[float]
 ) -> None:
     """Draw speeds along a branch, in their display unit."""
     unit, places = diagram.axis.field.usual_size, np.arange(len(branch))
@@ -204,10 +203,9 @@ def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = Tru
 
 
 def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
-    face = look.colour if admissible else "none"
     # Points that are not bifurcations are drawn behind the others.
     size, order = (3.6, 4.9) if look is POINTS["radius-extremum"] else (5.0, 5.0)
-    axes.plot([x], [y], ls="none", marker=look.marker, ms=size, mfc=face, mec=look.colour, mew=0.8, zorder=order)
+    axes.plot([x], [y], **look.mark(size, filled=admissible), mew=0.8, zorder=order)
 
 
 def _limits(diagram: Diagram) -> tuple[float, float]:
@@ -219,13 +217,6 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
     shown = np.concatenate([*speeds, [0.0]])
     high = float(shown.max())
     return -0.12 * (high or 1.0), 1.1 * high
-
-
-def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
-    entries = []
-    if diagram.orbits or diagram.several:
-        entries += [LOOKS["stable"].entry("stable orbit"), LOOKS["unstable"].entry("unstable orbit")]
-    return [*entries, *(look.entry() for look in marked)]
 
 
 def curve_line(axes: Axes, curve: Curve, units: np.ndarray, virtual: bool = True) -> None:

@@ -42,7 +42,7 @@ _QUARTERS = 90.0
 
 @checked
 @styled
-def drop_map(found: DropMap, measure: str | None = None, title: str | None = None) -> Figure:
+def drop_map(found: DropMap, measure: str | None = None) -> Figure:
     """Draw how drops end, and beside it a load of the touchdown bearing, with its limit where one is stated.
 
     Parameters
@@ -79,13 +79,11 @@ def drop_map(found: DropMap, measure: str | None = None, title: str | None = Non
         beyond = Look("none", f"above the limit {plain(factor * limit)} {unit}", hatch="////")
         mark_cells(right, edges, values.filled(0.0) > factor * limit, beyond, "beyond")
     here = [value / varied.field.usual_size for value, varied in zip(found.present, found.axes, strict=True)]
-    inside = all(min(along) <= value <= max(along) for value, along in zip(here, edges, strict=True))
     for axes in (left, right):
         _axes(axes, first, second, edges)
-        if inside:
-            mark_present(axes, (here[0], here[1]), "present machine and release")
+        mark_present(axes, here, edges, "present machine and release")
     right.set_ylabel("")
-    return finish(figure, looks, title, columns=3)
+    return finish(figure, looks, columns=3)
 
 
 def _edges(varied: Axis, found: DropMap) -> Floats:

@@ -74,10 +74,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
             for axes, where in ((left, course.place), (right, angles + 1j * gap)):
                 point(axes, complex(where[hardest]), "end", label="largest force", colour=LOOKS["unstable"].colour)
     point(left, complex(course.place[0]), "start", label="start", size=4.0)
-    if title:
-        figure.suptitle(title)
-    key(figure, (left, *close), columns=5)
-    return figure
+    return key(figure, (left, *close), columns=5, title=title)
 
 
 def _gap_of(course: Course) -> Floats:

@@ -13,9 +13,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
 from carom.base.arguments import checked
-from carom.base.outcome import InputError
 from carom.parameters import in_terms_of
-from carom.parameters.formats import shown_in
 from carom.parameters.in_terms import EXACT
 from carom.plots.maps import cell_edges, draw_map, mark_present
 from carom.plots.plane import Floats, key, one_axes
@@ -29,74 +27,45 @@ if TYPE_CHECKING:
 
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their line styles."""
-_MEASURES = {
-    "recovered": ("share of the disturbances that comes back", True),
-    "smallest_unrecovered_kick": ("smallest kick tried that does not come back", False),
-}
-"""Measures that shades can show: their words, and whether they are shares."""
+_WORDS = "share of the disturbances that comes back"
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 """What stiffness and damping are called; an entry of a machine's file that states them has its own name."""
 
 
 @checked
 @styled
-def gain_map(
-    found: GainMap,
-    title: str | None = None,
-    *,
-    measure: str = "recovered",
-    in_terms_of: Case | None = None,
-) -> Figure:
+def gain_map(found: GainMap, *, in_terms_of: Case | None = None) -> Figure:
     """Draw the share of disturbances that comes back, with contours and the present machine.
 
     A new figure is 126 mm wide.
 
     Parameters
     ----------
-    measure : {"recovered", "smallest_unrecovered_kick"}
-        The measure that the shades show; contours always show the share that comes back.
     in_terms_of : Case, optional
         A machine in whose terms and units both parameters are stated: ``derivative_gain`` in A s/m where its file has that.
-
-    Raises
-    ------
-    InputError
-        There is no such measure, or it is not defined for the disturbances of the map.
     """
-    known = [name for name in _MEASURES if name in found.dataset]
-    if measure not in known:
-        raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
     figure, drawn = one_axes((0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     stated = [_shown(axis, now, in_terms_of) for axis, now in zip(found.axes, found.present, strict=True)]
     x, y = (
         np.array([of(value) for value in found.dataset[axis.name].values.tolist()])
         for axis, (_, of) in zip(found.axes, stated, strict=True)
     )
-    values = np.ma.masked_invalid(found.dataset[measure].values)
-    bar = _MEASURES[measure][0]
-    if measure == "smallest_unrecovered_kick":
-        factor, unit = shown_in("velocity", found.rotor.scales)
-        values, bar = factor * values, f"{bar} ({unit})"
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
     here = stated[0][1](found.present[0]), stated[1][1](found.present[1])
-    replaced = {"none": "every kick tried comes back"}
+    replaced = {}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
         replaced["no-levitation"] = "no levitation (in the middle of the cell)"
-    blank, shown = np.ma.getmaskarray(values) & ~grounded, np.ma.masked_where(grounded, values)
-    highest = 1.0 if _MEASURES[measure][1] else max(float(shown.filled(0.0).max()), 1e-3)
-    reasons = {"no-levitation": grounded, "none": blank}
-    colours = draw_map(drawn, edges, shown, bar, reasons, replaced, vmin=0.0, vmax=highest)
-    if colours is not None and _MEASURES[measure][1]:
+    share = np.ma.masked_where(grounded, found.dataset["recovered"].values)
+    colours = draw_map(drawn, edges, share, _WORDS, {"no-levitation": grounded}, replaced, vmin=0.0, vmax=1.0)
+    if colours is not None:
         colours.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
-    _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
-    mark_present(drawn, here, f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back")
+    _contours(drawn, x, y, share)
+    words = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
+    mark_present(drawn, here, edges, words)
     drawn.set(xlabel=stated[0][0], ylabel=stated[1][0], xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    if title:
-        drawn.set_title(title)
-    key(figure, [drawn], columns=2)  # one where they have no room
-    return figure
+    return key(figure, [drawn], columns=2)
 
 
 def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.ndarray) -> bool:

@@ -11,9 +11,7 @@ from matplotlib.figure import Figure
 
 from carom.base.arguments import checked
 from carom.parameters.formats import rounded_down, shown_in
-from carom.plots.cells import around
-from carom.plots.figure import StyledFigure
-from carom.plots.plane import key
+from carom.plots.plane import around, circle, key, one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import counted, display_unit, formula, number
 
@@ -31,7 +29,7 @@ _CHORD = 1.0 / 120.0
 
 @checked
 @styled
-def proven_kicks(kicks: Any, title: str | None = None) -> Figure:
+def proven_kicks(kicks: Any) -> Figure:
     """Draw what is proven of a disc of kicks.
 
     Cells are shown by the number of impacts after which they return at most, and the open ones by the reason.  Circles mark the kicks that never
@@ -40,22 +38,13 @@ def proven_kicks(kicks: Any, title: str | None = None) -> Figure:
     Parameters
     ----------
     kicks : ProvenKicks
-    title : str, optional
-        By default what is proven.
     """
     entries = len(kicks.parts) + 2
-    figure = StyledFigure(figsize=(ONE_COLUMN, (1.2 + 0.045 * entries) * ONE_COLUMN))
-    axes = figure.subplots()
+    figure, axes = one_axes((ONE_COLUMN, (1.2 + 0.045 * entries) * ONE_COLUMN))
     _proven(axes, kicks)
     _frame(axes, kicks)
-    figure.suptitle(title or _title(kicks))
-    key(figure, [axes], columns=1)
-    return figure
-
-
-def _title(kicks: Any) -> str:
     unit = shown_in("velocity", kicks.rotor.scales)[1]
-    return f"Proven: {kicks.words.replace(unit, formula(unit))}"
+    return key(figure, [axes], columns=1, title=f"Proven: {kicks.words.replace(unit, formula(unit))}")
 
 
 def _proven(axes: Axes, kicks: Any) -> None:
@@ -70,12 +59,7 @@ def _proven(axes: Axes, kicks: Any) -> None:
             colour = _RUB if part.refuted else next(greys, _GREYS[-1])
         cells = [outlines[cell] for cell in np.flatnonzero(kicks.places == place)]
         # Edges of their own colour, for no gap shows between cells then.
-        look: dict[str, Any] = {
-            "facecolor": colour,
-            "edgecolor": colour,
-            "lw": 0.2,
-            "gid": "open" if part.open else "proven",
-        }
+        look: dict[str, Any] = {"fc": colour, "ec": colour, "lw": 0.2, "gid": "open" if part.open else "proven"}
         axes.add_collection(PolyCollection(cells, **look, rasterized=True, label=_words(part)))
 
 
@@ -109,6 +93,5 @@ def _frame(axes: Axes, kicks: Any) -> None:
         marked.append((kicks.all_up_to, (1.0, 1.5), "all proven to come back below"))
     for size, dashes, words in marked:
         if 0.0 < size <= kicks.largest:
-            circle = around(np.linspace(0.0, 2.0 * np.pi, 361), np.array(factor * size))
             label = f"{words} {number(rounded_down(factor * size))} {unit}"
-            axes.plot(*circle, ls=(0.0, dashes), lw=0.8, color=LOOKS["wall"].colour, label=label)
+            circle(axes, factor * size, ls=(0.0, dashes), lw=0.8, color=LOOKS["wall"].colour, label=label)

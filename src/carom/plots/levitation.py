@@ -72,8 +72,7 @@ def campbell(found: Campbell) -> Figure:
     upper.set_ylabel("frequency of the free whirl (Hz)")
     lower.set(xlabel="speed of the shaft (rpm)", ylabel="damping ratio")
     figure.align_ylabels([upper, lower])
-    key(figure, [upper], columns=3)
-    return figure
+    return key(figure, [upper], columns=3)
 
 
 def _crossings(along: np.ndarray, heights: np.ndarray) -> list[float]:
@@ -113,5 +112,4 @@ def sensitivity(found: Sensitivity) -> Figure:
     axes.set_ylim(0.0, top)
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("sensitivity (no unit)")
-    key(figure, [axes], columns=2)
-    return figure
+    return key(figure, [axes], columns=2)

@@ -79,8 +79,10 @@ def mark_cells(axes: Axes, edges: tuple[Floats, Floats], cells: np.ndarray, look
         axes.add_patch(PathPatch(cells_path(np.meshgrid(*edges), cells), lw=0.0, gid=gid, label=look.words, **drawn))
 
 
-def mark_present(axes: Axes, place: tuple[float, float], words: str) -> None:
-    """Mark the machine as it is."""
+def mark_present(axes: Axes, place: Sequence[float], edges: Sequence[Floats], words: str) -> None:
+    """Mark the machine as it is, if it lies between edges of cells."""
+    if not all(min(along) <= value <= max(along) for value, along in zip(place, edges, strict=True)):
+        return
     star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
     axes.plot(*place, **star, gid="present", clip_on=False, zorder=4, label=words)
 

@@ -84,9 +84,7 @@ def orbit(orbit: Orbit, periods: Count | None = None) -> Figure:
     if inner is not None:
         _draw_orbit(inner, orbit, "rotating", 1)
         _levitation(inner, equilibrium, wall)
-    figure.suptitle(orbit_title(orbit))
-    key(figure, (left, right), columns=3)
-    return figure
+    return key(figure, (left, right), columns=3, title=orbit_title(orbit))
 
 
 def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
@@ -163,9 +161,8 @@ def motion(
         point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {trajectory.outcome.words}")
     wall = clearance(trajectory.scales)
     _levitation(both[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
-    figure.suptitle(title or f"{contacts_in_words(trajectory)} \N{EM DASH} {trajectory.outcome.words}")
-    key(figure, both, columns=4)
-    return figure
+    title = title or f"{contacts_in_words(trajectory)} \N{EM DASH} {trajectory.outcome.words}"
+    return key(figure, both, columns=4, title=title)
 
 
 def _stretch(axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float, float], look: Look) -> None:

@@ -45,7 +45,6 @@ _LABEL_RING, _LABEL_GAP = 1.17, 0.14
 def equilibria_and_orbits(
     orbits: OrbitSet,
     equilibria: Iterable[Equilibrium] = (),
-    title: str | None = None,
     *,
     plane: Whole = 0,
 ) -> Figure:
@@ -74,14 +73,11 @@ def equilibria_and_orbits(
     wall = _draw_equilibria(whole, orbits.rotor, plane, equilibria, 1.36)
     _draw_orbits(whole, shown, wall)
     _name(whole, shown, wall)
-    if title:
-        figure.suptitle(title)
-    key(figure, [whole], columns=2)
-    return figure
+    return key(figure, [whole], columns=2)
 
 
 @checked
-def overview(study: Any, title: str | None = None) -> Figure:
+def overview(study: Any) -> Figure:
     """Draw :func:`~carom.plots.equilibria_and_orbits` of a study.
 
     Raises
@@ -93,7 +89,7 @@ def overview(study: Any, title: str | None = None) -> Figure:
         allowed = "a rotor without weight; carom.plots.motion and carom.plots.basin draw what one with weight does"
         raise InputError("study", "of a rotor under gravity", allowed)
     points = cast("tuple[Equilibrium, ...]", study.equilibria)
-    return equilibria_and_orbits(study.orbits, points, title)
+    return equilibria_and_orbits(study.orbits, points)
 
 
 def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
@@ -106,41 +102,26 @@ def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> Non
         point(axes, complex(line[0]), meaning, hollow=meaning != "stable", size=3.2, label="", layer=5.0)
     for meaning in dict.fromkeys(orbit_look(orbit) for orbit in reversed(list(shown))):
         look = LOOKS[meaning]
-        axes.plot(
-            [],
-            [],
-            **look.stroke,
-            marker=look.marker,
-            markersize=3.2,
-            markerfacecolor=look.colour if meaning == "stable" else "white",
-            markeredgecolor=look.colour,
-            label=f"periodic orbit: {look.words}",
-        )
+        marked = look.mark(3.2) | ({} if meaning == "stable" else {"mfc": "white"}) | look.stroke
+        axes.plot([], [], **marked, label=f"periodic orbit: {look.words}")
 
 
 @checked
 @styled
-def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
+def equilibria(found: EquilibriumSet) -> Figure:
     """Draw the equilibria of any rotor, in the clearance circle of each contact plane.
 
     Virtual equilibria that lie far outside are left out.
     """
     count = len(found[0].places)
-    size = (
-        (0.7 * TWO_COLUMNS, 0.75 * TWO_COLUMNS)
-        if count == 1
-        else (TWO_COLUMNS, (0.55 if count < 3 else 0.4) * TWO_COLUMNS)
-    )
-    figure = StyledFigure(figsize=size)
+    width, height = (0.7, 0.75) if count == 1 else (1.0, 0.55 if count < 3 else 0.4)
+    figure = StyledFigure(figsize=(width * TWO_COLUMNS, height * TWO_COLUMNS))
     panels = figure.subplots(1, count, squeeze=False)[0]
     for plane, drawn in enumerate(panels):
         shown = [entry for entry in found if abs(entry.places[plane]) <= _FARTHEST]
         reach = max(1.12, *(1.06 * abs(entry.places[plane]) for entry in shown)) if shown else 1.12
         _draw_equilibria(drawn, found.rotor, plane, shown, reach)
-    if title:
-        figure.suptitle(title)
-    key(figure, panels, columns=2)
-    return figure
+    return key(figure, panels, columns=2)
 
 
 def _draw_equilibria(axes: Axes, rotor: Rotor, plane: int, shown: Iterable[Equilibrium], reach: float) -> float:

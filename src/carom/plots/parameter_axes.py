@@ -40,17 +40,10 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
     near, far = ("bottom", "top") if direction == "x" else ("left", "right")
     axes.tick_params(axis=direction, which="both", **{near: False, f"label{near}": False})
     own.tick_params(axis=direction, which="both", **{far: True, f"label{far}": True})
-    functions = (to_machine, from_machine)
-    if direction == "x":
-        shown = axes.secondary_xaxis("bottom", functions=functions)
-        shown.set_xlabel(parameter_label(partner))
-        shown.xaxis.set_major_formatter(lambda value, _: plain(value))
-        own.xaxis.set_label_position("top")
-    else:
-        shown = axes.secondary_yaxis("left", functions=functions)
-        shown.set_ylabel(parameter_label(partner))
-        shown.yaxis.set_major_formatter(lambda value, _: plain(value))
-        own.yaxis.set_label_position("right")
+    shown = getattr(axes, f"secondary_{direction}axis")(near, functions=(to_machine, from_machine))
+    shown.set(**{f"{direction}label": parameter_label(partner)})
+    getattr(shown, f"{direction}axis").set_major_formatter(lambda value, _: plain(value))
+    getattr(own, f"{direction}axis").set_label_position(far)
     own.set(**{f"{direction}label": label})
     return True
 

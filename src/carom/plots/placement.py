@@ -4,28 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import isotonic_regression  # type: ignore[import-untyped]
 
 
-def spread(wanted: ArrayLike, gap: float, low: float = -np.inf, high: float = np.inf) -> NDArray[np.float64]:
+def spread(wanted: ArrayLike, gap: float) -> NDArray[np.float64]:
     """Return positions at least `gap` apart, in the order of the wanted ones and nearest in the least-squares sense.
 
-    With ``y_i = x_i - i gap`` the task is to find the non-decreasing sequence nearest to y: isotonic regression by
-    pooling adjacent violators.  The limits hold if there is room for all; otherwise the positions start at `low`.
+    With ``y_i = x_i - i gap`` the task is to find the non-decreasing sequence nearest to y: isotonic regression.
     """
     positions = np.asarray(wanted, dtype=float)
-    order = np.argsort(positions, kind="stable")
-    offsets = gap * np.arange(len(positions))
-    pools: list[tuple[float, int]] = []
-    for value in positions[order] - offsets:
-        mean, count = float(value), 1
-        while pools and pools[-1][0] > mean:
-            before, size = pools.pop()
-            mean, count = (before * size + mean * count) / (size + count), size + count
-        pools.append((mean, count))
-    flat = np.repeat([mean for mean, _ in pools], [count for _, count in pools])
+    order, offsets = np.argsort(positions, kind="stable"), gap * np.arange(len(positions))
     placed = np.empty_like(positions)
-    # Limits on the spread sequence become limits on the flattened one y, whose last member is shifted the most.
-    placed[order] = np.maximum(np.minimum(flat, high - (offsets[-1] if len(offsets) else 0.0)), low) + offsets
+    placed[order] = isotonic_regression(positions[order] - offsets).x + offsets
     return placed
 
 

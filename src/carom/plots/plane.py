@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from numpy.typing import NDArray
 
-from carom.base.outcome import InputError
 from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, Look
 from carom.plots.words import axis_label, clearance, times_larger
@@ -53,8 +52,18 @@ def clearance_circle(axes: Axes, reach: float = 1.12, wall: float = 1.0) -> None
 
 
 def _wall(axes: Axes, angle: Floats, wall: float) -> None:
-    axes.plot(wall * np.cos(angle), wall * np.sin(angle), **LOOKS["wall"].stroke, label=LOOKS["wall"].words, gid="wall")
+    axes.plot(*around(angle, wall), **LOOKS["wall"].stroke, label=LOOKS["wall"].words, gid="wall")
     axes.set_aspect("equal")
+
+
+def around(angle: Floats, radius: float | Floats) -> tuple[Floats, Floats]:
+    """Places in the plane at angles and distances."""
+    return radius * np.cos(angle), radius * np.sin(angle)
+
+
+def circle(axes: Axes, radius: float, **look: Any) -> None:
+    """Draw a circle around the origin."""
+    axes.plot(*around(np.linspace(0.0, 2.0 * np.pi, 361), radius), **look)
 
 
 def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "") -> None:
@@ -117,20 +126,8 @@ def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float =
     step = 0.01 * length[-1]
     x = np.interp((here - step, here + step), length, position.real)
     y = np.interp((here - step, here + step), length, position.imag)
-    axes.annotate(
-        "",
-        xy=(x[1], y[1]),
-        xytext=(x[0], y[0]),
-        arrowprops={
-            "arrowstyle": "-|>",
-            "color": look.colour,
-            "lw": 0,
-            "mutation_scale": 9,
-            "shrinkA": 0,
-            "shrinkB": 0,
-        },
-        gid="direction",
-    )
+    head = {"arrowstyle": "-|>", "color": look.colour, "lw": 0, "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", xy=(x[1], y[1]), xytext=(x[0], y[0]), arrowprops=head, gid="direction")
 
 
 def _longest_piece(position: Complex) -> Complex:
@@ -231,10 +228,12 @@ def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ", wall: float 
         return None
     centre = -0.28 * wall * middle / abs(middle)
     side = 0.9 * wall
-    inner = axes.inset_axes(
-        (centre.real - side / 2, centre.imag - side / 2, side, side), transform=axes.transData, gid="magnifier"
-    )
-    look_closer(inner, middle, half, wall)
+    corner = centre - complex(side, side) / 2.0
+    place = (corner.real, corner.imag, side, side)
+    inner = axes.inset_axes(place, transform=axes.transData, gid="magnifier")
+    # Only the visible arc, so finely resolved that impact points lie on it at any enlargement.
+    _wall(inner, np.angle(middle) + np.linspace(-4.0, 4.0, 361) * half / wall, wall)
+    inner.set(xlim=(middle.real - half, middle.real + half), ylim=(middle.imag - half, middle.imag + half))
     inner.set(xticks=(), yticks=())
     inner.set_title(f"{words}{times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
     # Otherwise the layout would reserve space for the enlarged piece.
@@ -243,52 +242,19 @@ def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ", wall: float 
     return inner
 
 
-def look_closer(axes: Axes, middle: complex, half: float, wall: float = 1.0) -> None:
-    """Show the square of half-width `half` around `middle`, with its piece of the clearance circle."""
-    # Only the visible arc, so finely resolved that impact points lie on it at any enlargement.
-    _wall(axes, np.angle(middle) + np.linspace(-4.0, 4.0, 361) * half / wall, wall)
-    axes.set(xlim=(middle.real - half, middle.real + half), ylim=(middle.imag - half, middle.imag + half))
-
-
 def one_axes(size: tuple[float, float]) -> tuple[Figure, Axes]:
     """Return axes of a new figure of that size [inch]."""
     figure = StyledFigure(figsize=size)
     return figure, figure.subplots()
 
 
-def axes_of(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
-    """Return axes of a new figure of that size [inch], or those of the user with their figure."""
-    if axes is None:
-        return one_axes(size)
-    owner = axes.get_figure(root=True)
-    if owner is None:
-        raise InputError("axes", axes, "must belong to a figure")
-    return owner, axes
-
-
-def finish(figure: Figure, drawn: Axes, axes: Axes | None, title: str | None = None, columns: int = 2) -> Figure:
-    """Add title and legend to a new figure, or to the axes of the user."""
-    if axes is None:
-        if title:
-            figure.suptitle(title)
-        key(figure, [drawn], columns)
-    else:
-        if title:
-            drawn.set_title(title)
-        legend_below(drawn)
-    return figure
-
-
-def key(figure: Figure, drawn: Iterable[Axes], columns: int) -> Legend:
-    """Add a legend of everything labelled in the axes, without duplicates, below the figure."""
+def key(figure: Figure, drawn: Iterable[Axes], columns: int, title: str | None = None) -> Figure:
+    """Add a title, if there is one, and below the figure a legend of everything labelled in the axes, without duplicates; return the figure."""
+    if title:
+        figure.suptitle(title)
     handles, words = unique_entries(drawn)
-    return figure.legend(handles, words, loc="outside lower center", ncols=min(columns, len(words)))
-
-
-def legend_below(axes: Axes) -> Legend:
-    """Add the same legend below one axes that belongs to a figure of the user."""
-    handles, words = unique_entries([axes])
-    return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(2, len(words)))
+    figure.legend(handles, words, loc="outside lower center", ncols=min(columns, len(words)))
+    return figure
 
 
 def legend_above(axes: Axes, handles: Sequence[Artist], columns: int, *, aside: bool = False) -> Legend:

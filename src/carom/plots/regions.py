@@ -63,17 +63,8 @@ def region_map(found: RegionMap) -> Figure:
 def _write(axes: Axes, words: str, place: Any, gid: str, shift: float = 0.0, **options: Any) -> None:
     """Write words at a place, or shifted from it to the left and downward, readable upon lines."""
     outline = [Stroke(linewidth=2.5, foreground="#ffffff"), Normal()]
-    axes.annotate(
-        words,
-        place,
-        (-shift, -shift),
-        textcoords="offset points",
-        fontsize=7,
-        zorder=8,
-        gid=gid,
-        path_effects=outline,
-        **options,
-    )
+    look = options | {"textcoords": "offset points", "fontsize": 7, "zorder": 8, "path_effects": outline}
+    axes.annotate(words, place, (-shift, -shift), gid=gid, **look)
 
 
 def _draw_cells(axes: Axes, found: RegionMap, units: np.ndarray) -> None:
@@ -113,8 +104,8 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
 
     def mark(place: tuple[float, float], words: str, marker: str, size: float, face: str, edge: str = _BLACK) -> None:
         x, y = np.array(place) / units
-        axes.plot([x], [y], ls="none", marker=marker, ms=size, mfc=face, mec=edge, zorder=6, gid=words)
-        entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=face, mec=edge, label=words))
+        look: dict[str, Any] = {"ls": "none", "marker": marker, "ms": size, "mfc": face, "mec": edge, "zorder": 6}
+        (entries[words],) = axes.plot([x], [y], **look, gid=words, label=words)
 
     for point in found.codimension2:
         if not point.admissible:

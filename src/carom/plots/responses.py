@@ -60,9 +60,7 @@ def unbalance_response(response: Any) -> Figure:
         axes.set_xlim(response.interval[0] / RPM, response.interval[1] / RPM)
     lower.set_xlabel("speed of the shaft (rpm)")
     figure.align_ylabels([upper, lower])
-    figure.suptitle(_title(response, named=bool(figure.heading)))
-    key(figure, (upper, lower), columns=3)
-    return figure
+    return key(figure, (upper, lower), columns=3, title=_title(response, named=bool(figure.heading)))
 
 
 def _title(response: Any, *, named: bool) -> str:

@@ -28,6 +28,8 @@ _ROUND = 0.05
 """Share of the other direction in a shape from which on it does not lie in one plane."""
 _SHAFT, _DISC = 0.12, 0.6
 """Half heights at which the widest section of the shaft and discs are drawn; their lengths are to scale."""
+_PLATE: dict[str, Any] = {"color": "#8c959f", "lw": 3.5, "solid_capstyle": "butt", "zorder": 0.5}
+"""Look of a disc."""
 _MILLIMETRES = 1e3
 _PARTS = (
     ("magnet", Look("#1a1a1a", "magnet", marker="s")),
@@ -60,8 +62,7 @@ def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.WhirlMo
         axes.set_xlabel("place along the shaft (mm)")
     for axes in panels[::_COLUMNS]:
         axes.set_ylabel("displacement")
-    key(figure, panels[: len(whirls)], columns=4)
-    return figure
+    return key(figure, panels[: len(whirls)], columns=4)
 
 
 def _shape(axes: Axes, places: Floats, whirl: WhirlMode) -> None:
@@ -87,17 +88,7 @@ def _shaft(axes: Axes, rotor: Any) -> None:
         axes.fill_between([begin, end], -half, half, fc="#e4e7ea", ec="#a6a6a6", lw=0.4, zorder=0, gid="shaft")
     discs, along = getattr(rotor, "discs", ()), _MILLIMETRES * rotor.node_places
     for disc in discs:
-        at = along[disc.node]
-        axes.plot(
-            [at, at],
-            [-_DISC, _DISC],
-            color="#8c959f",
-            lw=3.5,
-            solid_capstyle="butt",
-            zorder=0.5,
-            label="disc",
-            gid="disc",
-        )
+        axes.plot([along[disc.node]] * 2, [-_DISC, _DISC], **_PLATE, label="disc", gid="disc")
 
 
 def _parts(axes: Axes, machine: FlexibleMachine) -> None:
@@ -111,12 +102,5 @@ def _parts(axes: Axes, machine: FlexibleMachine) -> None:
     for name, look in _PARTS:
         at = along[nodes[name]]
         if len(at):
-            filled = "none" if name == "sensor" else look.colour
-            drawn: dict[str, Any] = {
-                "markerfacecolor": filled,
-                "markersize": 8.0 if name == "touchdown" else 4.5,
-                "clip_on": False,
-            }
-            axes.plot(
-                at, np.full(len(at), _MARKED), look.marker, color=look.colour, label=look.words, gid=name, **drawn
-            )
+            drawn = look.mark(8.0 if name == "touchdown" else 4.5, filled=name != "sensor")
+            axes.plot(at, np.full(len(at), _MARKED), **drawn, label=look.words, gid=name, clip_on=False)

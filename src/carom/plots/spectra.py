@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import SymmetricalLogLocator
 
 from carom.base.arguments import checked
-from carom.plots.plane import one_axes
+from carom.plots.plane import circle, key, one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import orbit_look, orbit_words
 
@@ -43,14 +43,12 @@ def multipliers(orbits: Iterable[Orbit]) -> Figure:
         _markers(drawn, orbit, shape)
     if not shown:
         drawn.plot([], [], linestyle="none", label="no possible periodic orbit")
-    figure.legend(*drawn.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
-    return figure
+    return key(figure, [drawn], columns)
 
 
 def _plane(axes: Axes, largest: float) -> None:
     """Draw the unit circle in a plane that holds the largest modulus; beyond 1 it is logarithmic if that is large."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(np.cos(angle), np.sin(angle), color="#1a1a1a", lw=0.9, zorder=1, gid="unit-circle")
+    circle(axes, 1.0, color="#1a1a1a", lw=0.9, zorder=1, gid="unit-circle")
     axes.axhline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
     axes.axvline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
     reach = 1.08 * max(1.1, largest)
@@ -68,17 +66,6 @@ def _plane(axes: Axes, largest: float) -> None:
 
 def _markers(axes: Axes, orbit: Orbit, shape: str) -> None:
     meaning, values = orbit_look(orbit), np.asarray(orbit.multipliers.values)
-    colour = LOOKS[meaning].colour
-    axes.plot(
-        values.real,
-        values.imag,
-        linestyle="none",
-        marker=shape,
-        markersize=4.8,
-        markerfacecolor=colour if meaning == "stable" else "none",
-        markeredgecolor=colour,
-        markeredgewidth=0.9,
-        label=orbit_words(orbit),
-        zorder=3 if meaning == "stable" else 4,
-        gid=orbit.name,
-    )
+    stable = meaning == "stable"
+    look = LOOKS[meaning].mark(4.8, filled=stable) | {"marker": shape, "mew": 0.9, "zorder": 3 if stable else 4}
+    axes.plot(values.real, values.imag, **look, label=orbit_words(orbit), gid=orbit.name)

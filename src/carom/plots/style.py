@@ -37,7 +37,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
-from carom.plots.figure import arrange, write_plain_ticks
+from carom.plots.figure import arrange
 from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
 from carom.plots.sheet import TWO_COLUMNS as TWO_COLUMNS
 from carom.plots.sheet import drawing
@@ -80,6 +80,11 @@ class Look:
     def stroke(self) -> dict[str, Any]:
         """Colour, style and width of a line, as arguments of matplotlib."""
         return {"color": self.colour, "ls": self.line, "lw": self.width}
+
+    def mark(self, size: float, *, filled: bool = True) -> dict[str, Any]:
+        """A point of a size [pt], filled or hollow, as arguments of matplotlib."""
+        face = self.colour if filled else "none"
+        return {"ls": "none", "marker": self.marker, "ms": size, "mfc": face, "mec": self.colour}
 
     def entry(self, words: str = "") -> Line2D:
         """Return a legend entry: the line, or the marker if the meaning is a point."""
@@ -160,18 +165,14 @@ def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
     """Run a drawing function under carom's style sheet.
 
     A new figure is laid out before the style sheet is removed, and its layout is then fixed.  Ticks created later would
-    take the settings of the user, and a new layout for each file would make the files differ slightly.  Axes of the
-    user, given as the keyword `axes`, keep the layout of the user.
+    take the settings of the user, and a new layout for each file would make the files differ slightly.
     """
 
     @wraps(draw)
     def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Figure:
         with drawing():
             figure = draw(*args, **kwargs)
-            if kwargs.get("axes") is None:
-                arrange(figure)
-            else:
-                write_plain_ticks(figure)
+            arrange(figure)
         return figure
 
     return wrapper

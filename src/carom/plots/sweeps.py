@@ -60,13 +60,7 @@ _FLAGS = ("#e9eff7", "#a9c3e0", "#cc8e3c", "#6b3f12")
 
 @checked
 @styled
-def sweep_map(
-    data: xarray.Dataset,
-    name: str,
-    title: str | None = None,
-    *,
-    present: Mapping[str, float] | None = None,
-) -> Figure:
+def sweep_map(data: xarray.Dataset, name: str, *, present: Mapping[str, float] | None = None) -> Figure:
     """Draw a variable of a sweep over its two axes, or over its only one.
 
     The axes are logarithmic if the sweep is.  A new figure is 126 mm wide.
@@ -120,14 +114,12 @@ def sweep_map(
             if len(here) == 1:
                 drawn.axvline(here[0], color="#1a1a1a", lw=0.8, ls=(0, (1, 1.5)), gid="present", label=_PRESENT)
             else:
-                mark_present(drawn, (here[0], here[1]), _PRESENT)
+                mark_present(drawn, here, places, _PRESENT)
     handles, labels = drawn.get_legend_handles_labels()
     if handles:
         meanings = len(dimensions) == 2 and len(figure.axes) == 1  # no colour bar says what is shown
         title_of_legend = values.attrs["long_name"] if meanings else None
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(handles), 4), title=title_of_legend)
-    if title:
-        drawn.set_title(title)
     return figure
 
 

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 from markupsafe import Markup
@@ -31,24 +31,12 @@ ROTOR, CLEARANCE, RING, HOUSING, ARROW = SIZES = 112.0, 60.0, 20.0, 26.0, 84.0
 """Radius of the drawn rotor, the drawn clearance, the thickness of race and housing, and the longest arrow, in units of the picture."""
 
 
-class FilmUnits(NamedTuple):
-    """Units of a film: by what to multiply, and the unit."""
-
-    time: tuple[float, str]
-    length: tuple[float, str]
-    force: tuple[float, str]
-    speed: tuple[float, str]
-    impulse: tuple[float, str]
-
-    @classmethod
-    def of(cls, scales: Scales | None) -> FilmUnits:
-        """Those of machines: ms, µm, N, m/s; without scales those of the equations."""
-        time, length, force, speed, impulse = (
-            shown_in(kind, scales) for kind in ("time", "length", "force", "velocity", "impulse")
-        )
-        if scales is not None:
-            length, speed = (1e3 * length[0], "µm"), (scales.velocity, "m/s")
-        return cls(time, length, force, speed, impulse)
+def _units(scales: Scales | None) -> dict[str, tuple[float, str]]:
+    """By what to multiply times, lengths, forces, velocities and impulses, and their units: ms, µm, N, m/s; without scales those of the equations."""
+    units = {kind: shown_in(kind, scales) for kind in ("time", "length", "force", "velocity", "impulse")}
+    if scales is not None:
+        units |= {"length": (1e3 * units["length"][0], "µm"), "velocity": (scales.velocity, "m/s")}
+    return units
 
 
 @dataclass(frozen=True)
@@ -59,7 +47,8 @@ class Film:
     ----------
     course : Course
         What is filmed.
-    units : FilmUnits
+    units : dict
+        By what to multiply sizes of a kind, and the unit.
     magnified : float
         How many times wider than the shaft the clearance is drawn.
     race_radius : float or None
@@ -69,7 +58,7 @@ class Film:
     """
 
     course: Course
-    units: FilmUnits
+    units: dict[str, tuple[float, str]]
     magnified: float
     race_radius: float | None
     whole: bool
@@ -130,23 +119,22 @@ class Film:
             "The bearing moves on its mount." if self.course.mount is not None else "",
             ""
             if self.whole
-            else f"Filmed: the first {self._end}, at most {FOLLOWED} contacts and {TURNS:.0f} turns of the shaft.",
+            else f"Filmed: the first {self._moment(-1)}, at most {FOLLOWED} contacts and {TURNS:.0f} turns of the shaft.",
         ]
         return " ".join(filter(None, sentences))
 
-    @property
-    def _end(self) -> str:
-        """Time at which it ends, in words."""
-        return f"{self.units.time[0] * float(self.course.times[-1]):.4g} {self.units.time[1]}"
+    def _moment(self, sample: int) -> str:
+        """Time of a sample in words."""
+        factor, unit = self.units["time"]
+        return f"{factor * float(self.course.times[sample]):.4g} {unit}"
 
     @property
     def shown(self) -> str:
         """What instant the still picture shows."""
-        time = self.units.time[0] * float(self.course.times[self.poster])
         if not self.legend:
             return "Shown: the release; nothing is touched."
         what = "the largest force" if self.course.impacts is None else "the hardest impact"
-        return f"Shown: {what}, {time:.4g} {self.units.time[1]} after the release."
+        return f"Shown: {what}, {self._moment(self.poster)} after the release."
 
     @property
     def _race_angles(self) -> np.ndarray | None:
@@ -162,29 +150,29 @@ class Film:
         """What the script plays, as JSON: times, places in clearances, forces as shares of the largest, angles in rad."""
         course, units = self.course, self.units
         numbers: dict[str, Any] = {
-            "t": np.round(units.time[0] * course.times, 5),
+            "t": np.round(units["time"][0] * course.times, 5),
             "x": np.round(course.place.real, 6),
             "y": np.round(course.place.imag, 6),
             "n": np.round(course.force / self._largest(course.force), 4),
             "f": np.round(course.friction / self._largest(course.friction), 4),
-            "v": np.round(units.speed[0] * course.slip, 4),
+            "v": np.round(units["velocity"][0] * course.slip, 4),
             "a": np.round(np.unwrap(course.unbalance_angles), 3),
             "held": course.held.astype(int),
-            "peaks": np.round(units.time[0] * self._peaks(), 5),
+            "peaks": np.round(units["time"][0] * self._peaks(), 5),
         }
         if course.mount is not None:
             numbers |= {"mx": np.round(course.mount.real, 4), "my": np.round(course.mount.imag, 4)}
         if course.race is not None and self._race_angles is not None:
-            numbers |= {"q": np.round(units.speed[0] * course.race, 4), "b": np.round(self._race_angles, 3)}
+            numbers |= {"q": np.round(units["velocity"][0] * course.race, 4), "b": np.round(self._race_angles, 3)}
         if course.impacts is not None:
             numbers["impacts"], numbers["hardest"] = self._impacts(course.impacts)
         entries = {name: values.tolist() for name, values in numbers.items()}
         entries |= {
             "poster": self.poster,
-            "turn": math.tau * units.time[0],
-            "largest": [units.force[0] * self._largest(each) for each in (course.force, course.friction)],
-            "finer": units.length[0],
-            "units": [unit for _, unit in (units.time, units.length, units.force, units.speed, units.impulse)],
+            "turn": math.tau * units["time"][0],
+            "largest": [units["force"][0] * self._largest(each) for each in (course.force, course.friction)],
+            "finer": units["length"][0],
+            "units": [unit for _, unit in units.values()],
             "sizes": [ROTOR, CLEARANCE, ARROW],
             "seconds": 1e-3 if course.scales is not None else 1.0,
         }
@@ -197,8 +185,8 @@ class Film:
             each / largest
             for each, largest in zip((impacts.normal_impulse, impacts.friction_impulse), hardest, strict=True)
         )
-        columns = self.units.time[0] * impacts.time, *shares, self.units.speed[0] * np.abs(impacts.slip_before)
-        return np.round(np.transpose(columns), 5), self.units.impulse[0] * np.array(hardest)
+        columns = self.units["time"][0] * impacts.time, *shares, self.units["velocity"][0] * np.abs(impacts.slip_before)
+        return np.round(np.transpose(columns), 5), self.units["impulse"][0] * np.array(hardest)
 
     def _peaks(self) -> np.ndarray:
         """Times of the contacts: of the largest force in each, or of the impacts."""
@@ -220,7 +208,7 @@ def film_of(motion: Trajectory) -> Film:
     race = motion.rotor.races[motion.plane]
     return Film(
         course=course_of(motion, until, samples),
-        units=FilmUnits.of(motion.scales),
+        units=_units(motion.scales),
         magnified=CLEARANCE / ROTOR * (float(motion.rotor.system.arrays.surface_speed[motion.plane]) - 1.0),
         race_radius=None if race is None else race.radius,
         whole=until == shown,

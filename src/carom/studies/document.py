@@ -158,6 +158,38 @@ def attractors_document(
 
 
 EXPONENTS = "per_time=values per_impact error_per_time=errors error_per_impact lost"
+Measured = tuple[Attractor, LyapunovExponents | None]
+
+
+def _exponent(value: float, error: float, digits: int) -> str:
+    return f"{value:.{digits}g}" + (f" ± {error:.1g}" if error else "")
+
+
+def _all_exponents(measured: Measured, _: object) -> str:
+    if (found := measured[1]) is None:
+        return "not known"
+    pairs = zip(found.values, found.errors, strict=True)
+    return ", ".join(_exponent(value, error, 4 if error else 6) for value, error in pairs)
+
+
+def _measured(measured: Measured, _: object) -> str:
+    found = measured[1]
+    return "-" if found is None else f"{found.impacts:,}" if found.errors.any() else "exact"
+
+
+ACROSS = (
+    Column(
+        "",
+        "largest exponent across the motion",
+        lambda measured, _: _exponent(*measured[1].across, 3) if measured[1] else "-",
+    ),
+)
+MEASURED = (
+    Column("", "motion", lambda measured, _: measured[0].name.words),
+    Column("", "exponents", _all_exponents),
+    Column("", "impacts measured", _measured),
+)
+"""Of each attractor with its exponents, what people see of these."""
 
 
 def _lasting(entry: Attractor, _: AttractorSet) -> str:

@@ -16,6 +16,7 @@ from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.parameters import read_quantity
+from carom.parameters.columns import Column
 from carom.parameters.formats import number
 from carom.studies.critical_speeds import response_curve, usual_range
 from carom.studies.levitating import WHIRLS, whirls_of
@@ -29,6 +30,41 @@ RUB_SPEEDS = 121
 """About as many speeds of the curve at which rubs are looked for."""
 NARROWED = 1e-6
 """Relative width to which ends of stretches without a closed form are bisected."""
+
+
+def _rubs_of(stretch: SpeedStretch, _: object) -> str:
+    kinds = {"stable": stretch.what.stable_rubs, "unstable": stretch.what.unstable_rubs}
+    found = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count) or "none"
+    return "not known" if stretch.what.stable_rubs is None else found
+
+
+def _rolls(stretch: SpeedStretch, _: object) -> str:
+    rolls = stretch.what.rolls
+    return "not known" if rolls is None else "holds" if rolls else "does not hold"
+
+
+STRETCH = (
+    Column("", "from", lambda stretch, _: rpm(stretch.low)),
+    Column("", "to", lambda stretch, _: rpm(stretch.high)),
+    Column(
+        "",
+        STEADY_WORDS["contact-free"],
+        lambda stretch, _: "possible" if stretch.what.contact_free else "virtual: the rotor touches",
+    ),
+    Column("", f"{RUB}s", _rubs_of),
+    Column("", STEADY_WORDS["rolling"], _rolls),
+)
+"""Of each range of speeds the steady motions."""
+BEARING = (
+    Column("", "touchdown bearing", lambda at, _: str(at + 1)),
+    Column("", "amplitude, 0-to-peak", lambda at, found: micrometres(float(found.now.touchdowns.major[0, at]))),
+    Column("", "forward", lambda at, found: micrometres(float(np.abs(found.now.touchdowns.forward[0, at])))),
+    Column("", "backward", lambda at, found: micrometres(float(np.abs(found.now.touchdowns.backward[0, at])))),
+    Column("", "sag", lambda at, found: micrometres(float(found.now.sags[at]))),
+    Column("", "share of clearance", lambda at, found: f"{number(100.0 * float(found.now.reach[0, at]), 3)} %"),
+    Column("", "lag", lambda at, found: f"{number(float(np.degrees(found.now.lags[0, at])), 3)}°"),
+)
+"""Of each touchdown bearing, by its place, the whirl at the present speed."""
 
 
 def sentences(response: UnbalanceResponse) -> tuple[str, ...]:

@@ -52,8 +52,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
         fixed.set(xlabel=r"fixed frame, Re $Z$ ($c_\mathrm{r}$)", ylabel=r"Im $Z$ ($c_\mathrm{r}$)")
         rotating.set(xlabel=r"co-rotating frame, Re $U$ ($c_\mathrm{r}$)", ylabel=r"Im $U$ ($c_\mathrm{r}$)")
         radius.set(xlabel=r"time $t$ ($1/\Omega$)", ylabel=r"radius $r$ ($c_\mathrm{r}$)")
-    key(figure, rows.ravel(), columns=3)
-    return figure
+    return key(figure, rows.ravel(), columns=3)
 
 
 def _levitation(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion) -> None:
