@@ -25,7 +25,7 @@ from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
 from carom.parameters.columns import Column
-from carom.parameters.formats import format_quantity
+from carom.parameters.formats import format_quantity, number
 from carom.parameters.scaling import SCALING
 
 
@@ -47,6 +47,32 @@ MOTION = (
     Column("", "decision time (median)", _decided),
 )
 """Of each motion, by its name, what people see of a basin."""
+
+
+def _of(measure: str, name: MotionName, found: DropMap) -> np.ndarray:
+    values: np.ndarray = found.dataset[measure].values[found.dataset["motion"].values == found.motions.index(name)]
+    return values
+
+
+def _loads(name: MotionName, found: DropMap) -> str:
+    loads = _of(found.hardest, name, found)
+    return f"{number(float(loads.min()), 3)} to {number(float(loads.max()), 3)}"
+
+
+def _settled(name: MotionName, found: DropMap) -> str:
+    since = _of("settled_at", name, found)
+    known = sorted(since[np.isfinite(since)].tolist())
+    return f"{number(1e3 * known[len(known) // 2], 3)} ms" if known else ""
+
+
+DROPPED = (
+    Column("", "how they end", lambda name, _: name.words),
+    Column("", "drops", lambda name, found: str(len(_of("time", name, found)))),
+    Column("", "share", lambda name, found: f"{100.0 * found.fractions[name]:.3g} %"),
+    Column("", "{0.hardest_words}", _loads),
+    Column("", "at rest or whirling since (median)", _settled),
+)
+"""Of each motion, by its name, what people see of a map of drops."""
 
 
 def basin_document(

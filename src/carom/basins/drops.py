@@ -128,6 +128,12 @@ class DropMap(OverPlane):
         return "force" if bool(self.dataset.attrs["is_compliant"]) else "impulse"
 
     @property
+    def hardest_words(self) -> str:
+        """Words and unit of this load."""
+        unit, words, _ = MEASURES[self.hardest]
+        return f"{words} ({unit})"
+
+    @property
     def worst(self) -> str:
         """The hardest drop in words."""
         values = self.dataset[self.hardest].values

@@ -46,7 +46,7 @@ def attractors(
         known = [exponents_of(case, entry) for entry in found]
         document = attractors_document(rotor_of(case), found, known if exponents else None) if as_json or out else {}
         write_output(out, case, "attractors", document, {"attractors": found.plot})
-    hand_over(out, document, as_json, lambda: _print(case, found, known, exponents))
+    hand_over(lambda: document, as_json, lambda: _print(case, found, known, exponents), out)
 
 
 def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None], exponents: bool) -> None:

@@ -106,7 +106,7 @@ def basins(
         if over:
             print_gains(console(), *over)
 
-    hand_over(out, document, as_json, show)
+    hand_over(lambda: document, as_json, show, out)
 
 
 def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:

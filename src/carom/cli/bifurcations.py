@@ -55,7 +55,7 @@ def bifurcations(
         diagram = find_bifurcations(model, varied.name, interval, impacts=impacts, progress=tell)
         document, name = diagram_document(diagram), f"bifurcations-{varied.name}"
         write_output(out, case, name, document, {name: diagram.plot})
-    hand_over(out, document, as_json, lambda: _print_diagram(diagram, varied.value(model)))
+    hand_over(lambda: document, as_json, lambda: _print_diagram(diagram, varied.value(model)), out)
 
 
 def _shown(varied: Axis, value: float) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, print_document, progress, read_machine
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -96,17 +96,10 @@ def _drop_once(case: Case, begins: StatedBeginning, end: float | None, out: str 
 
             motion = simulate(rotor, state, end, settle=True, max_events=_DRAWN)
             page = write_drop_report(found, motion, out, progress=tell.part(0.4, 1.0))
-    if as_json:
-        print_document(found.document())
-    else:
-        _print_drop(console(), found)
-    if page is not None:
-        console(errors=as_json).print(f"Report: {page}", soft_wrap=True)
-    elif not as_json:
-        console().print("Figures, drop.json and drop.html: add --out DIR")
+    hand_over(found.document, as_json, lambda: _print_drop(console(), found, out), out, f"Report: {page}")
 
 
-def _print_drop(screen: Console, found: DropStudy) -> None:
+def _print_drop(screen: Console, found: DropStudy, out: str | None) -> None:
     """Print what was done, how it ended, the loads of each touchdown bearing, and the limits."""
     from rich.text import Text
 
@@ -124,6 +117,8 @@ def _print_drop(screen: Console, found: DropStudy) -> None:
             screen.print()
             screen.print(each.words, width=width)
     screen.print()
+    if out is None:
+        screen.print("Figures, drop.json and drop.html: add --out DIR")
 
 
 def _map(case: Case, begins: StatedBeginning, asked: dict[str, Any], out: str | None, as_json: bool) -> None:
@@ -135,29 +130,19 @@ def _map(case: Case, begins: StatedBeginning, asked: dict[str, Any], out: str | 
         found = map_drops(case, begins.release, **asked, progress=tell if out is None else tell.part(0.0, 0.95))
         document = {"name": case.name, **drop_map_document(found)}
         write_output(out, case, "drop-map", document, {"drop-map": found.plot}, files={"drop-map.nc": found.save})
-    hand_over(out, document, as_json, lambda: _print_map(console(), found))
+    hand_over(lambda: document, as_json, lambda: _print_map(console(), found), out)
 
 
 def _print_map(screen: Console, found: DropMap) -> None:
     """Print how the drops end, the loads on the bearing, and how many exceed its limits."""
-    from carom.basins.drops import MEASURES
+    from carom.basins.document import DROPPED
     from carom.cli.fitting import print_table
-    from carom.parameters.formats import number
+    from carom.parameters.columns import table_of
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
 
-    index, exists = found.dataset["motion"].values, found.exists
+    exists = found.exists
     screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
-    unit, words, _ = MEASURES[found.hardest]
-    rows = []
-    for name, share in found.fractions.items():
-        here = index == found.motions.index(name)
-        loads, since = (found.dataset[each].values[here] for each in (found.hardest, "settled_at"))
-        known = sorted(since[~(since != since)].tolist())
-        ends = [number(float(each), 3) for each in (loads.min(), loads.max())]
-        shown = f"{number(1e3 * known[len(known) // 2], 3)} ms" if known else ""
-        rows.append((name.words, str(int(here.sum())), f"{100.0 * share:.3g} %", " to ".join(ends), shown))
-    headings = ("how they end", "drops", "share", f"{words} ({unit})", "at rest or whirling since (median)")
-    print_table(screen, "", headings, rows)
+    print_table(screen, "", *table_of(DROPPED, found.fractions, found))
     screen.print(f"Hardest: {found.worst}.")
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())

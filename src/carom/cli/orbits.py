@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.terminal import console, print_document, progress, read_machine
+from carom.cli.output import hand_over
+from carom.cli.terminal import console, progress, read_machine
 
 if TYPE_CHECKING:
     from carom.closed_forms.compliant_walls import SlippingWhirl
@@ -73,15 +74,16 @@ def orbits(
                 {"touchdown_bearing": place + 1, **record(each, "speed radius: normal_force: slips", model.scales)}
                 for place, each in whirls
             ]
-    if as_json:
-        print_document(document)
-        return
-    from carom.cli.tables import print_found_orbits, print_orbits
 
-    if impacts is not None:
-        print_found_orbits(console(), case, found)
-    else:
-        print_orbits(console(), case, steady, found, whirls)
+    def show() -> None:
+        from carom.cli.tables import print_found_orbits, print_orbits
+
+        if impacts is not None:
+            print_found_orbits(console(), case, found)
+        else:
+            print_orbits(console(), case, steady, found, whirls)
+
+    hand_over(lambda: document, as_json, show, None)
 
 
 def _whirls(rotor: Rotor) -> list[tuple[int, SlippingWhirl]]:

@@ -51,11 +51,13 @@ def write_output(
         write_json(directory / f"{name}.json", document)
 
 
-def hand_over(out: str | None, document: dict[str, Any], as_json: bool, show: Callable[[], None]) -> None:
-    """Print the document, or what ``show`` prints; and on the error stream where the files are."""
+def hand_over(
+    document: Callable[[], dict[str, Any]], as_json: bool, show: Callable[[], None], out: str | None, *files: str
+) -> None:
+    """Print the document, or what ``show`` prints; then where the files are, if ``--out`` is given: beside JSON on the error stream."""
     if as_json:
-        print_document(document)
+        print_document(document())
     else:
         show()
-    if out is not None:
-        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+    for line in () if out is None else files or (f"Written to {out}",):
+        console(errors=as_json).print(line, soft_wrap=True)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from carom.cli.options import AS_JSON, option
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over
+from carom.cli.terminal import check_output, console, progress
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from carom.reproductions.mora2014 import Reproduction
 
 
@@ -28,16 +27,15 @@ def paper(out: str | None = OUT, as_json: bool = AS_JSON) -> None:
 
         share_of_results = 1.0 if out is None else 0.3
         found = reproduce(progress=tell.part(0.0, share_of_results))
-        written: list[Path] = []
+        files = ""
         if out is not None:
             written = write_paper(found, out, progress=tell.part(share_of_results, 1.0))
-    if as_json:
-        print_document(paper_document(found, figures(found) if written else ()))
-    else:
-        _print_reproduction(found)
-    if written:
-        shown = ", ".join(str(path.relative_to(str(out))) for path in written)
-        console(errors=as_json).print(f"Written to {out}: {shown}", soft_wrap=True)
+            files = f"Written to {out}: {', '.join(str(path.relative_to(out)) for path in written)}"
+
+    def document() -> dict[str, Any]:
+        return paper_document(found, figures(found) if files else ())
+
+    hand_over(document, as_json, lambda: _print_reproduction(found), out, files)
 
 
 def _print_reproduction(found: Reproduction) -> None:

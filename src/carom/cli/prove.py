@@ -11,7 +11,8 @@ import typer
 from carom.base.outcome import InputError, shown
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.terminal import check_output, console, print_document, progress
+from carom.cli.output import hand_over
+from carom.cli.terminal import check_output, console, progress
 
 if TYPE_CHECKING:
     from carom.base.progress import Reporter
@@ -114,14 +115,9 @@ def prove(
             proof = _proven(machine, settings or (), theorem, sizes.get(theorem, ""), given, part)
         if out is not None:
             _write(proof, Path(out), None if check else machine, tell)
-    if as_json:
-        print_document(proof.document())
-        return
-    _print_proof(proof, checked=check is not None)
-    if check is None and out is not None:
-        console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
-    if out is not None and proof.theorem == DRAWN:
-        console().print(f"Figure: {Path(out) / PICTURE}.svg", soft_wrap=True)
+    files = [] if check else [f"Certificate: {Path(out or '') / CERTIFICATE}"]
+    files += [f"Figure: {Path(out or '') / PICTURE}.svg"] * (proof.theorem == DRAWN)
+    hand_over(proof.document, as_json, lambda: _print_proof(proof, checked=check is not None), out, *files)
 
 
 def _proven(

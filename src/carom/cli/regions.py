@@ -62,7 +62,7 @@ def regions(
         )
         document, name = regions_document(found), f"regions-{axes[0].name}-{axes[1].name}"
         write_output(out, case, name, document, {name: found.plot})
-    hand_over(out, document, as_json, lambda: _print_map(console(), found))
+    hand_over(lambda: document, as_json, lambda: _print_map(console(), found), out)
 
 
 def _print_map(screen: Console, found: RegionMap) -> None:

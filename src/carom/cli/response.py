@@ -54,7 +54,7 @@ def response(
         echo = echo_of_unbalance(rotor_of(case).value("rho"), found.interval, found.scales)
         document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
         write_output(out, case, "response", document, {"response": found.plot}, tell=tell.part(0.4, 1.0))
-    hand_over(out, document, as_json, lambda: _print(found, echo, out))
+    hand_over(lambda: document, as_json, lambda: _print(found, echo, out), out)
 
 
 def _read(case: Case, start: str | None, end: str | None, operating: str | None) -> tuple[Interval, Interval]:

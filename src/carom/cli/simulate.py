@@ -89,7 +89,7 @@ def simulate(
             console().print()
             console().print(words)
 
-    hand_over(out, document, as_json, show)
+    hand_over(lambda: document, as_json, show, out)
 
 
 def _document(case: Case, motion: Trajectory) -> dict[str, Any]:

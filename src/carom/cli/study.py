@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.terminal import check_output, console, print_document, progress, read_machine
+from carom.cli.output import hand_over
+from carom.cli.terminal import check_output, console, progress, read_machine
 
 OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
 PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")
@@ -58,11 +59,10 @@ def study(
             from carom.report import write_report
 
             report = write_report(result, out, progress=tell.part(share_of_study, 1.0))
-    if as_json:
-        print_document(result.to_dict())
-        if report is not None:
-            console(errors=True).print(f"Report: {report}", soft_wrap=True)
-        return
-    from carom.cli.tables import print_study
 
-    print_study(console(), result, report, long)
+    def show() -> None:
+        from carom.cli.tables import print_study
+
+        print_study(console(), result, out, long)
+
+    hand_over(result.to_dict, as_json, show, out, f"Report: {report}")

@@ -9,7 +9,8 @@ import typer
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.terminal import InterruptionError, check_output, console, print_document, progress
+from carom.cli.output import hand_over
+from carom.cli.terminal import InterruptionError, check_output, console, progress
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
@@ -73,10 +74,7 @@ def sweep(
             tell(0.99, "drawing")
             _draw(plan, tally, figures)
     failures = tally.failures
-    if as_json:
-        print_document(_document(plan, tally, failures))
-    else:
-        _print(plan, tally, failures)
+    hand_over(lambda: _document(plan, tally, failures), as_json, lambda: _print(plan, tally, failures), None)
 
 
 def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:

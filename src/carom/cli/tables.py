@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Collection, Iterable, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
     from carom.models import Rotor
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
-    from carom.parameters import Case, Scales
+    from carom.parameters import Case
 
 MOST_NUMBERS = 40
 """Number of orbits above which the tables of numbers leave out virtual ones."""
@@ -45,14 +44,7 @@ TEXT_WIDTH = 110
 """Largest width of running text, in columns; longer lines are hard to read."""
 NARROW = 116
 """Width in columns below which the table of motions leaves out remarks, unless a motion is not possible."""
-_STYLES: dict[State, str] = {
-    "stable": "bold",
-    "seen": "bold",
-    "unstable": "",
-    "transient": "",
-    "not possible": "dim",
-    "undecided": "",
-}
+_STYLES: dict[State, str] = {"stable": "bold", "seen": "bold", "not possible": "dim"}
 _LEVELS = {
     "no-contact-free-motion": "bold red",
     "may-not-come-back": "bold yellow",
@@ -61,7 +53,7 @@ _LEVELS = {
 }
 
 
-def print_study(console: Console, study: Study, report: Path | None, long: bool) -> None:
+def print_study(console: Console, study: Study, out: str | None, long: bool) -> None:
     """Print the verdict and the recommendation of a study; if it is to be ``long``, all facts and the motions too."""
     verdict = study.verdict
     headline = Text(f"{study.case.name}: {verdict.lead}", style=_LEVELS[verdict.level])
@@ -76,10 +68,8 @@ def print_study(console: Console, study: Study, report: Path | None, long: bool)
     console.print()
     if not long:
         console.print("All that was found, and the table of motions: --long")
-    if report is None:
+    if out is None:
         console.print("Figures, study.json and report.html: add --out DIR")
-    else:
-        console.print(f"Report: {report}", soft_wrap=True)
 
 
 def _print_topics(console: Console, study: Study) -> None:
@@ -127,12 +117,12 @@ def print_orbits(
             at = f" at touchdown bearing {listed([str(plane + 1) for plane in each.planes])}" if each.planes else ""
             rows[place] = dataclasses.replace(rows[place], name=f"{rows[place].name}{at}")
     for plane, whirl in whirls:
-        name = (
-            f"{Outcome.BACKWARD_WHIRL.words} at touchdown bearing {plane + 1}, {_frequency(whirl.speed, rotor.scales)}"
-        )
+        speed, scales = whirl.speed, rotor.scales
+        rate = f"{number(speed * scales.speed / math.tau, 4)} Hz" if scales else f"{number(speed, 4)} Ω"
         ends = "stability not judged" if whirl.slips else "rolls before it gets there"
+        name = f"{Outcome.BACKWARD_WHIRL.words} at touchdown bearing {plane + 1}, {rate}; {ends}"
         size = f"r = {say.radius(whirl.radius)}"
-        rows.append(MotionRow(f"{name}; {ends}", "undecided", size=size, force=say.force(whirl.normal_force)))
+        rows.append(MotionRow(name, "undecided", size=size, force=say.force(whirl.normal_force)))
     print_motions(console, "Equilibria and orbits with one impact a period", rows)
     _print_left_out(console, orbits, most_virtual=40)
     _print_numbers(console, [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS])
@@ -149,14 +139,7 @@ def _why_only(rotor: Rotor) -> str:
         return "On a spinning race, rubs and whirls are steady only where its torques balance: as orbits, if there are any."
     if rotor.system.forced is not None:
         return "Under gravity, rubs and whirls are not steady motions; --set gravity=0 shows those without weight."
-    return (
-        "Whirls are those of the balanced rotor touching the bearing named alone; the other bearings are not checked."
-    )
-
-
-def _frequency(speed: float, scales: Scales | None) -> str:
-    """A speed of whirl."""
-    return f"{number(speed * scales.speed / math.tau, 4)} Hz" if scales else f"{number(speed, 4)} Ω"
+    return "Whirls are those of the balanced rotor touching the bearing named alone; other bearings are not checked."
 
 
 def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
@@ -195,7 +178,9 @@ def print_motions(console: Console, title: str, rows: Sequence[MotionRow]) -> No
     if console.width < NARROW and all(row.state != "not possible" for row in rows):
         rows = [dataclasses.replace(row, remark="") for row in rows]
     cells = [[getattr(row, name) for name in MOTION_COLUMNS] for row in rows]
-    print_table(console, title, list(MOTION_COLUMNS.values()), cells, styles=[_STYLES[row.state] for row in rows])
+    print_table(
+        console, title, list(MOTION_COLUMNS.values()), cells, styles=[_STYLES.get(row.state, "") for row in rows]
+    )
 
 
 def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -> None:
