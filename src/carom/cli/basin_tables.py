@@ -12,7 +12,7 @@ from carom.basins.gains import WANTED
 from carom.cli.fitting import print_table
 from carom.cli.tables import print_rows
 from carom.disturbances.plans import plan_words
-from carom.parameters import Case, InTerms, in_terms_of
+from carom.parameters import Case, in_terms_of
 from carom.parameters.columns import table_of
 from carom.parameters.formats import format_angle
 from carom.studies.wording import Wording
@@ -43,19 +43,14 @@ def print_gains(screen: Console, found: GainMap, case: Case) -> None:
     able = found.dataset["levitates"].values > 0.0
     back, of_what = found.present_share, found.population.words
     names = [axis.name for axis in found.axes]
-    here = ", ".join(_value(case, name, value) for name, value in zip(names, found.present, strict=True))
-    ends = [found.dataset[name].values[[0, -1]].tolist() for name in names]
-    spans = [
-        f"{_value(case, name, low)} to {_stated(case, name, high).text}"
-        for name, (low, high) in zip(names, ends, strict=True)
-    ]
+    here = [in_terms_of(case, name, value, digits=5) for name, value in zip(names, found.present, strict=True)]
+    ends = [[in_terms_of(case, name, end, digits=5) for end in found.dataset[name].values[[0, -1]]] for name in names]
+    spans = (f"{low.field.words} {low.text} to {high.text}" for low, high in ends)
     screen.print(f"Map: {'; '.join(spans)}.")
-    screen.print(f"Present machine: {here}; {back.words}.")
+    screen.print(f"Present machine: {', '.join(f'{each.field.words} {each.text}' for each in here)}; {back.words}.")
     shape = " x ".join(str(size) for size in share.shape)
     reach, sure = (int((found.dataset[name].values >= WANTED).sum()) for name in ("recovered", "recovered_low"))
-    varied = " and ".join(
-        _stated(case, name, value).entry.replace("_", " ") for name, value in zip(names, found.present, strict=True)
-    )
+    varied = " and ".join(each.entry.replace("_", " ") for each in here)
     shown = f" ({back.total} drawn at each), shown with 95 % confidence for {sure or 'none'}" if back.drawn else ""
     screen.print(
         f"Of {shape} machines with other {varied}, {reach} of {share.size} bring back at least "
@@ -102,15 +97,5 @@ def _where(smallest: SmallestUnrecovered) -> str:
     where = f"at {format_angle(smallest.angle or 0.0)}"
     if smallest.kind == "blade-loss":
         return f"{where} from the unbalance before it"
-    return (
-        where if smallest.instant is None else f"{where} when the shaft has turned by {format_angle(smallest.instant)}"
-    )
-
-
-def _value(case: Case, name: str, value: float) -> str:
-    stated = _stated(case, name, value)
-    return f"{stated.field.words} {stated.text}"
-
-
-def _stated(case: Case, name: str, value: float) -> InTerms:
-    return in_terms_of(case, name, value, digits=5)
+    turned = smallest.instant
+    return where if turned is None else f"{where} when the shaft has turned by {format_angle(turned)}"

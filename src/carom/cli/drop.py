@@ -73,7 +73,7 @@ def drop(
     if plane is None:
         refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
-    end = None if until is None else read_time(until, case.parameters.scales)
+    end = read_time(until, case.parameters.scales)
     if asked:
         shape = CELLS if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
         _map(case, begins, {"names": asked.names, "ranges": asked.ranges, "shape": shape, "until": end}, out, as_json)

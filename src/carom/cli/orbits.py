@@ -48,9 +48,7 @@ def orbits(
     if impacts is None:
         model.system.refuse_non_stationary()
         exact = model.has_closed_forms
-    longest = None
-    if longest_period is not None:
-        longest = read_time(longest_period, case.parameters.scales, "--longest-period")
+    longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
         from carom.base.results import record
         from carom.closed_forms.equilibria import steady_motions

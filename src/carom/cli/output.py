@@ -39,13 +39,12 @@ def write_output(
     from carom.base.files.directory import FIGURES
     from carom.studies.wording import machine_heading
 
+    tell = tell or Reporter()
     with staged_directory(out, "--out") as directory, plots.heading(machine_heading(case)):
         for place, (figure, draw) in enumerate(figures.items()):
-            if tell is not None:
-                tell(place / len(figures), "drawing")
+            tell(place / len(figures), "drawing")
             plots.save(draw(), directory / FIGURES / figure)
-        if tell is not None:
-            tell(1.0, "writing")
+        tell(1.0, "writing")
         for file, write in files.items():
             write(directory / file)
         write_json(directory / f"{name}.json", document)

@@ -54,12 +54,7 @@ def regions(
             for varied, limits, name in zip(axes, given, ("--x", "--y"), strict=True)
         ]
         check_output(out)
-        found = map_regions(
-            subject,
-            Plane(axes[0].name, axes[1].name, *ranges),
-            grid=grid,
-            progress=tell,
-        )
+        found = map_regions(subject, Plane(axes[0].name, axes[1].name, *ranges), grid=grid, progress=tell)
         document, name = regions_document(found), f"regions-{axes[0].name}-{axes[1].name}"
         write_output(out, case, name, document, {name: found.plot})
     hand_over(lambda: document, as_json, lambda: _print_map(console(), found), out)

@@ -61,7 +61,7 @@ def simulate(
     ways = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
     begins = released(case, ways, regained_after) if drop else one_of(ways, instant)
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        end = None if until is None else read_time(until, case.parameters.scales)
+        end = read_time(until, case.parameters.scales)
         rotor, state, echo = begins.apply(case)
         from carom.motions import drop_loads
         from carom.motions.simulation import simulate as follow

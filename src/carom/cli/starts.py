@@ -97,9 +97,9 @@ def with_requirement(case: Case, **given: str | int | None) -> Case:
         raise together([InputError(option, error.value, error.allowed) for option, error in named]) from None
 
 
-def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
-    """Read a time above 0, in ``1/Ω`` or with a unit of time."""
-    return own_time(option, text, scales)
+def read_time(text: str | None, scales: Scales | None, option: str = "--until") -> float | None:
+    """Read a time above 0, in ``1/Ω`` or with a unit of time, if one is given."""
+    return None if text is None else own_time(option, text, scales)
 
 
 def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> float:

@@ -10,15 +10,14 @@ Long motions are thinned: the first contacts, the last turns of the shaft, the p
 
 Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``shapes``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
-``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+``drop_maps`` and ``sweeps``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells`` (the looks of motions), ``maps`` (a number over two
 parameters), ``placement``, ``parameter_axes`` and ``words``.
 """
 
 from __future__ import annotations
 
-from carom.plots.attractor_shares import attractors
-from carom.plots.basins import basin, basin_pair
+from carom.plots.basins import attractors, basin, basin_pair
 from carom.plots.courses import energies, radius, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.drop_maps import drop_map

@@ -54,8 +54,10 @@ def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since:
             for span in trajectory.lasting_contacts
             if span.kind == kind and span.end > since
         ]
-        line = clearance(trajectory.scales) * np.concatenate(arcs) if arcs else np.zeros(0, complex)
-        _band(axes, kind, line.real, line.imag)
+        if arcs:
+            line, look = clearance(trajectory.scales) * np.concatenate(arcs), LOOKS[kind]
+            caps = {"solid_capstyle": "butt", "dash_capstyle": "butt"}
+            axes.plot(line.real, line.imag, **look.stroke, **caps, label=look.words, zorder=3, gid=kind)
 
 
 def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:
@@ -68,10 +70,3 @@ def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: floa
     if points > _MOST_POINTS:
         points, end = _MOST_POINTS, start + _MOST_POINTS * _STEP / fastest
     return trajectory.position(np.linspace(start, end, points), frame)
-
-
-def _band(axes: Axes, kind: str, x: Floats, y: Floats) -> None:
-    if not len(x):
-        return
-    look = LOOKS[kind]
-    axes.plot(x, y, **look.stroke, solid_capstyle="butt", dash_capstyle="butt", label=look.words, zorder=3, gid=kind)

@@ -1,4 +1,4 @@
-"""Basins of attraction: which disturbances lead to which motion, of one machine or of several side by side."""
+"""Basins of attraction: which disturbances lead to which motion, of one machine or of several side by side, and shares of attractors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import clearance, display_unit, formula, number
 
 if TYPE_CHECKING:
-    from carom.attractors import MotionName
+    from carom.attractors import AttractorSet, MotionName
     from carom.basins import Basin, Cells, SmallestUnrecovered
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
@@ -30,6 +30,8 @@ _CHORDS = 120
 """Least number of straight edges in a ring of cells."""
 _RING = (0.82, 0.98)
 """Inner and outer radius of the ring that shows what varies by one angle."""
+_ROW, _EDGES = 0.26, 0.9
+"""Height of the bar of an attractor and of everything else [inch]."""
 _LINE = 22
 """Letters of a line of words in place of a picture."""
 _REACH = 1.04
@@ -224,6 +226,23 @@ def _bars(basin: Basin, motions: list[MotionLook]) -> Figure:
     for row, span in enumerate(ends):
         axes.plot(span, [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
     axes.set_xlabel(f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence")
+    return figure
+
+
+@checked
+@styled
+def attractors(found: AttractorSet) -> Figure:
+    """Draw the share of the disturbances that end on each attractor, of any rotor.
+
+    An attractor that only starts next to it have reached has no bar.
+    """
+    figure, drawn = one_axes((TWO_COLUMNS, _EDGES + _ROW * len(found)))
+    total = len(found.disturbances)
+    looks = looks_of([member.name for member in found], [member.share_of_disturbances for member in found])
+    by_row = sorted(looks, key=lambda look: look.index)
+    counts = [f"{member.count} of {total}" for member in found]
+    share_bars(drawn, by_row, counts, [100.0 * look.share for look in by_row])
+    drawn.set_xlabel("share of the disturbances (%)")
     return figure
 
 

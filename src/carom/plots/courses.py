@@ -13,7 +13,7 @@ from matplotlib.transforms import blended_transform_factory
 from carom.base.arguments import Positive, checked
 from carom.base.outcome import Outcome
 from carom.plots.figure import StyledFigure, narrow
-from carom.plots.plane import MANY_POINTS, Floats, key, marker_size, one_axes, point
+from carom.plots.plane import MANY_POINTS, Floats, impacts, key, one_axes, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number
 
@@ -196,7 +196,8 @@ def _distance(axes: Axes, motion: Trajectory, course: Course) -> None:
     times = display_unit("time", scales)[0] * np.concatenate([begins + log.time for begins, log in logs])
     shown = (times <= course.times[-1]) & np.concatenate([log.is_impact for _, log in logs])
     speeds = np.concatenate([log.angular_speed for _, log in logs])
-    _impacts(axes, times[shown], speeds[shown] > -1.0, clearance(scales))
+    if shown.sum() <= _MOST_MARKED:
+        impacts(axes, times[shown] + 1j * clearance(scales), speeds[shown], clip=False)
     whole = display_unit("time", scales)[0] * (motion.begins + motion.time)
     if motion.outcome is not Outcome.TIME_REACHED and course.times[-1] >= 0.999 * whole:
         place = complex(course.times[-1], distance[-1])
@@ -215,14 +216,6 @@ def _curve(axes: Axes, times: Floats, distance: Floats, scales: Scales | None) -
     end = times[-1] if times[-1] > times[0] else times[0] + 1.0
     axes.set(xlim=(times[0], end), ylim=(bottom, highest + 0.06 * (highest - bottom)))
     axes.set(xlabel=axis_time(scales), ylabel=axis_label("radius $r$", "length", scales))
-
-
-def _impacts(axes: Axes, times: Floats, forward: np.ndarray, wall: float) -> None:
-    """Mark impacts on the wall line by the sense of the whirl, unless they are too many."""
-    for meaning, chosen in (("forward", forward), ("backward", ~forward)):
-        if chosen.any() and len(times) <= _MOST_MARKED:
-            places = np.asarray(times[chosen] + 1j * wall, complex)
-            point(axes, places, meaning, size=marker_size(len(times)), clip=False)
 
 
 def _zones(axes: Axes, zones: Zones, wall: float) -> None:

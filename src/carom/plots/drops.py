@@ -14,7 +14,7 @@ from carom.plots.courses import sampled
 from carom.plots.figure import frames
 from carom.plots.plane import MANY_POINTS, Floats, clearance_circle, key, label_frame, point
 from carom.plots.style import LOOKS, styled
-from carom.plots.words import clearance, display_unit
+from carom.plots.words import axis_label, clearance
 
 if TYPE_CHECKING:
     from carom.motions.courses import Course
@@ -62,7 +62,8 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
         left, "fixed", course.scales, f"the first {FOLLOWED} contacts" if until is None and within < end else ""
     )
     for right in close:
-        gap = _gap_of(course)
+        # In micrometres or clearances; negative in a compliant wall.
+        gap = (wall - np.abs(course.place)) * _finer(course.scales)
         middle = _middle(course, gap)
         angles = middle + np.degrees(np.angle(course.place * cmath.exp(-1j * (course.down + np.radians(middle)))))
         # Opposite of the middle the angle jumps.
@@ -75,12 +76,6 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
                 point(axes, complex(where[hardest]), "end", label="largest force", colour=LOOKS["unstable"].colour)
     point(left, complex(course.place[0]), "start", label="start", size=4.0)
     return key(figure, (left, *close), columns=5, title=title)
-
-
-def _gap_of(course: Course) -> Floats:
-    """Distance from the wall, in micrometres or clearances; negative in a compliant wall."""
-    gap: Floats = (clearance(course.scales) - np.abs(course.place)) * _finer(course.scales)
-    return gap
 
 
 def _near(course: Course) -> float:
@@ -100,22 +95,14 @@ def _finer(scales: Scales | None) -> float:
     return 1.0 if scales is None else 1e3
 
 
-def _gap_label(scales: Scales | None) -> str:
-    return f"gap to the wall ({display_unit('length', None)[1] if scales is None else 'µm'})"
-
-
-def _held(course: Course, values: Floats) -> Floats:
-    """Values where the wall presses, with gaps elsewhere."""
-    return np.where(course.held, values, np.nan)
-
-
 def _path(axes: Axes, course: Course, across: Floats, up: Floats) -> None:
     """Draw a path, and over it the parts in contact."""
     many = len(across) > MANY_POINTS
     axes.plot(across, up, **LOOKS["path"].stroke, rasterized=many, label=LOOKS["path"].words, gid="path")
     if course.held.any():
         drawn = {**LOOKS["slide"].stroke, "lw": 1.2, "solid_capstyle": "butt", "zorder": 3}
-        axes.plot(_held(course, across), _held(course, up), **drawn, rasterized=many, label="in contact", gid="contact")
+        held = (np.where(course.held, values, np.nan) for values in (across, up))
+        axes.plot(*held, **drawn, rasterized=many, label="in contact", gid="contact")
 
 
 def _arrow(axes: Axes, down: float, wall: float) -> None:
@@ -137,6 +124,6 @@ def _close_to_the_wall(axes: Axes, course: Course, angles: Floats, gap: Floats, 
         xticks=middle + np.linspace(-reach, reach, _REACHES[reach]),
         ylim=(low - 0.08 * (near - low), near),
         xlabel="angle from the direction of gravity (°)",
-        ylabel=_gap_label(course.scales),
+        ylabel="gap to the wall (µm)" if course.scales else axis_label("gap to the wall", "length", None),
         title="close to the wall; below 0: depth" if deep else "close to the wall",
     )

@@ -88,11 +88,6 @@ class StyledFigure(Figure):
         if self._heading:
             super().suptitle(self._heading, wrap=True)
 
-    @property
-    def heading(self) -> str:
-        """The line above the title; empty if there is none."""
-        return self._heading
-
     def suptitle(self, t: str, **kwargs: Any) -> Text:
         """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading, its lines broken where the figure ends."""
         return super().suptitle(f"{self._heading}\n{t}" if self._heading else t, **{"wrap": True} | kwargs)

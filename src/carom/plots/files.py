@@ -56,14 +56,11 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
     stem = Path(path_stem)
     if not stem.name:
         raise InputError("path_stem", path_stem, "a path that ends with a name")
-    contents = {name: _rendered(figure, name) for name in formats}
+    contents = {stem.with_name(f"{stem.name}.{name}"): _rendered(figure, name) for name in formats}
     stem.parent.mkdir(parents=True, exist_ok=True)
-    written = []
-    for name, content in contents.items():
-        target = stem.with_name(f"{stem.name}.{name}")
+    for target, content in contents.items():
         write_whole(target, content)
-        written.append(target)
-    return written
+    return list(contents)
 
 
 def _rendered(figure: Figure, name: str) -> bytes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -48,16 +48,9 @@ def campbell(found: Campbell) -> Figure:
                 those = goes & ((branch.real >= 0.0) == grows)
                 if not those.any():
                     continue
-                words, colour = f"{name} whirl{' that grows' if grows else ''}", LOOKS[name].colour
-                look: dict[str, Any] = {
-                    "ls": line,
-                    "color": colour,
-                    "marker": LOOKS[name].marker,
-                    "mfc": "none" if grows else colour,
-                    "markevery": max(1, len(speeds) // MARKS),
-                    "label": words,
-                    "gid": words,
-                }
+                words = f"{name} whirl{' that grows' if grows else ''}"
+                look = LOOKS[name].mark(4.0, filled=not grows) | {"color": LOOKS[name].colour, "ls": line}
+                look |= {"markevery": max(1, len(speeds) // MARKS), "label": words, "gid": words}
                 upper.plot(speeds, np.where(those, np.abs(branch.imag) / _HERTZ, np.nan), **look)
                 lower.plot(speeds, np.where(those, damping, np.nan), **look)
         criticals += _crossings(speeds, branch.imag / RPM - speeds)
@@ -98,18 +91,10 @@ def sensitivity(found: Sensitivity) -> Figure:
         axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
     for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):
         words = f"bearing {bearing + 1}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
-        (line,) = axes.plot(
-            found.frequencies / _HERTZ,
-            np.abs(found.values[:, bearing]),
-            linestyle=_LINES[bearing % len(_LINES)],
-            color=LOOKS["stable"].colour if bearing % 2 == 0 else LOOKS["unstable"].colour,
-            label=words,
-            gid=f"bearing-{bearing}",
-        )
-        axes.plot([frequency / _HERTZ], [peak], marker="o", markersize=4.0, color=line.get_color())
-    axes.set_xscale("log")
-    axes.set_xlim(found.frequencies[0] / _HERTZ, found.frequencies[-1] / _HERTZ)
-    axes.set_ylim(0.0, top)
-    axes.set_xlabel("frequency (Hz)")
-    axes.set_ylabel("sensitivity (no unit)")
+        colour = LOOKS["unstable" if bearing % 2 else "stable"].colour
+        look = {"color": colour, "ls": _LINES[bearing % len(_LINES)], "label": words, "gid": f"bearing-{bearing}"}
+        axes.plot(found.frequencies / _HERTZ, np.abs(found.values[:, bearing]), **look)
+        axes.plot([frequency / _HERTZ], [peak], marker="o", markersize=4.0, color=colour)
+    ends = found.frequencies[0] / _HERTZ, found.frequencies[-1] / _HERTZ
+    axes.set(xscale="log", xlim=ends, ylim=(0.0, top), xlabel="frequency (Hz)", ylabel="sensitivity (no unit)")
     return key(figure, [axes], columns=2)

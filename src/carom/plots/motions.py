@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
 
+_TURNS = 8
+"""Last turns of the shaft that are drawn of a long motion."""
 _LONG = 3.0
 """Ratio of the length of a motion to that of its last turns beyond which the rest is thinned."""
 _ONCE: dict[str, Any] = {"marker": ".", "ms": 3.4, "mew": 0.0, "color": "#5d6f87", "zorder": 1.5}
@@ -115,15 +117,10 @@ def _pattern_length(period: float) -> int:
 
 @checked
 @styled
-def motion(
-    trajectory: Trajectory,
-    since: float = 0.0,
-    title: str | None = None,
-    turns: Count = 8,
-) -> Figure:
+def motion(trajectory: Trajectory, since: float = 0.0, title: str | None = None) -> Figure:
     """Draw a simulated motion in the co-rotating and in the fixed frame.
 
-    Of a long motion the last turns of the shaft are drawn, and before them the position once a turn.
+    Of a long motion the last eight turns of the shaft are drawn, and before them the position once a turn.
 
     Parameters
     ----------
@@ -131,8 +128,6 @@ def motion(
         Draw only what happens from this time on [1/Omega], to leave out a transient.
     title : str, optional
         Default: number of impacts and outcome in words.
-    turns : int
-        Number of last turns of the shaft that are drawn of a motion of more than three times as many.
 
     Raises
     ------
@@ -142,8 +137,8 @@ def motion(
     if not 0.0 <= since <= trajectory.time:
         raise InputError("since", since, f"a time from 0 to the end of the motion at {trajectory.time:g}/Omega")
     figure, both = frames(2)
-    long = trajectory.time - since > _LONG * turns * math.tau
-    last = trajectory.time - turns * math.tau if long else since
+    long = trajectory.time - since > _LONG * _TURNS * math.tau
+    last = trajectory.time - _TURNS * math.tau if long else since
     sides: tuple[tuple[Frame, Axes], ...] = (("rotating", both[0]), ("fixed", both[1]))
     bearing = f"touchdown bearing {trajectory.plane + 1}" if len(trajectory.rotor.system.contacts) > 1 else ""
     for frame, drawn in sides:
@@ -153,7 +148,7 @@ def motion(
             places = clearance(trajectory.scales) * trajectory.position(np.arange(since, last, math.tau), frame)
             words = "before: once a turn of the shaft"
             drawn.plot(places.real, places.imag, ls="none", **_ONCE, label=words, gid="once a turn")
-        words = f"{LOOKS['path'].words}, last {counted(turns, 'turn')}" if long else LOOKS["path"].words
+        words = f"{LOOKS['path'].words}, last {counted(_TURNS, 'turn')}" if long else LOOKS["path"].words
         _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words))
         bands_on_the_circle(drawn, trajectory, frame, since)
         ends = clearance(trajectory.scales) * trajectory.position(np.array([since, trajectory.time]), frame)

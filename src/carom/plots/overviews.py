@@ -15,6 +15,7 @@ from carom.plots.figure import StyledFigure, narrow
 from carom.plots.placement import spread_angles
 from carom.plots.plane import (
     Complex,
+    around,
     clearance_circle,
     direction_arrow,
     key,
@@ -148,16 +149,11 @@ def _draw_equilibria(axes: Axes, rotor: Rotor, plane: int, shown: Iterable[Equil
 def _name(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
     """Write names on a ring around the clearance circle, joined to the impact points by thin lines."""
     angles = spread_angles([np.angle(line[0]) for line in shown.values()], _LABEL_GAP)
+    look: dict[str, Any] = {
+        "bbox": {"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"},
+        "arrowprops": {"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 2},
+    }
+    look |= {"ha": "center", "va": "center", "fontsize": 8, "annotation_clip": False}
     for (orbit, line), angle in zip(shown.items(), angles, strict=True):
-        axes.annotate(
-            orbit_symbol(orbit.name),
-            xy=(line[0].real, line[0].imag),
-            xytext=(_LABEL_RING * wall * np.cos(angle), _LABEL_RING * wall * np.sin(angle)),
-            ha="center",
-            va="center",
-            fontsize=8,
-            color=LOOKS[orbit_look(orbit)].colour,
-            bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"},
-            arrowprops={"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 2},
-            annotation_clip=False,
-        )
+        ends = (line[0].real, line[0].imag), around(angle, _LABEL_RING * wall)
+        axes.annotate(orbit_symbol(orbit.name), *ends, **look, color=LOOKS[orbit_look(orbit)].colour)

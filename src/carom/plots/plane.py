@@ -137,7 +137,9 @@ def _longest_piece(position: Complex) -> Complex:
     return longest[~np.isnan(longest)]
 
 
-def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | None = None) -> None:
+def impacts(
+    axes: Axes, position: Complex, angular_speed: Floats, size: float | None = None, *, clip: bool = True
+) -> None:
     """Mark impact points, one marker for forward and one for backward whirl in the fixed frame.
 
     The rotor whirls forward if its fixed-frame angular speed, the co-rotating one plus 1, is positive just before the
@@ -147,7 +149,7 @@ def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | 
     size = marker_size(len(forward)) if size is None else size
     for which, chosen in (("forward", forward), ("backward", ~forward)):
         if chosen.any():
-            point(axes, position[chosen], which, size=size)
+            point(axes, position[chosen], which, size=size, clip=clip)
 
 
 def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Floats, Complex]:

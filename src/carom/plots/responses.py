@@ -60,17 +60,16 @@ def unbalance_response(response: Any) -> Figure:
         axes.set_xlim(response.interval[0] / RPM, response.interval[1] / RPM)
     lower.set_xlabel("speed of the shaft (rpm)")
     figure.align_ylabels([upper, lower])
-    return key(figure, (upper, lower), columns=3, title=_title(response, named=bool(figure.heading)))
+    return key(figure, (upper, lower), columns=3, title=_title(response))
 
 
-def _title(response: Any, *, named: bool) -> str:
-    """Write the vibration at the present speed with its zone, and the name of the machine if it is not above."""
+def _title(response: Any) -> str:
+    """Write the vibration at the present speed with its zone."""
     width = 2e6 * float(response.now.touchdowns.major[0, response.worst])
     sag = 1e6 * float(response.now.sags[response.worst])
     zone = f"zone {response.zone_at(response.present)}{f' with the sag of {number(sag, 3)} µm' if sag else ''}"
     found = f"{number(width, 4)} µm peak to peak, {zone}" if response.now.reach.max() <= 1.0 else NO_LEVITATION
-    where = f"{response.present / RPM:,.0f} rpm"
-    return f"at {where}: {found}" if named else f"{response.case.name} at {where}\n{found}"
+    return f"at {response.present / RPM:,.0f} rpm: {found}"
 
 
 def _amplitudes(axes: Axes, response: Any, speeds: Floats, width: float) -> None:
@@ -82,16 +81,9 @@ def _amplitudes(axes: Axes, response: Any, speeds: Floats, width: float) -> None
     for low, high, shade, letter in zip(limits[:-1], limits[1:], ZONE_SHADES, response.case.zones.labels, strict=True):
         axes.axhspan(width * low, width * high, color=shade, lw=0.0, zorder=0)
         if low < 0.95 * top and high > low:
-            place = width * min(high, top)
-            axes.annotate(  # at low speed, where the whirl is small
-                f"zone {letter}",
-                (0.008, place),
-                (0.0, -2.0),
-                axes.get_yaxis_transform(),
-                "offset points",
-                va="top",
-                zorder=4,
-            )
+            place = 0.008, width * min(high, top)  # at low speed, where the whirl is small
+            below: dict[str, Any] = {"xytext": (0.0, -2.0), "textcoords": "offset points", "va": "top", "zorder": 4}
+            axes.annotate(f"zone {letter}", place, xycoords=axes.get_yaxis_transform(), **below)
             axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
     for place, sizes in enumerate(2e6 * response.whirl.touchdowns.major.T):
         line = _BEARINGS[place % len(_BEARINGS)].stroke
@@ -124,11 +116,8 @@ def _amplitudes(axes: Axes, response: Any, speeds: Floats, width: float) -> None
 def _top(response: Any) -> float:
     """Largest amplitude shown, in the smallest clearance."""
     least, rubs = float(response.whirl.clearances.min()), response.rubs
-    limit, highest = (
-        float(response.allowed_si.max()) / (2.0 * least),
-        float(response.peak_to_peak_si.max()) / (2.0 * least),
-    )
-    needed = max(1.15 * highest, 1.15 * limit, _LOWEST)
+    highest = max(float(response.allowed_si.max()), float(response.peak_to_peak_si.max())) / (2.0 * least)
+    needed = max(1.15 * highest, _LOWEST)
     touches = float(response.reach.max()) > 0.8 or (rubs is not None and not np.isnan(rubs.radii).all())
     return min(max(needed, 1.1), _HIGHEST) if touches else min(needed, 1.1)
 
@@ -147,10 +136,8 @@ def _half_power(axes: Axes, response: Any, width: float, top: float) -> None:
 def _phases(axes: Axes, response: Any, speeds: Floats) -> None:
     inside, rubs = response.reach <= 1.0, response.rubs
     lags = np.degrees(response.lags)
-    lowest, highest = (
-        90.0 * math.floor(lags.min() / 90.0 + 0.01),
-        max(180.0, 90.0 * math.ceil(lags.max() / 90.0 - 0.01)),
-    )
+    lowest = 90.0 * math.floor(lags.min() / 90.0 + 0.01)
+    highest = max(180.0, 90.0 * math.ceil(lags.max() / 90.0 - 0.01))
     for place, lag in enumerate(lags.T):
         line = _BEARINGS[place % len(_BEARINGS)].stroke
         axes.plot(speeds, np.where(inside, lag, np.nan), **line, zorder=3)

@@ -93,21 +93,17 @@ def sweep_map(data: xarray.Dataset, name: str, *, present: Mapping[str, float] |
         varied = _field(data[dimension])
         sizes.append(varied.usual_size)
         places.append(data[dimension].values / sizes[-1])
-        set_up = {f"{direction}label": parameter_label(varied)}
+        drawn.set(**{f"{direction}label": parameter_label(varied)})
         if spacings[dimension] == "log":
-            set_up[f"{direction}scale"] = "log"
-        drawn.set(**set_up)
-        if spacings[dimension] == "log":
-            _plain_ticks(drawn.xaxis if direction == "x" else drawn.yaxis, places[-1])
+            drawn.set(**{f"{direction}scale": "log"})
+            _plain_ticks(getattr(drawn, f"{direction}axis"), places[-1])
     if len(dimensions) == 1:
         drawn.plot(places[0], values.values, marker=".")
         drawn.set_ylabel(_label(values))
         _ticks(drawn.yaxis, values)
     else:
-        edges = [
-            cell_edges(along, spacings[dimension] == "log") for along, dimension in zip(places, dimensions, strict=True)
-        ]
-        _shades(drawn, (edges[0], edges[1]), values, _reasons(data, values))
+        x, y = (cell_edges(along, spacings[name] == "log") for along, name in zip(places, dimensions, strict=True))
+        _shades(drawn, (x, y), values, _reasons(data, values))
     if present is not None:
         here = [present[name] / size for name, size in zip(dimensions, sizes, strict=True)]
         if all(along.min() <= value <= along.max() for value, along in zip(here, places, strict=True)):
@@ -128,9 +124,7 @@ def _in_display_unit(values: xarray.DataArray) -> xarray.DataArray:
     if "si_of" not in values.attrs:
         return values
     factor, unit = shown_from_si(values.attrs.get("units", "1"))
-    return (
-        (factor * values).assign_attrs(values.attrs | {"units": unit}).rename(values.name) if factor != 1.0 else values
-    )
+    return (factor * values).assign_attrs(values.attrs | {"units": unit}).rename(values.name)
 
 
 def _field(coordinate: xarray.DataArray) -> Field:

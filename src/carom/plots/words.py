@@ -96,11 +96,10 @@ def clearance(scales: Scales | None) -> float:
 
 def time_in_words(time: float, scales: Scales | None) -> str:
     """Write a dimensionless time: in ms or s if the machine is known, otherwise in its own unit."""
-    return rf"{number(time)} $/\,\Omega$" if scales is None else _seconds(time * scales.time)
-
-
-def _seconds(time: float) -> str:
-    return f"{number(time, 3)} s" if time >= 1.0 else f"{number(1e3 * time, 3)} ms"
+    if scales is None:
+        return rf"{number(time)} $/\,\Omega$"
+    seconds = time * scales.time
+    return f"{number(seconds, 3)} s" if seconds >= 1.0 else f"{number(1e3 * seconds, 3)} ms"
 
 
 def axis_label(words: str, kind: str, scales: Scales | None) -> str:

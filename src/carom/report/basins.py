@@ -91,8 +91,5 @@ def _disturbances(study: Study, kind: Kind) -> Disturbance:
         return BladeLoss(size, study.required.blade_loss_node)
     found = getattr(study.survives, kind, None)
     reach = size if found is None or found.size is None or found.size <= size else BEYOND * found.size
-    return (
-        BaseShock(reach, study.required.shock.duration)
-        if study.required.shock and kind == "shock"
-        else KickPlane(reach)
-    )
+    shock = study.required.shock if kind == "shock" else None
+    return KickPlane(reach) if shock is None else BaseShock(reach, shock.duration)

@@ -6,7 +6,7 @@ import json
 import math
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -180,11 +180,9 @@ class Film:
 
     def _impacts(self, impacts: ContactLog) -> tuple[np.ndarray, np.ndarray]:
         """Impacts on a rigid wall: time, shares of the largest impulses, and slip, shape (n, 4); and those impulses."""
-        hardest = [self._largest(each) for each in (impacts.normal_impulse, impacts.friction_impulse)]
-        shares = (
-            each / largest
-            for each, largest in zip((impacts.normal_impulse, impacts.friction_impulse), hardest, strict=True)
-        )
+        sizes = impacts.normal_impulse, impacts.friction_impulse
+        hardest = [self._largest(each) for each in sizes]
+        shares = (each / largest for each, largest in zip(sizes, hardest, strict=True))
         columns = self.units["time"][0] * impacts.time, *shares, self.units["velocity"][0] * np.abs(impacts.slip_before)
         return np.round(np.transpose(columns), 5), self.units["impulse"][0] * np.array(hardest)
 
@@ -237,4 +235,4 @@ def _sampled(motion: Trajectory, until: float) -> tuple[float, int]:
 @cache
 def film_script() -> Markup:
     """The script that plays the films of a page."""
-    return Markup(files("carom.report").joinpath("film.js").read_text(encoding="utf-8"))
+    return Markup(Path(__file__).with_name("film.js").read_text(encoding="utf-8"))

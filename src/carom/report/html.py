@@ -6,9 +6,9 @@ import platform
 import re
 from dataclasses import dataclass
 from importlib.metadata import version
-from importlib.resources import files
+from pathlib import Path
 
-from jinja2 import Environment, FunctionLoader, StrictUndefined, Template
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 
@@ -23,11 +23,7 @@ class InlineFigure:
 
 def page_template(name: str) -> Template:
     """Return a template of this package, which may include others."""
-
-    def read(wanted: str) -> str:
-        return files("carom.report").joinpath(wanted).read_text(encoding="utf-8")
-
-    loader = FunctionLoader(read)
+    loader = FileSystemLoader(Path(__file__).parent)
     environment = Environment(
         loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
