@@ -44,7 +44,7 @@ def attractors(
         fastest = case.requirement.own(case.parameters.scales).kick
         found = find_attractors(case, count=starts, seed=seed or 0, fastest=fastest, progress=tell)
         known = [exponents_of(case, entry) for entry in found]
-        document = attractors_document(rotor_of(case), found, known if exponents else None) if as_json or out else {}
+        document = attractors_document(rotor_of(case), found, known if exponents else None)
         write_output(out, case, "attractors", document, {"attractors": found.plot})
     hand_over(lambda: document, as_json, lambda: _print(case, found, known, exponents), out)
 

@@ -114,12 +114,9 @@ def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> 
     }
 
 
-def _place(failure: dict[str, Any]) -> str:
-    return ", ".join(f"{name} = {value:.6g}" for name, value in failure["values"].items())
-
-
 def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
     from carom.base.progress import duration_words
+    from carom.studies.wording import counted
     from carom.sweeps.running import rate_words
 
     screen = console()
@@ -137,11 +134,11 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
         screen.print("Nothing was left to compute.")
     if tally.damaged:
         chunks = ", ".join(map(str, tally.damaged[:_SHOWN])) + (", ..." if len(tally.damaged) > _SHOWN else "")
-        noun = "chunk" if len(tally.damaged) == 1 else "chunks"
-        words = f"Files of {len(tally.damaged):,} {noun} ({chunks}) were damaged or missing: computed again"
-        screen.print(words)
+        several = counted(len(tally.damaged), "chunk")
+        screen.print(f"Files of {several} ({chunks}) were damaged or missing: computed again")
     for failure in failures[:_SHOWN]:
-        screen.print(f"Failed at {_place(failure)}: {failure['error']}", soft_wrap=True)
+        place = ", ".join(f"{name} = {value:.6g}" for name, value in failure["values"].items())
+        screen.print(f"Failed at {place}: {failure['error']}", soft_wrap=True)
     if tally.failed:
         screen.print(f"All failures: {tally.store}/records; try them again with --retry-failed", soft_wrap=True)
     screen.print(f"Results: {tally.store} (carom.open_sweep in Python)", soft_wrap=True)

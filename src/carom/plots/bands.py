@@ -55,9 +55,9 @@ def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since:
             if span.kind == kind and span.end > since
         ]
         if arcs:
-            line, look = clearance(trajectory.scales) * np.concatenate(arcs), LOOKS[kind]
-            caps = {"solid_capstyle": "butt", "dash_capstyle": "butt"}
-            axes.plot(line.real, line.imag, **look.stroke, **caps, label=look.words, zorder=3, gid=kind)
+            line = clearance(trajectory.scales) * np.concatenate(arcs)
+            look = LOOKS[kind].stroke | {"solid_capstyle": "butt", "dash_capstyle": "butt", "zorder": 3}
+            axes.plot(line.real, line.imag, **look, label=LOOKS[kind].words, gid=kind)
 
 
 def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -91,10 +91,10 @@ def sensitivity(found: Sensitivity) -> Figure:
         axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
     for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):
         words = f"bearing {bearing + 1}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
-        colour = LOOKS["unstable" if bearing % 2 else "stable"].colour
-        look = {"color": colour, "ls": _LINES[bearing % len(_LINES)], "label": words, "gid": f"bearing-{bearing}"}
-        axes.plot(found.frequencies / _HERTZ, np.abs(found.values[:, bearing]), **look)
-        axes.plot([frequency / _HERTZ], [peak], marker="o", markersize=4.0, color=colour)
+        look = LOOKS["unstable" if bearing % 2 else "stable"]
+        line: dict[str, Any] = {"ls": _LINES[bearing % len(_LINES)], "label": words, "gid": f"bearing-{bearing}"}
+        axes.plot(found.frequencies / _HERTZ, np.abs(found.values[:, bearing]), **line, color=look.colour)
+        axes.plot([frequency / _HERTZ], [peak], marker="o", ms=4.0, color=look.colour)
     ends = found.frequencies[0] / _HERTZ, found.frequencies[-1] / _HERTZ
     axes.set(xscale="log", xlim=ends, ylim=(0.0, top), xlabel="frequency (Hz)", ylabel="sensitivity (no unit)")
     return key(figure, [axes], columns=2)

@@ -33,10 +33,10 @@ from carom.plots.words import (
     clearance,
     contacts_in_words,
     counted,
+    number,
     orbit_look,
     orbit_title,
     time_in_words,
-    turns,
 )
 
 if TYPE_CHECKING:
@@ -77,9 +77,8 @@ def orbit(orbit: Orbit, periods: Count | None = None) -> Figure:
     _draw_orbit(left, orbit, "rotating", 1)
     _draw_orbit(right, orbit, "fixed", count)
     label_frame(left, "rotating", scales, plane_note(orbit, f"period $T$ = {time_in_words(orbit.period, scales)}"))
-    label_frame(
-        right, "fixed", scales, plane_note(orbit, f"{counted(count, 'period')} = {turns(count * orbit.period)}")
-    )
+    turns = f"{number(count * orbit.period / math.tau, 3)} turns of the shaft"
+    label_frame(right, "fixed", scales, plane_note(orbit, f"{counted(count, 'period')} = {turns}"))
     equilibrium = complex(orbit.rotor.system.arrays.offsets[orbit.leading_plane])
     _levitation(left, equilibrium, wall)
     inner = magnifier(left, once, wall=wall)

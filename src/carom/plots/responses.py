@@ -81,9 +81,9 @@ def _amplitudes(axes: Axes, response: Any, speeds: Floats, width: float) -> None
     for low, high, shade, letter in zip(limits[:-1], limits[1:], ZONE_SHADES, response.case.zones.labels, strict=True):
         axes.axhspan(width * low, width * high, color=shade, lw=0.0, zorder=0)
         if low < 0.95 * top and high > low:
-            place = 0.008, width * min(high, top)  # at low speed, where the whirl is small
+            corner = 0.008, width * min(high, top)  # at low speed, where the whirl is small
             below: dict[str, Any] = {"xytext": (0.0, -2.0), "textcoords": "offset points", "va": "top", "zorder": 4}
-            axes.annotate(f"zone {letter}", place, xycoords=axes.get_yaxis_transform(), **below)
+            axes.annotate(f"zone {letter}", corner, xycoords=axes.get_yaxis_transform(), **below)
             axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
     for place, sizes in enumerate(2e6 * response.whirl.touchdowns.major.T):
         line = _BEARINGS[place % len(_BEARINGS)].stroke

@@ -88,8 +88,8 @@ class Look:
 
     def entry(self, words: str = "") -> Line2D:
         """Return a legend entry: the line, or the marker if the meaning is a point."""
-        drawn = {"marker": self.marker, "ms": 5.0, "color": self.colour, "ls": "none"}
-        return Line2D([], [], **(drawn if self.line == "none" else self.stroke), label=words or self.words)
+        drawn = self.mark(5.0) if self.line == "none" else self.stroke
+        return Line2D([], [], **drawn, label=words or self.words)
 
 
 LOOKS = MappingProxyType(

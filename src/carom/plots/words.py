@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from typing import TYPE_CHECKING
 
@@ -119,8 +118,3 @@ def parameter_label(field: Field, unit: str | None = None) -> str:
         field.symbol, field.symbol
     )
     return field.words + (f" ${symbol}$" if symbol else "") + (f" ({unit})" if unit else "")
-
-
-def turns(time: float) -> str:
-    """Write a dimensionless time as turns of the shaft."""
-    return f"{number(time / math.tau, 3)} turns of the shaft"

@@ -15,7 +15,6 @@ from carom.attractors import Ending
 from carom.models import Rotor
 from carom.motions.courses import shown_until
 from carom.motions.simulation import simulate
-from carom.parameters import Zones
 from carom.report import basins
 from carom.report.figure_files import ReportPicture
 from carom.studies import Study
@@ -68,12 +67,6 @@ def pictures(study: Study) -> list[ReportPicture]:
         )
         figures.append(ReportPicture("multipliers", "method", words, partial(plots.multipliers, possible[:12])))
     return figures
-
-
-def _zones(study: Study, radii: np.ndarray) -> Zones | None:
-    """Return the zones to draw; ``None`` if a motion stays in the last zone, so that it is drawn enlarged."""
-    zones = study.case.zones
-    return zones if float(radii.min()) <= zones.limits[-1] else None
 
 
 def _of_disturbances(study: Study) -> Iterator[ReportPicture]:
@@ -149,7 +142,9 @@ def _history(study: Study, example: Ending) -> Figure:
         motion = simulate(study.rotor, example.start.state, LONGEST_SHOWN, settle=True)
     if touched(motion):
         return plots.touchdown(motion)
-    return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
+    # A motion that stays in the last zone is drawn enlarged, without zones.
+    zones, nearest = study.case.zones, float(motion.radius(motion.sample()).min())
+    return plots.radius(motion, zones if nearest <= zones.limits[-1] else None)
 
 
 def touched(motion: Trajectory) -> bool:

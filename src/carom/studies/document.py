@@ -177,13 +177,14 @@ def _measured(measured: Measured, _: object) -> str:
     return "-" if found is None else f"{found.impacts:,}" if found.errors.any() else "exact"
 
 
-ACROSS = (
-    Column(
-        "",
-        "largest exponent across the motion",
-        lambda measured, _: _exponent(*measured[1].across, 3) if measured[1] else "-",
-    ),
-)
+def _across(measured: Measured, _: object) -> str:
+    if (found := measured[1]) is None:
+        return "-"
+    value, error = found.across
+    return _exponent(value, error, 3)
+
+
+ACROSS = (Column("", "largest exponent across the motion", _across),)
 MEASURED = (
     Column("", "motion", lambda measured, _: measured[0].name.words),
     Column("", "exponents", _all_exponents),
