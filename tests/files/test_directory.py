@@ -115,7 +115,7 @@ def test_current_directory_and_links(tmp_path, monkeypatch):
 def test_directory_without_rights(tmp_path):
     tmp_path.chmod(0o500)
     try:
-        with pytest.raises(InputError, match="may not write"):
+        with pytest.raises(InputError, match="cannot be written"):
             check_directory(str(tmp_path / "out"), "--out")
     finally:
         tmp_path.chmod(0o700)

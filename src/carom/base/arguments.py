@@ -15,6 +15,7 @@ import math
 import types
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import wraps
+from itertools import chain, repeat
 from numbers import Complex, Integral, Real
 from typing import (
     TYPE_CHECKING,
@@ -70,10 +71,7 @@ Infinity = Annotated[Any, ArgumentKind(lambda number: isinstance(number, float) 
 Reals = Annotated["np.ndarray", ArgumentKind(lambda values: kind_of_numbers(values) in "iuf", "finite real numbers")]
 """Array of finite real numbers."""
 Truths = Annotated[
-    Any,
-    ArgumentKind(
-        lambda values: getattr(getattr(values, "dtype", None), "kind", "") == "b", "an array of True and False"
-    ),
+    Any, ArgumentKind(lambda values: str(getattr(values, "dtype", "")) == "bool", "an array of True and False")
 ]
 """Array of ``True`` and ``False``."""
 
@@ -107,14 +105,6 @@ def checked(target: Any) -> Any:
     return wrapper
 
 
-_BY_PLACE = (
-    inspect.Parameter.POSITIONAL_ONLY,
-    inspect.Parameter.POSITIONAL_OR_KEYWORD,
-    inspect.Parameter.VAR_POSITIONAL,
-    inspect.Parameter.VAR_KEYWORD,
-)
-
-
 class _Door(NamedTuple):
     """What a function takes: its arguments by place, the names of further ones by place and by name, and the kind of each."""
 
@@ -127,24 +117,24 @@ class _Door(NamedTuple):
     def of(cls, function: Callable[..., Any]) -> _Door:
         """Read the annotations of a function."""
         names, kinds = _Names(inspect.unwrap(function).__globals__), {"": _ANYTHING}
-        of_kind: dict[Any, list[str]] = {}
+        places, others, further = list[str](), "", ""
         for name, parameter in inspect.signature(function).parameters.items():
             written = parameter.annotation
             if isinstance(written, str):
                 written = eval(written, {}, names)
             kinds[name] = _ANYTHING if written is parameter.empty else _kind_of(written)
-            of_kind.setdefault(parameter.kind, []).append(name)
-        only, both, others, further = (of_kind.get(kind, []) for kind in _BY_PLACE)
-        return cls((*only, *both), "".join(others), "".join(further), kinds)
+            if parameter.kind is parameter.VAR_POSITIONAL:
+                others = name
+            elif parameter.kind is parameter.VAR_KEYWORD:
+                further = name
+            elif parameter.kind is not parameter.KEYWORD_ONLY:
+                places.append(name)
+        return cls(tuple(places), others, further, kinds)
 
     def check(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> None:
         """Refuse the first argument that is not of its kind; Python itself refuses too many and too few."""
-        placed = ((self.places[n] if n < len(self.places) else self.others, value) for n, value in enumerate(args))
-        for name, value in placed:
-            if not self.kinds[name].holds(value):
-                raise InputError(name, value, self.kinds[name].words)
-        for name, value in kwargs.items():
-            kind = self.kinds[name if name in self.kinds else self.further]
+        for name, value in chain(zip(chain(self.places, repeat(self.others)), args, strict=False), kwargs.items()):
+            kind = self.kinds.get(name) or self.kinds[self.further]
             if not kind.holds(value):
                 raise InputError(name, value, kind.words)
 
@@ -246,9 +236,8 @@ def _ranged(whole: ArgumentKind, limits: ArgumentKind) -> ArgumentKind:
 
 def _any_of(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
     *words, last = dict.fromkeys(kind.words for kind in kinds if kind.words)
-    return ArgumentKind(
-        lambda value: any(kind.holds(value) for kind in kinds), f"{', '.join(words)} or {last}" if words else last
-    )
+    allowed = f"{', '.join(words)} or {last}" if words else last
+    return ArgumentKind(lambda value: any(kind.holds(value) for kind in kinds), allowed)
 
 
 def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
@@ -257,9 +246,8 @@ def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
         return fits and all(kind.holds(part) for kind, part in zip(kinds, value, strict=True))
 
     words = list(dict.fromkeys(kind.words for kind in kinds))
-    return ArgumentKind(
-        holds, f"{len(kinds)} values in brackets, {'each' if len(words) == 1 else 'namely'} {', '.join(words)}"
-    )
+    which = f"{'each' if len(words) == 1 else 'namely'} {', '.join(words)}"
+    return ArgumentKind(holds, f"{len(kinds)} values in brackets, {which}")
 
 
 def _several(one: ArgumentKind, container: Any) -> ArgumentKind:

@@ -10,7 +10,7 @@
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
 ``scaling``               :class:`Scales` and their units; dimensionless numbers from and to SI units
-``numbers``               :class:`Parameters`, :class:`Numbers`: the same plain, unchecked; :class:`Named`: what they share with rotors
+``numbers``               :class:`Parameters`, :class:`Numbers`: the same plain, unchecked
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``touchdown_bearing``     :class:`TouchdownBearing`: a compliant touchdown bearing

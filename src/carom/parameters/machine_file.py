@@ -11,9 +11,9 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
 from carom.base.tabular import Tabular
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors, unknown_names
-from carom.parameters.formats import format_quantity, number, shown_in
+from carom.parameters.formats import format_entry, format_quantity, number, shown_in
 from carom.parameters.machine import Machine, warn_of_proportions
-from carom.parameters.numbers import Named, Parameters, own_numbers
+from carom.parameters.numbers import Parameters, own_numbers
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
@@ -80,7 +80,7 @@ class Case(Tabular):
     stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.parameters, Named):
+        if not hasattr(self.parameters, "varied"):
             raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters, or a model")
         self.requirement.own(self.parameters.scales)
         if self.gravity is not None and self.gravity.acceleration == 0.0:
@@ -133,7 +133,7 @@ class Case(Tabular):
         scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
-            f"{field.words} {LoadLimits.format(name, value, 4)}"
+            f"{field.words} {format_entry(field, value)}"
             for name, field in LIMIT_FIELDS.items()
             if (value := getattr(self.limits, name)) is not None
         ]

@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, Self, runtime_checkable
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from carom.base.arguments import checked, having
 from carom.base.outcome import InputError, shown
@@ -234,31 +234,8 @@ _FOLLOWING = {"speed": ("gamma", "omega"), "mass": ("gamma", "omega"), "clearanc
 """Numbers that change with each of the units: as its reciprocal does, only the frequency as the root of that of the mass."""
 
 
-@runtime_checkable
-class Named(Protocol):
-    """Numbers by name: those of the planar rotor, or of any model."""
-
-    @property
-    def scales(self) -> Scales | None:
-        """Mass, clearance and speed that convert results to SI units, if known."""
-
-    @property
-    def varied(self) -> Mapping[str, Field]:
-        """Parameters that can be varied."""
-
-    @property
-    def finite_elements(self) -> Any:
-        """The reduced machine of parts that has these numbers; ``None`` without one."""
-
-    def value(self, name: str) -> float:
-        """Value of a parameter."""
-
-    def replace(self, **changes: Any) -> Self:
-        """Return the same with other values."""
-
-
-def own_numbers(numbers: Named) -> dict[str, float]:
-    """Return the dimensionless numbers by name; those that differ between the planes of a rotor for each plane."""
+def own_numbers(numbers: Any) -> dict[str, float]:
+    """Return the dimensionless numbers of a planar rotor, or of a model, by name; those that differ between the planes of a rotor for each plane."""
     found: dict[str, float] = {}
     for name in DIMENSIONLESS_FIELDS:
         try:

@@ -117,7 +117,7 @@ class Requirement:
     blade_loss_node: Whole | None = None
 
     def __post_init__(self) -> None:
-        if (self.kick, self.shock, self.blade_loss, self.blade_loss_node) == (None,) * 4:
+        if not any(value is not None for name, value in vars(self).items() if name != "source"):
             object.__setattr__(self, "source", "default")
 
     @checked
@@ -202,7 +202,7 @@ class Requirement:
         if not hasattr(numbers, "scales"):
             raise InputError("machine", shown(machine), "a Machine, a Case, Parameters or a model")
         entries = {"kick": kick, "shock": shock, "blade_loss": blade_loss, "blade_loss_node": blade_loss_node}
-        return _read(entries, {name: name for name in entries}, numbers.scales, "option")
+        return _read(entries, "", numbers.scales, "option")
 
     @classmethod
     @checked
@@ -216,7 +216,7 @@ class Requirement:
         """
         problems = Problems()
         problems.errors += unknown_names(table, SURVIVE_ENTRIES, "[survive]")
-        found = problems.attempt(_read, table, {name: f"[survive] {name}" for name in SURVIVE_ENTRIES}, scales, "file")
+        found = problems.attempt(_read, table, "[survive] ", scales, "file")
         problems.raise_all()
         return found or cls()
 
@@ -240,14 +240,14 @@ def _fall_speed(scales: Scales) -> float:
     return math.sqrt(4.0 * GRAVITY * scales.clearance)
 
 
-def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales | None, source: Source) -> Requirement:
-    """Read the entries that are given; ``names`` are what errors call them."""
+def _read(entries: Mapping[str, Any], prefix: str, scales: Scales | None, source: Source) -> Requirement:
+    """Read the entries that are given; errors call them by their names behind a prefix."""
     problems, found = Problems(), dict[str, Any]()
     sizes = {name: partial(_size, kind=kind) for name, kind in (("kick", "velocity"), ("blade_loss", "unbalance"))}
     readers: dict[str, Any] = {**sizes, "shock": _read_shock, "blade_loss_node": _read_node}
     for name, read in readers.items():
         if entries.get(name) is not None:
-            found[name] = problems.attempt(read, names[name], entries[name], scales)
+            found[name] = problems.attempt(read, prefix + name, entries[name], scales)
     problems.raise_all()
     return Requirement(**found, source=source)
 

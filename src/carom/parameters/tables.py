@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Self
 from carom.base.arguments import Count, Infinity, checked
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, unknown_names
-from carom.parameters.formats import format_angle, number
+from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.quantities import Written, read_quantity
 from carom.parameters.scaling import Scales
 
@@ -278,8 +278,7 @@ class LoadLimits(Table):
         """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
         if name not in LIMIT_FIELDS:
             raise InputError("name", name, "a load that can be limited")
-        field = LIMIT_FIELDS[name]
-        return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
+        return format_entry(LIMIT_FIELDS[name], value, digits)
 
     def check_fit(self, bearing: Any) -> None:
         """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have.

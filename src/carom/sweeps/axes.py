@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 import numpy as np
 
-from carom.base.arguments import Count, checked
+from carom.base.arguments import checked, whole
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters import SETTINGS, Field, field_to_set, read_quantity
 
@@ -37,7 +36,7 @@ class GridAxis:
         First and last value, or all values of a list; in SI units or dimensionless.
     count : int
     own : Field, optional
-        Field of a parameter that a name alone does not give: of an :class:`~carom.models.Axis`.
+        Field of the parameter, which the name alone does not give for an :class:`~carom.models.Axis`.
     """
 
     name: str
@@ -53,7 +52,7 @@ class GridAxis:
         parameter: str | Axis,
         low: object,
         high: object,
-        count: Count,
+        count: Annotated[int, whole(2, LONGEST_AXIS)],
         spacing: Literal["linear", "log"] = "linear",
     ) -> GridAxis:
         """Evenly spaced values of a parameter, ends included.
@@ -72,16 +71,13 @@ class GridAxis:
         field, problems = _field(parameter), Problems()
         where = f"axes.{field.name}"
         ends = [problems.attempt(_number, f"{where}.{key}", field, end) for key, end in (("from", low), ("to", high))]
-        if not (isinstance(count, Integral) and 2 <= count <= LONGEST_AXIS):
-            allowed = f"must be a whole number from 2 to {LONGEST_AXIS}: how many values"
-            problems.errors.append(InputError(f"{where}.count", shown(count), allowed))
         problems.raise_all()
         first, last = cast("list[float]", ends)
         if first == last:
             raise InputError(f"{where}.to", shown(high), "must be another value than from")
         if spacing == "log" and not (first > 0 and last > 0):
             raise InputError(f"{where}.spacing", "log", "needs ends above 0")
-        return cls(field.name, spacing, (first, last), int(count), _own(parameter))
+        return cls(field.name, spacing, (first, last), count, field)
 
     @classmethod
     @checked
@@ -99,7 +95,7 @@ class GridAxis:
         problems.raise_all()
         if not 0 < len(set(numbers)) == len(numbers) <= LONGEST_AXIS:
             raise InputError(where, shown(list(values)), f"must be different values, 1 to {LONGEST_AXIS} of them")
-        return cls(field.name, "list", tuple(cast("list[float]", numbers)), len(numbers), _own(parameter))
+        return cls(field.name, "list", tuple(cast("list[float]", numbers)), len(numbers), field)
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -121,11 +117,6 @@ class GridAxis:
 
 def _field(parameter: str | Axis) -> Field:
     return field_to_set(parameter) if isinstance(parameter, str) else parameter.field
-
-
-def _own(parameter: str | Axis) -> Field | None:
-    """Field of an axis of a model, which a name alone would not give."""
-    return None if isinstance(parameter, str) else parameter.field
 
 
 def _number(where: str, field: Field, given: object) -> float:

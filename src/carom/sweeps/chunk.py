@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -16,18 +17,6 @@ MOST_FAILURES = 20
 """Largest number of failed points that results list."""
 
 
-@dataclass(frozen=True)
-class Failure:
-    """A point that could not be computed."""
-
-    point: tuple[int, ...]
-    """Index of the point in the grid."""
-    values: dict[str, float]
-    """Values of the parameters that vary, in SI units or dimensionless."""
-    error: str
-    """Error message, on one line."""
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Chunk(Result):
     """The results at the points of a chunk."""
@@ -35,7 +24,8 @@ class Chunk(Result):
     number: int
     arrays: dict[str, np.ndarray]
     """One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension."""
-    failures: tuple[Failure, ...]
+    failures: list[dict[str, Any]]
+    """Of each point that could not be computed its index in the grid, the values of the parameters that vary, and the error, on one line."""
 
 
 def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
@@ -54,20 +44,23 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
             arrays["status"][place] = Status.FAILED
             words = str(problem) if isinstance(problem, CaromError) else f"{type(problem).__name__}: {problem}"
             line = " ".join(words.split())[:_LONGEST_MESSAGE]
-            failures.append(Failure(point, plan.values(point), line))
+            failures.append(_failure(plan, point, line))
             continue
         for name, value in found.items():
             arrays[name][place] = value
         arrays["status"][place] = Status.DONE
-    return Chunk(number, arrays, tuple(failures))
+    return Chunk(number, arrays, failures)
 
 
 def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:
     """Return a chunk whose points all failed with the same error, because its worker was lost."""
     arrays = _empty(plan, number)
     arrays["status"][...] = Status.FAILED
-    failures = tuple(Failure(point, plan.values(point), error) for point in plan.points_of(number))
-    return Chunk(number, arrays, failures)
+    return Chunk(number, arrays, [_failure(plan, point, error) for point in plan.points_of(number)])
+
+
+def _failure(plan: SweepPlan, point: tuple[int, ...], error: str) -> dict[str, Any]:
+    return {"point": list(point), "values": plan.values(point), "error": error}
 
 
 def _empty(plan: SweepPlan, number: int) -> dict[str, np.ndarray]:

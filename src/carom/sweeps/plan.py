@@ -7,6 +7,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -118,10 +119,8 @@ class SweepPlan:
         return math.prod(part.stop - part.start for part in self.region(number))
 
     def points_of(self, number: int) -> Iterator[tuple[int, ...]]:
-        """Yield the indices of the points of a chunk in the grid; the last axis varies fastest."""
-        region = self.region(number)
-        for place in np.ndindex(*(part.stop - part.start for part in region)):
-            yield tuple(part.start + step for part, step in zip(region, place, strict=True))
+        """Return the indices of the points of a chunk in the grid; the last axis varies fastest."""
+        return product(*(range(part.start, part.stop) for part in self.region(number)))
 
     @checked
     def values(self, point: tuple[int, ...]) -> dict[str, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -16,7 +16,6 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, duration_words, shows_progress
 from carom.core.processors import available_cores
-from carom.sweeps.chunk import Chunk
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.store import SweepStore, open_sweep
 
@@ -51,15 +50,13 @@ class Tally:
     failed: int
     computed: int
     seconds: float
+    read: Callable[[], xarray.Dataset] = field(repr=False, compare=False)
     damaged: tuple[int, ...] = ()
     failures: list[dict[str, Any]] = field(default_factory=list, repr=False)
-    read: Callable[[], xarray.Dataset] | None = field(default=None, repr=False, compare=False)
 
     @property
     def dataset(self) -> xarray.Dataset:
         """Results so far, as :func:`~carom.sweeps.open_sweep` returns them."""
-        if self.read is None:
-            raise RuntimeError("this tally was not made by run_sweep")
         return self.read()
 
     @property
@@ -168,11 +165,11 @@ def run_sweep(
     began, computed, tell = time.monotonic(), 0, Reporter.of(progress, "computing points")
 
     def tally() -> Tally:
-        seconds = time.monotonic() - began
-        return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged))
+        numbers = plan.points, book.done, book.failed, computed, time.monotonic() - began
+        return Tally(book.path, *numbers, partial(open_sweep, book.path), tuple(book.damaged))
 
     def end() -> Tally:
-        return replace(tally(), failures=book.failures(), read=partial(open_sweep, book.path))
+        return replace(tally(), failures=book.failures())
 
     if next(book.waiting(retry_failed), None) is None:
         return end()
@@ -180,28 +177,19 @@ def run_sweep(
         stack.enter_context(book)
         if next(book.waiting(retry_failed), None) is None:
             return end()
-        chunks = _chunks(plan, book.waiting(retry_failed), workers, bool(threads), scheduler, stack)
+        numbers = book.waiting(retry_failed)
+        if scheduler is None:
+            from carom.sweeps.local import on_processes, on_threads
+
+            chunks = (on_threads if threads else on_processes)(plan, numbers, workers or available_cores())
+        else:
+            from carom.sweeps.cluster import connect, on_cluster
+
+            client = stack.enter_context(connect(scheduler)) if isinstance(scheduler, str) else scheduler
+            chunks = on_cluster(plan, numbers, client)
         for chunk in stack.enter_context(closing(chunks)):
             book.write(chunk)
             computed += plan.size(chunk.number)
             now = tally()
             tell((now.done + now.failed) / now.points, now.words)
     return end()
-
-
-def _chunks(
-    plan: SweepPlan,
-    numbers: Iterator[int],
-    workers: int | None,
-    threads: bool,
-    scheduler: str | Client | None,
-    stack: ExitStack,
-) -> Generator[Chunk, None, None]:
-    if scheduler is not None:
-        from carom.sweeps.cluster import connect, on_cluster
-
-        client = stack.enter_context(connect(scheduler)) if isinstance(scheduler, str) else scheduler
-        return on_cluster(plan, numbers, client)
-    from carom.sweeps.local import on_processes, on_threads
-
-    return (on_threads if threads else on_processes)(plan, numbers, workers or available_cores())

@@ -13,10 +13,9 @@ import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
-from dataclasses import asdict
-from functools import reduce
+from functools import partial, reduce
+from itertools import chain, islice
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -130,13 +129,8 @@ class SweepStore:
 
     def failures(self) -> list[dict[str, Any]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
-        found: list[dict[str, Any]] = []
-        for number in sorted(self._failed):
-            shown = self._record(number)
-            found += shown.failures if shown else []
-            if len(found) >= MOST_FAILURES:
-                break
-        return found[:MOST_FAILURES]
+        records = (self._record(number) for number in sorted(self._failed))
+        return list(islice(chain.from_iterable(each.failures for each in records if each), MOST_FAILURES))
 
     # ------------------------------------------------------------------------------------------------- writing
 
@@ -158,9 +152,7 @@ class SweepStore:
         self._writers = ThreadPoolExecutor(_WRITERS, thread_name_prefix="carom-store")
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, problem: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *problem: object) -> None:
         if self._writers is not None:
             self._writers.shutdown()
         self._writers = None
@@ -174,21 +166,18 @@ class SweepStore:
         if self._writers is None:
             raise RuntimeError("the store is not open for writing")
         plan, number = self.plan, chunk.number
-        fills = {variable.name: variable.fill for variable in plan.variables}
-        files = {
-            file: _sealed(_padded(plan, chunk.arrays[name], fills[name])) for name, file in self._files(number).items()
-        }
-        sums = {name: checksum(files[file]) for name, file in self._files(number).items()}
-        failures = [asdict(failure) for failure in chunk.failures]
-        kept = ChunkRecord(self._digest, number, sums, failures)
-        status = list(files)[-1]
-        status_data = files.pop(status)
+        data = {each.name: _sealed(_padded(plan, chunk.arrays[each.name], each.fill)) for each in plan.variables}
+        sums = {name: checksum(content) for name, content in data.items()}
+        kept = ChunkRecord(self._digest, number, sums, chunk.failures)
+        files = {file: data[name] for name, file in self._files(number).items()}
+        status, status_data = files.popitem()
         files[record_file(self.path, number)] = kept.data
+        write = partial(write_whole, parts=self.path / PARTS)
         try:
             self._let_wait(number)
-            list(self._writers.map(self._write_file, files, files.values()))
+            list(self._writers.map(write, files, files.values()))
             list(self._writers.map(sync_directory, {file.parent for file in files}))
-            self._write_file(status, status_data)
+            write(status, status_data)
             sync_directory(status.parent)
         except OSError as problem:
             raise self._refusal(problem, shown=True) from None
@@ -201,21 +190,15 @@ class SweepStore:
         self._finished[number] = False
         self._failed.pop(number, None)
 
-    def _write_file(self, target: Path, data: bytes) -> None:
-        write_whole(target, data, self.path / PARTS)
-
     def _refusal(self, problem: OSError, shown: bool = False) -> InputError:
         reason = problem.strerror or str(problem)
-        if not shown:
+        if shown:
+            kept = f"{np.count_nonzero(self._finished)} of {self.plan.chunks} chunks are stored"
+            allowed = f"cannot be written ({reason}); {kept}; fix this, and the same command resumes the sweep"
+        else:
             place = f": {problem.filename}" if problem.filename and Path(problem.filename) != self.path else ""
-            return InputError(
-                OPTION, self.path, f"cannot be read or written ({reason}{place}); fix this or give another directory"
-            )
-        finished = int(np.count_nonzero(self._finished))
-        kept = f"{finished} of {self.plan.chunks} chunks are stored"
-        return InputError(
-            OPTION, self.path, f"cannot be written ({reason}); {kept}; fix this, and the same command resumes the sweep"
-        )
+            allowed = f"cannot be read or written ({reason}{place}); fix this or give another directory"
+        return InputError(OPTION, self.path, allowed)
 
 
 @checked

@@ -79,9 +79,8 @@ class StudyTask:
         if not self.disturbances:
             return "none, closed forms only"
         kinds = "kicks of the levitating rotor and starts anywhere in the clearance"
-        return (
-            f"{self.disturbances} at each point: {kinds}, at up to the speed that must be survived, in the fixed frame"
-        )
+        up_to = "at up to the speed that must be survived, in the fixed frame"
+        return f"{self.disturbances} at each point: {kinds}, {up_to}"
 
     @property
     def seconds(self) -> float:
@@ -149,15 +148,16 @@ class StudyTask:
         from carom.studies.questions import DESCRIBED, events_for
         from carom.studies.survives import comes_to_rest
 
+        names = ("recovered", "recovered_low", "recovered_high")
         if not rotor.system.is_planar and not comes_to_rest(rotor):
-            return {"attractors": 0, **dict.fromkeys(("recovered", "recovered_low", "recovered_high"), 0.0)}
+            return {"attractors": 0, **dict.fromkeys(names, 0.0)}
         with Budget().question(DESCRIBED, events_for(rotor, DESCRIBED)):
             found = find_attractors(rotor, seed=seed, count=self.disturbances, fastest=fastest, threads=1)
         smallest, share = found.smallest_unrecovered_kick, share_of_kicks(found)
         back = (share.fraction, share.low, share.high) if share else (0.0, 0.0, 0.0)
         return {
             "attractors": sum(member.count > 0 for member in found),
-            **dict(zip(("recovered", "recovered_low", "recovered_high"), back, strict=True)),
+            **dict(zip(names, back, strict=True)),
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 

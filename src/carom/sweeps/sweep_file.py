@@ -29,6 +29,7 @@ from carom.parameters import (
     usual_kick,
 )
 from carom.parameters.fields import nearest_name, unknown_names
+from carom.parameters.machine_file import split_settings
 from carom.parameters.terms import check_names
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis
@@ -120,18 +121,17 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     listed = [*(top.settings if top else []), *settings]
     machine = Path(name).parent / (top.machine if top else "")
     case = problems.attempt(load, machine, listed) if top else None
-    axes = problems.attempt(_axes, tables.get("axes"), listed, case)
+    texts = split_settings(listed, Problems())
+    axes = problems.attempt(_axes, tables.get("axes"), texts, case)
     task = problems.attempt(_task, tables, top, case)
     problems.raise_all()
     case, axes, task, top = cast("tuple[Case, tuple[GridAxis, ...], Task, _Top]", (case, axes, task, top))
     chunk = cut(tuple(axis.count for axis in axes), task, top.chunk)
-    names = [setting.partition("=")[0].strip() for setting in listed]
     fixed: dict[str, float | str] = {
-        name: getattr(case.parameters, name) for name in names if name in DIMENSIONLESS_FIELDS
+        name: getattr(case.parameters, name) for name in texts if name in DIMENSIONLESS_FIELDS
     }
     if case.si:
-        texts = {name: setting.partition("=")[2].strip() for name, setting in zip(names, listed, strict=True)}
-        fixed |= {name: texts[name] for name in names if name in TERMS}
+        fixed |= {name: text for name, text in texts.items() if name in TERMS}
     sources = {
         "sweep_file": Path(name).read_text(encoding="utf-8-sig"),
         "machine_file": machine.read_text(encoding="utf-8-sig"),
@@ -148,11 +148,9 @@ def _read(model: type[_Model], content: object, where: str, besides: Iterable[st
     except pydantic.ValidationError as problem:
         errors = problem.errors()
     names = {field.alias or name: None for name, field in model.model_fields.items()}
-    known = {**names, **dict.fromkeys(besides)}
     prefix = f"{where}." if where else ""
-    unknown = [entry for entry in content if entry not in names]
-    found = [unknown_name(entry, content[entry], known, f"[{where}]" if where else _WHAT) for entry in unknown]
-    meant = {nearest_name(entry, names) for entry in unknown}
+    found = unknown_names(content, {**names, **dict.fromkeys(besides)}, f"[{where}]" if where else _WHAT)
+    meant = {nearest_name(entry, names) for entry in content if entry not in names}
     for entry in dict.fromkeys(str(error["loc"][0]) for error in errors):
         if entry in content and entry in names:
             found.append(InputError(f"{prefix}{entry}", shown(content[entry]), _ALLOWED[entry]))
@@ -164,7 +162,7 @@ def _read(model: type[_Model], content: object, where: str, besides: Iterable[st
 # -------------------------------------------------------------------------------------------------------------- axes
 
 
-def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridAxis, ...]:
+def _axes(tables: object, settings: Iterable[str], case: Case | None) -> tuple[GridAxis, ...]:
     if not isinstance(tables, dict) or not tables:
         raise InputError("axes", None if tables is None else shown(tables), _ALLOWED["axes"])
     problems = Problems()
@@ -176,20 +174,15 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
 
-def _check_varied(axes: list[str], settings: list[str], planar: bool) -> None:
+def _check_varied(axes: list[str], settings: Iterable[str], planar: bool) -> None:
     """Refuse settings that change a parameter that an axis varies, and of the planar rotor what is none, or set twice in other words."""
-    names = {setting.partition("=")[0].strip(): "set" for setting in settings}
     problems = Problems()
     problems.errors += [
-        InputError(f"axes.{name}", "varied", "is set too; do only one of the two") for name in axes if name in names
+        InputError(f"axes.{name}", "varied", "is set too; do only one of the two") for name in axes if name in settings
     ]
     if planar:
-        unknown = [name for name in names if name not in SETTINGS]  # reported as an error of the settings
-        problems.attempt(
-            check_names,
-            {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
-            SETTINGS,
-        )
+        known = [name for name in settings if name in SETTINGS]  # others are errors of the settings already
+        problems.attempt(check_names, dict.fromkeys(known, "set") | dict.fromkeys(axes, "varied"), SETTINGS)
     problems.raise_all()
 
 
@@ -207,24 +200,21 @@ def _axis(case: Case | None, name: str, given: object) -> GridAxis:
 def _values(parameter: Axis | str, name: str, table: _Axis) -> GridAxis:
     where = f"axes.{name}"
     ends = {"from": table.start, "to": table.end, "count": table.count}
+    if table.values is None:
+        if missing := [key for key, value in ends.items() if value is None]:
+            words = "missing; {}; or give values = [...]"
+            raise together([InputError(f"{where}.{key}", None, words.format(_ALLOWED[key])) for key in missing])
+        low, high, count = cast("tuple[_Value, _Value, int]", tuple(ends.values()))
+        return GridAxis.between(parameter, low, high, count, table.spacing or "linear")
     problems = Problems()
-    if table.values is not None:
-        problems.errors += [
-            InputError(f"{where}.{key}", shown(value), "not allowed beside values; give one or the other")
-            for key, value in {**ends, "spacing": table.spacing}.items()
-            if value is not None
-        ]
-        axis = problems.attempt(GridAxis.of, parameter, table.values)
-        problems.raise_all()
-        return cast("GridAxis", axis)
     problems.errors += [
-        InputError(f"{where}.{key}", None, f"missing; {_ALLOWED[key]}; or give values = [...]")
-        for key, value in ends.items()
-        if value is None
+        InputError(f"{where}.{key}", shown(value), "not allowed beside values; give one or the other")
+        for key, value in {**ends, "spacing": table.spacing}.items()
+        if value is not None
     ]
+    axis = problems.attempt(GridAxis.of, parameter, table.values)
     problems.raise_all()
-    low, high, count = cast("tuple[_Value, _Value, int]", (table.start, table.end, table.count))
-    return GridAxis.between(parameter, low, high, count, table.spacing or "linear")
+    return cast("GridAxis", axis)
 
 
 # -------------------------------------------------------------------------------------------------------------- work

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -25,14 +24,8 @@ def check_directory(path: str, option: str) -> Path:
     if not path.strip() or "\0" in path:
         raise InputError(option, repr(path), allowed)
     directory = Path(path)
-    try:
-        nearest = next(place for place in (directory, *directory.absolute().parents) if place.exists())
-    except OSError as problem:
-        raise InputError(option, path, f"{allowed} ({problem.strerror})") from None
-    if not nearest.is_dir():
-        raise InputError(option, path, f"{allowed}; {nearest} is a file")
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise InputError(option, path, f"{allowed}; you may not write to {nearest}")
+    if directory.is_file():
+        raise InputError(option, path, f"{allowed}; this is a file")
     try:
         with _staging(directory) as made:
             if not directory.exists():
