@@ -26,7 +26,6 @@ class Drawn:
     kind: ClassVar[str] = "drawn"
     starts: ClassVar[int] = 0
     seconds: ClassVar[float] = 1.0
-    dimensions: ClassVar[tuple] = ()
     variables: ClassVar[tuple] = (Variable("value", "what varies"), Variable("draw", "a random number", "count"))
 
     def describe(self):

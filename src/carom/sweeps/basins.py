@@ -46,7 +46,6 @@ class BasinsTask:
     too."""
 
     kind: ClassVar[str] = "basins"
-    dimensions: ClassVar[tuple[Dimension, ...]] = (OUTCOMES,)
 
     @property
     def variables(self) -> tuple[Variable, ...]:

@@ -66,9 +66,8 @@ def check_same(path: Path, plan: SweepPlan) -> None:
         raise InputError(OPTION, path, f"belongs to another plan (another {where}); give another directory")
     if other := other_version(attributes["versions"], versions()):
         name, then, now = other
-        raise InputError(
-            OPTION, path, f"was begun with {name} {then}, this is {now}; resume it with {then}, or start anew"
-        )
+        allowed = f"was begun with {name} {then}, this is {now}; resume it with {then}, or start anew"
+        raise InputError(OPTION, path, allowed)
 
 
 def create(path: Path, plan: SweepPlan) -> None:
@@ -103,16 +102,13 @@ def description_of(plan: SweepPlan) -> dict[str, Any]:
 
 def coordinates_of(plan: SweepPlan) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
     """Return the values and attributes of each axis and of each further dimension of a plan."""
-    axes = {
-        axis.name: (axis.values, {"long_name": axis.field.words, "units": axis.field.unit or "1"}) for axis in plan.axes
-    }
-    return axes | {
-        dimension.name: (
-            np.array(dimension.values, np.int8),
-            {"long_name": dimension.words, **flags(list(dimension.values), dimension.flags)},
-        )
-        for dimension in plan.task.dimensions
-    }
+    found = {}
+    for axis in plan.axes:
+        found[axis.name] = axis.values, {"long_name": axis.field.words, "units": axis.field.unit or "1"}
+    for further in {variable.along for variable in plan.variables if variable.along}:
+        meanings = flags(list(further.values), further.flags)
+        found[further.name] = np.array(further.values, np.int8), {"long_name": further.words, **meanings}
+    return found
 
 
 def _lay_out(path: Path, plan: SweepPlan) -> None:

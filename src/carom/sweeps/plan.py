@@ -125,9 +125,8 @@ class SweepPlan:
     @checked
     def values(self, point: tuple[int, ...]) -> dict[str, float]:
         """Return the values of the parameters that vary, at a point of the grid."""
-        if len(point) != len(self.shape) or any(
-            not 0 <= place < most for place, most in zip(point, self.shape, strict=True)
-        ):
+        inside = [0 <= place < most for place, most in zip(point, self.shape, strict=False)]
+        if len(point) != len(self.shape) or not all(inside):
             raise InputError("point", point, f"indices of the grid of shape {self.shape}")
         return {axis.name: float(axis.values[place]) for axis, place in zip(self.axes, point, strict=True)}
 
@@ -196,10 +195,8 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     sizes.reverse()
     chunks = math.prod(-(-count // size) for count, size in zip(shape, sizes, strict=True))
     if chunks > MOST_CHUNKS:
-        least = -(-points // MOST_CHUNKS)
-        raise InputError(
-            "chunk", chunk, f"gives {chunks} chunks, at most {MOST_CHUNKS} are allowed; {least} or more points"
-        )
+        allowed = f"at most {MOST_CHUNKS} are allowed; {-(-points // MOST_CHUNKS)} or more points"
+        raise InputError("chunk", chunk, f"gives {chunks} chunks, {allowed}")
     return tuple(sizes)
 
 

@@ -149,16 +149,14 @@ def run_sweep(
     >>> cm.run_sweep(plan).dataset.recovered.values
     array([0. , 0.2, 1. ])
     """
-    if scheduler is not None and threads:
-        raise InputError("--threads", "given", "not allowed with --scheduler, whose workers compute")
-    if scheduler is not None and workers is not None:
-        raise InputError("--workers", workers, "not allowed with --scheduler, whose workers compute")
+    for option, given in (("--threads", "given" if threads else None), ("--workers", workers)):
+        if scheduler is not None and given is not None:
+            raise InputError(option, given, "not allowed with --scheduler, whose workers compute")
     if store is None:
         with TemporaryDirectory(prefix="carom-sweep-") as folder:
             own = (scheduler is None) if threads is None else threads
-            found = run_sweep(
-                plan, Path(folder, "sweep"), workers=workers, threads=own, scheduler=scheduler, progress=progress
-            )
+            place = Path(folder, "sweep")
+            found = run_sweep(plan, place, workers=workers, threads=own, scheduler=scheduler, progress=progress)
             data = found.dataset.load()
         return replace(found, store=None, read=lambda: data)
     book = SweepStore(store, plan)

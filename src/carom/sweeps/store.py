@@ -63,7 +63,7 @@ class SweepStore:
         self.path, self.plan = Path(path), plan
         self.damaged: list[int] = []
         self._finished, self._sizes = np.zeros(plan.chunks, bool), _sizes(plan)
-        self._failed: dict[int, int] = {}
+        self._failed = np.zeros(plan.chunks, int)
         self._digest = plan.digest
         try:
             if is_new(self.path):
@@ -87,7 +87,7 @@ class SweepStore:
                 self.damaged.append(number)
                 continue
             self._finished[number] = True
-            self._note(found)
+            self._failed[number] = len(found.failures)
 
     def _record(self, number: int) -> ChunkRecord | None:
         """Return the record of a finished chunk, or None if it or a file of the chunk is damaged, missing or another's."""
@@ -97,12 +97,6 @@ class SweepStore:
         except FileNotFoundError:
             return None
         return found if found is not None and found.sums == sums else None
-
-    def _note(self, found: ChunkRecord) -> None:
-        """Keep what the record of a finished chunk says."""
-        self._failed.pop(found.number, None)
-        if found.failures:
-            self._failed[found.number] = len(found.failures)
 
     def _files(self, number: int) -> dict[str, Path]:
         """Return the files of a chunk by variable name; that of the status, which is written last, comes last."""
@@ -120,16 +114,16 @@ class SweepStore:
     @property
     def failed(self) -> int:
         """Number of points that failed."""
-        return sum(self._failed.values())
+        return int(self._failed.sum())
 
     def waiting(self, retry_failed: bool = False) -> Iterator[int]:
         """Yield the chunks that are not finished, in order; then those with failures, if they are to be tried again."""
-        again = sorted(self._failed) if retry_failed else []
+        again = np.flatnonzero(self._failed).tolist() if retry_failed else []
         yield from (*np.flatnonzero(~self._finished).tolist(), *again)
 
     def failures(self) -> list[dict[str, Any]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
-        records = (self._record(number) for number in sorted(self._failed))
+        records = (self._record(number) for number in np.flatnonzero(self._failed).tolist())
         return list(islice(chain.from_iterable(each.failures for each in records if each), MOST_FAILURES))
 
     # ------------------------------------------------------------------------------------------------- writing
@@ -182,13 +176,13 @@ class SweepStore:
         except OSError as problem:
             raise self._refusal(problem, shown=True) from None
         self._finished[number] = True
-        self._note(kept)
+        self._failed[number] = len(kept.failures)
 
     def _let_wait(self, number: int) -> None:
         """Make a chunk that is computed again wait until all its files are new, so that nobody reads a mixture."""
         list(self._files(number).values())[-1].unlink(missing_ok=True)
         self._finished[number] = False
-        self._failed.pop(number, None)
+        self._failed[number] = 0
 
     def _refusal(self, problem: OSError, shown: bool = False) -> InputError:
         reason = problem.strerror or str(problem)
@@ -238,10 +232,9 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     path = Path(path)
     try:
         attributes_of(path, "store")
-        data = xarray.open_zarr(path, chunks=None, consolidated=True)
+        return xarray.open_zarr(path, chunks=None, consolidated=True)
     except OSError as problem:
         raise InputError("store", path, f"cannot be read ({problem.strerror or problem}: {problem.filename})") from None
-    return data
 
 
 # ------------------------------------------------------------------------------------------------------------ chunks

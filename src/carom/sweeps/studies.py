@@ -12,7 +12,7 @@ from carom.base.arguments import Whole, checked
 from carom.base.outcome import STEADY_WORDS
 from carom.base.results import fields_of, in_si
 from carom.parameters import Case, Zones
-from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
+from carom.sweeps.variables import LEVITATES, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.models import Rotor
@@ -66,7 +66,6 @@ class StudyTask:
     has_scales: bool = False
 
     kind: ClassVar[str] = "study"
-    dimensions: ClassVar[tuple[Dimension, ...]] = ()
 
     @property
     def variables(self) -> tuple[Variable, ...]:
