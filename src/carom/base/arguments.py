@@ -24,12 +24,11 @@ from typing import (
     ForwardRef,
     Literal,
     NamedTuple,
-    ParamSpec,
     TypeVar,
     Union,
+    cast,
     get_args,
     get_origin,
-    overload,
 )
 
 from carom.base.outcome import InputError
@@ -37,9 +36,7 @@ from carom.base.outcome import InputError
 if TYPE_CHECKING:
     import numpy as np  # loaded where an array is read: the parameters of a machine do without it
 
-_Given = ParamSpec("_Given")
-_Value = TypeVar("_Value")
-_Class = TypeVar("_Class", bound=type[Any])
+_Checked = TypeVar("_Checked", bound=Callable[..., Any])
 _MOST = 10**15
 """Largest number of anything: far more than can be stored or awaited."""
 
@@ -81,11 +78,7 @@ def having(*names: str) -> ArgumentKind:
     return ArgumentKind(lambda given: all(name in given for name in names), f"a mapping with {', '.join(names)}")
 
 
-@overload
-def checked(target: _Class) -> _Class: ...
-@overload
-def checked(target: Callable[_Given, _Value]) -> Callable[_Given, _Value]: ...
-def checked(target: Any) -> Any:
+def checked(target: _Checked) -> _Checked:
     """Let a function, or the constructor of a class, refuse what its annotations do not allow.
 
     It raises :class:`~carom.base.outcome.InputError`, which names the argument, the value and what is allowed.
@@ -102,7 +95,7 @@ def checked(target: Any) -> Any:
         door[0].check(args, kwargs)
         return target(*args, **kwargs)
 
-    return wrapper
+    return cast("_Checked", wrapper)
 
 
 class _Door(NamedTuple):

@@ -185,10 +185,8 @@ class Case(Tabular):
         usual = " (default: impact speed of a free fall across the clearance)" if stated.kick is None else ""
         parts = [f"kicks up to {format_quantity(required.kick, 'velocity', scales)}{usual}"]
         if required.shock:
-            peak, duration = required.shock.peak, required.shock.duration
-            parts.append(
-                f"shocks up to {format_quantity(peak, 'acceleration', scales)}, {format_quantity(duration, 'time', scales)}"
-            )
+            peak = format_quantity(required.shock.peak, "acceleration", scales)
+            parts.append(f"shocks up to {peak}, {format_quantity(required.shock.duration, 'time', scales)}")
         if required.blade_loss:
             kind = "unbalance" if scales else "length"
             parts.append(f"a loss of a blade of {format_quantity(required.blade_loss, kind, scales)}")

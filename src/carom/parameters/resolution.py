@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Context, Decimal, localcontext
-from typing import Any
+from typing import Any, cast
 
-from carom.base.outcome import InputError, Problems, shown
+from carom.base.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors
 from carom.parameters.quantities import read_decimal, read_quantity
 from carom.parameters.scaling import CONVERSIONS, Scales
@@ -66,8 +66,7 @@ def resolve(entries: Mapping[str, Any], base: Resolved | None = None) -> Resolve
         if name in (ENTRIES if base is None else SETTABLE)
     }
     problems.raise_all()
-    work = _Work(entries, {name: number for name, number in numbers.items() if number is not None}, base)
-    return work.resolved()
+    return _Work(entries, cast("dict[str, Decimal]", numbers), base).resolved()
 
 
 class _Work:
@@ -75,18 +74,16 @@ class _Work:
 
     def __init__(self, entries: Mapping[str, Any], numbers: Mapping[str, Decimal], base: Resolved | None) -> None:
         self.entries, self.numbers, self.base = entries, numbers, base
-        self.problems = Problems()
         self.ways = {set_by(name): name for name in entries}
         self.values: dict[str, float] = {}
         self.given: dict[str, dict[str, Any]] = {}
 
     def resolved(self) -> Resolved:
         """Find all numbers, field by field."""
-        for name in (*BEARING_FIELDS, *_FIELDS):
-            self.problems.attempt(self._find, name)
-            self.problems.raise_all()  # what follows needs this field
-        self._check_use()
-        self.problems.raise_all()
+        for name in (*BEARING_FIELDS, *_FIELDS):  # the first error is raised: what follows needs this field
+            self._find(name)
+        if unused := self._unused():
+            raise together(unused)
         ordered = [*MACHINE_FIELDS, *(name for name in BEARING_FIELDS if name in self.values)]
         return Resolved({name: self.values[name] for name in ordered}, self.given)
 
@@ -155,19 +152,21 @@ class _Work:
             raise InputError(number, shown(self.entries[number]), allowed)
         return value + 0.0
 
-    def _check_use(self) -> None:
-        """Refuse entries that change nothing."""
+    def _unused(self) -> list[InputError]:
+        """Errors for entries that change nothing, and for limits that need more to say anything."""
+        errors = []
         present = self.values.keys() | {source for given in self.given.values() for source in given}
         for name, users in _USERS.items():
             default = name in DEFAULTS and self.values[name] == DEFAULTS[name]
             if name in self.entries and not default and present.isdisjoint(users):
                 allowed = f"has no effect without {' or '.join(users)}"
-                self.problems.errors.append(InputError(name, shown(self.entries[name]), allowed))
-        for limit in _LIMITS_OF_CURRENT:
+                errors.append(InputError(name, shown(self.entries[name]), allowed))
+        for limit in [limit for limit in _LIMITS_OF_CURRENT if limit in self.values]:
             for name in _OF_CURRENT:
-                if limit in self.values and name not in self.values:
+                if name not in self.values:
                     allowed = f"needs {name} too, which {HELPER_FIELDS[name].allowed}"
-                    self.problems.errors.append(InputError(limit, shown(self.given[limit][limit]), allowed))
+                    errors.append(InputError(limit, shown(self.given[limit][limit]), allowed))
+        return errors
 
 
 _USERS = {

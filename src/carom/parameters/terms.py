@@ -16,7 +16,7 @@ E. H. Maslen, eds., Magnetic Bearings, 2009, chapter 4; some authors write ``F =
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
 
@@ -175,12 +175,11 @@ def conflicts(entries: Mapping[str, Any]) -> list[InputError]:
     return found
 
 
-def check_names(changes: Iterable[str] | Mapping[str, Any], known: Mapping[str, Field] = SETTABLE) -> None:
+def check_names(values: Mapping[str, Any], known: Mapping[str, Field] = SETTABLE) -> None:
     """Check that names can be set, and that no two set the same thing, such as ``damping`` and ``gamma``.
 
-    All errors are reported at once; with a mapping they show the values.
+    All errors are reported at once, with the values.
     """
-    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
     errors = unknown_names(values, known, "a machine or its parameters")
     errors += conflicts({name: value for name, value in values.items() if name in SETTABLE})
     if errors:

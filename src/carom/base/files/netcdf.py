@@ -50,12 +50,12 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as opened:
             dataset = opened.load()
-        for variable in dataset.variables.values():
-            if "flag_values" in variable.attrs:  # a single value is read back as a scalar
-                variable.attrs["flag_values"] = np.atleast_1d(variable.attrs["flag_values"])
     except (OSError, ValueError) as problem:
-        reason = os.strerror(problem.errno) if isinstance(problem, OSError) and problem.errno else "not netCDF"
+        reason = getattr(problem, "strerror", None) or "not netCDF"
         raise InputError("file", str(path), f"cannot be read ({reason})") from None
+    for variable in dataset.variables.values():
+        if "flag_values" in variable.attrs:  # a single value is read back as a scalar
+            variable.attrs["flag_values"] = np.atleast_1d(variable.attrs["flag_values"])
     if any(name not in dataset for name in needed):
         raise InputError("file", str(path), f"must hold the variables {', '.join(needed)}")
     return dataset
