@@ -80,20 +80,19 @@ class Case(Tabular):
     stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
-        if not hasattr(self.parameters, "varied"):
+        if not hasattr(self.parameters, "finite_elements"):
             raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters, or a model")
         self.requirement.own(self.parameters.scales)
         if self.gravity is not None and self.gravity.acceleration == 0.0:
             object.__setattr__(self, "gravity", None)
-        if self.gravity is not None and self.parameters.scales is None:
-            raise Gravity.without_scales(self.gravity.words)
         if self.touchdown is not None and self.touchdown.is_plain:
             object.__setattr__(self, "touchdown", None)
         if self.touchdown is not None and not self.touchdown.is_compliant and self.touchdown.restitution is not None:
             allowed = "must be left out: the restitution of a rigid wall is that of the machine, restitution"
             raise InputError(f"{PREFIX}restitution", self.touchdown.restitution, allowed)
-        if self.touchdown is not None and self.parameters.scales is None:
-            raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
+        for table in (self.gravity, self.touchdown):
+            if table is not None and self.parameters.scales is None:
+                raise table.without_scales(table.words)
         if self.machine is not None:
             self.limits.check_fit(self.touchdown)
 
