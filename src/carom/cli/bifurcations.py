@@ -1,4 +1,4 @@
-"""``carom bifurcations`` and ``carom regions``: where motions appear, vanish and change."""
+"""``carom bifurcations``: where motions appear, vanish and change along a parameter."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits are not drawn.
 
 Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``shapes``; along
-parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
+parameters ``diagrams`` with ``coexistence``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
 ``drop_maps`` and ``sweeps``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells`` (the looks of motions), ``maps`` (a number over two
 parameters), ``placement``, ``parameter_axes`` and ``words``.
