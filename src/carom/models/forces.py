@@ -13,6 +13,13 @@ from carom.models.forcing import Force
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.parameters import Scales
 
+WITHOUT_FORCES = "needs a rotor without gravity or other forces that change with time in its frame; a setting gravity=0 leaves weight out"
+ISOTROPIC_ALONE = (
+    "isotropic bearings; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
+    "carom.find_orbits with impacts and carom.map_basins work"
+)
+"""What is asked for where forces that change with time, and anisotropic bearings, are refused."""
+
 
 def checked_forces(given: Any, shape: tuple[int, ...]) -> tuple[Force, ...]:
     """Forces on a rotor with coordinates of this shape; refuse what is none."""

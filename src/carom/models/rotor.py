@@ -18,7 +18,7 @@ from carom.base.outcome import InputError, shown
 from carom.base.results import Result
 from carom.models.definition import Definition
 from carom.models.documents import document_of
-from carom.models.forces import checked_forces, gravity_among, in_scales
+from carom.models.forces import ISOTROPIC_ALONE, WITHOUT_FORCES, checked_forces, gravity_among, in_scales
 from carom.models.forcing import Force, with_forces
 from carom.models.limits import Limit, checked_limits, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
@@ -33,12 +33,7 @@ if TYPE_CHECKING:
     from carom.models.system import System
 
 PLANAR_ALONE = "the planar rotor, of which alone this result is known; the functions of carom itself take any rotor"
-_WITHOUT_FORCES = "needs a rotor without gravity or other forces that change with time in its frame; a setting gravity=0 leaves weight out"
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
-_ISOTROPIC_ALONE = (
-    "isotropic bearings; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, "
-    "carom.find_orbits with impacts and carom.map_basins work"
-)
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
 
@@ -206,6 +201,9 @@ class Rotor(Result):
         """Modes, contact planes, contact law, limits, and a mode for each force, as arrays for the kernels."""
         if self.stages:
             return self.stages[0].rotor.system
+        if "_before" in vars(self):  # modes of the rotor to which forces were added need not be found again
+            rotor, more = vars(self)["_before"]
+            return with_forces(rotor.system, more)
         system = self.definition.system
         if self.limits:
             system = with_limits(system, self.listed_limits)
@@ -258,7 +256,9 @@ class Rotor(Result):
         if self.stages:
             raise InputError("rotor", shown(self), ONE_STAGE)
         more = checked_forces(forces, self.definition.system.rest.shape)
-        return dataclasses.replace(self, forces=(*self.forces, *more))
+        rotor = dataclasses.replace(self, forces=(*self.forces, *more))
+        rotor.__dict__["_before"] = self, more
+        return rotor
 
     def under_gravity(self, gravity: Gravity) -> Rotor:
         """The rotor with its weight: all its masses fall alike, along the translation.
@@ -392,7 +392,7 @@ class Rotor(Result):
         if self.system.shaft is not None:
             self.system.refuse_non_stationary()
         if self.is_anisotropic:
-            raise InputError("machine", "anisotropic bearings", _ISOTROPIC_ALONE)
+            raise InputError("machine", "anisotropic bearings", ISOTROPIC_ALONE)
         if self.system.outer.any():
             acting = "forces that change with time" if self.weight is None else "gravity"
-            raise InputError("machine", f"a rotor under {acting}", _WITHOUT_FORCES)
+            raise InputError("machine", f"a rotor under {acting}", WITHOUT_FORCES)
