@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import Literal
 
 from carom.attractors import Attractor, AttractorSet
@@ -35,6 +35,7 @@ class MotionRow:
     state: State
     """Seen: disturbances ended there, its stability was not computed; transient: it ends; undecided: its end was not
     found.  One of "stable", "unstable", "not possible", "seen", "transient", "undecided"."""
+    _: KW_ONLY
     period: str = ""
     size: str = ""
     """Radius of a steady motion, or radial speed of impacts."""
@@ -149,7 +150,8 @@ def _steady(entry: SteadyMotion, say: Wording, share: str, parameters: Parameter
     soft = "" if contact_free else no_rigid_wall(indentation_of_force(parameters, entry.normal_force))
     force = "" if contact_free else _force(say, entry.normal_force, soft)
     touches = "touches the wall without force" if entry.status == "boundary" else soft
-    return MotionRow(name, "stable" if entry.stable else "unstable", "", size, "", force, share, touches)
+    state: State = "stable" if entry.stable else "unstable"
+    return MotionRow(name, state, size=size, force=force, trials=share, remark=touches)
 
 
 def _force(say: Wording, force: float, no_model: str) -> str:
@@ -160,13 +162,14 @@ def _force(say: Wording, force: float, no_model: str) -> str:
 def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
     if not orbit.admissible:
-        return MotionRow(name, "not possible", period, size, remark=orbit.reason)
+        return MotionRow(name, "not possible", period=period, size=size, remark=orbit.reason)
     impulse, force = say.impulse(orbit.impulse), f"{say.force(orbit.impulse / orbit.period)} mean"
     if math.isnan(orbit.impulse):  # contact that never ends
         size, impulse, force = "", "", ""
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
     remark = _joined(grows, no_rigid_wall(indentation_of_impact(orbit.rotor.in_rigid_wall, orbit.radial_speed)))
-    return MotionRow(name, "stable" if orbit.stable else "unstable", period, size, impulse, force, share, remark)
+    state: State = "stable" if orbit.stable else "unstable"
+    return MotionRow(name, state, period=period, size=size, impulse=impulse, force=force, trials=share, remark=remark)
 
 
 def _seen(study: StudyData, member: Attractor) -> MotionRow:
@@ -176,7 +179,7 @@ def _seen(study: StudyData, member: Attractor) -> MotionRow:
     return MotionRow(
         member.name.words,
         "transient" if member.transient else "seen" if member.settled else "undecided",
-        say.time(member.period) if member.period else "",
+        period=say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
         force=_force(say, force, soft) if force > 0 else "",
         trials=_share(study.attractors, member.name),
