@@ -27,6 +27,19 @@ def test_points_as_json(capsys):
         assert len(branch["values"]) == len(branch["admissible"]) == len(branch["names"])
 
 
+def test_where_levitation_of_a_machine_without_closed_forms_is_lost(capsys, tmp_path):
+    assert main(["template", "rigid", "--out", str(tmp_path / "rigid.toml")]) == 0
+    text = (tmp_path / "rigid.toml").read_text()
+    (tmp_path / "late.toml").write_text(text.replace("filter_time =", 'delay = "50 us"\nfilter_time ='))
+    words = ["bifurcations", str(tmp_path / "late.toml"), "--along", "delay", "--to", "1.5 ms"]
+    assert main([*words, "--from", "10 us"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    # With 1.015 ms all eigenvalues are left of the imaginary axis, with 1.017 ms one is right of it.
+    assert "Levitation is lost above about 1.015 ms: a vibration grows." in shown
+    assert main([*words, "--from", "1.2 ms"]) == 0
+    assert "Levitation is possible at none of the 3 values" in " ".join(capsys.readouterr().out.split())
+
+
 def test_table_and_files(capsys, tmp_path):
     words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
     assert main([*words, "--out", str(tmp_path / "out")]) == 0

@@ -74,6 +74,14 @@ def test_bad_input_gets_one_line(carom, options, words):
 MAP = ("drop", "examples/dropped-rotor.toml", "--map", "phase,speed", "--grid", "3x2", "--y", "8000 rpm,9000 rpm")
 
 
+def test_a_map_over_the_race_says_which_drops_whirl_backward(carom):
+    over = ("--map", "friction,touchdown_race_inertia", "--x", "0.1,0.4", "--y", "1e-5 kg m^2,1e-4 kg m^2")
+    where = ("examples/touchdown-balls.toml", "--whirl", "0.2 mm,-400 Hz", "--grid", "2x2", "--until", "20 ms")
+    code, out, _ = carom("drop", *where, *over)
+    assert code == 0
+    assert "Backward whirl at the end: 4 of 4, all at friction 0.1 to 0.4, touchdown race inertia" in out
+
+
 def test_a_map_for_people_and_as_json(carom, tmp_path):
     code, out, err = carom(*MAP, "--out", str(tmp_path / "map"))
     assert code == 0

@@ -30,6 +30,13 @@ def whirl():
     )
 
 
+def test_a_force_that_grows_to_the_end_says_so(whirl):
+    growing = dropped("touchdown-balls", "6 s", ["speed=30000 rpm"])
+    ((_, rows),) = growing.tables
+    assert [label for label, _ in rows[:2]] == ["peak force", "still growing"]
+    assert "still growing" not in dict(whirl.tables[0][1])
+
+
 def test_limits_of_depth_and_pressure(whirl):
     exceeded = {check.name: check.exceeded for check in whirl.checks}
     assert exceeded == {"force": True, "heat": False, "depth": True, "pressure": True}

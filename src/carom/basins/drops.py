@@ -123,6 +123,14 @@ class DropMap(OverPlane):
         return np.nan_to_num(values) > self.limits[limit]
 
     @property
+    def backward(self) -> np.ndarray:
+        """Which drops whirl backward at the end, bool."""
+        found: np.ndarray = (
+            self.dataset["whirl"].values < 0.0 if "whirl" in self.dataset else np.zeros(self.exists.shape, bool)
+        )
+        return found
+
+    @property
     def hardest(self) -> str:
         """The load by which drops are compared: ``"force"``, or ``"impulse"`` on a rigid wall."""
         return "force" if bool(self.dataset.attrs["is_compliant"]) else "impulse"

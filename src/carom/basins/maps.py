@@ -115,7 +115,12 @@ class OverPlane(Stored):
     @property
     def plane(self) -> str:
         """Both with their ranges, in words."""
-        return _said(self.axes, [format_range(axis.field, self.dataset[axis.name].values) for axis in self.axes])
+        return self.ranges_of(np.ones(self.dataset[self.needed[0]].shape, bool))
+
+    def ranges_of(self, chosen: np.ndarray) -> str:
+        """Ranges of both over the chosen nodes, at least one, in words."""
+        values = [self.dataset[axis.name].values[chosen.any(axis=1 - place)] for place, axis in enumerate(self.axes)]
+        return _said(self.axes, [format_range(axis.field, each) for axis, each in zip(self.axes, values, strict=True)])
 
     @property
     def present(self) -> tuple[float, float]:

@@ -22,6 +22,8 @@ SAMPLES, FEWER, FEWEST = 201, 21, 3
 """Values of the parameter; the others for rotors of several coordinates, and of many, whose equations take seconds to set up."""
 FEW = 4
 """Coordinates up to which they are several."""
+HALVINGS = 10
+"""Halvings of the step between two of these values, for the value at which levitation is lost."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,3 +131,37 @@ def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float
         EquilibriumBranch(kind, grid, rows[:, 0], rows[:, 1], rows[:, 2] == 1.0, rows[:, 3] == 1.0)
         for kind, rows in zip(kinds, table, strict=True)
     )
+
+
+def levitation_words(model: Rotor, along: Axis, branch: EquilibriumBranch) -> list[str]:
+    """Where a machine without closed forms levitates, one line for each value at which that changes; ``branch`` is its levitation."""
+    good = branch.admissible & branch.stable
+    changes = np.flatnonzero(good[:-1] != good[1:])
+    if not len(changes):
+        where = "stable and clear of the wall at all" if good[0] else "possible at none"
+        return [f"Levitation is {where} of the {len(good)} values looked at."]
+    return [_lost(model, along, *branch.values[at : at + 2].tolist(), bool(good[at])) for at in changes.tolist()]
+
+
+def _lost(model: Rotor, along: Axis, low: float, high: float, below: bool) -> str:
+    """Say between which values, and why, levitation is lost; ``below``: it is possible at the lower one."""
+    inner, outer = (low, high) if below else (high, low)
+    fails = levitation(along.move(model, outer))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (inner + outer)
+        held = levitation(along.move(model, middle))
+        if held.inside and held.stable:
+            inner = middle
+        else:
+            outer, fails = middle, held
+    unstable = fails.eigenvalues.real.max() >= 0.0
+    why = (
+        "a vibration grows"
+        if unstable
+        else "limits of the magnetic bearings"
+        if fails.inside
+        else "it reaches the wall"
+    )
+    field = along.field
+    shown = f"{field.in_usual_unit(inner):.4g} {field.usual_unit}".rstrip()
+    return f"Levitation is lost {'above' if below else 'below'} about {shown}: {why}."

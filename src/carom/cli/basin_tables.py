@@ -51,10 +51,14 @@ def print_gains(screen: Console, found: GainMap, case: Case) -> None:
     shape = " x ".join(str(size) for size in share.shape)
     reach, sure = (int((found.dataset[name].values >= WANTED).sum()) for name in ("recovered", "recovered_low"))
     varied = " and ".join(each.entry.replace("_", " ") for each in here)
-    shown = f" ({back.total} drawn at each), shown with 95 % confidence for {sure or 'none'}" if back.drawn else ""
+    shown = (
+        f" ({back.total} drawn at each), shown with 95 % confidence for {sure or 'none: draw more'}"
+        if back.drawn
+        else ""
+    )
     screen.print(
         f"Of {shape} machines with other {varied}, {reach} of {share.size} bring back at least "
-        f"{100 * WANTED:g} % of {of_what}{shown}; {100 * (1 - able.mean()):.3g} % cannot levitate."
+        f"{100 * WANTED:g} % of {of_what}{shown}; {int((~able).sum()) or 'none'} cannot levitate."
     )
 
 
@@ -83,8 +87,8 @@ def _losses(basin: Basin, smallest: SmallestUnrecovered | None, contact_free: fl
     if smallest.all_back is None:
         cells["back"] = "none: those of size zero do not come back"
     elif smallest.fresh:
-        share = f"fewer than {100.0 * smallest.share_below:.2g} % do not, with 95 % confidence"
-        cells["back"] += f"; {smallest.fresh:,} of them fresh: {share}"
+        share = f"fewer than {100.0 * smallest.share_below:.2g} % fail, with 95 % confidence"
+        cells["back"] += f"; confirmed with {smallest.fresh:,} new ones: {share}"
     elif smallest.size is not None:
         cells["lost"] += "; fresh ones kept finding smaller ones: a smaller one is likely"
     return [(SURVIVED[column], cells[column]) for column in SURVIVED if column in cells]

@@ -144,6 +144,12 @@ def _print_map(screen: Console, found: DropMap) -> None:
     screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
     print_table(screen, "", *table_of(DROPPED, found.fractions, found))
     screen.print(f"Hardest: {found.worst}.")
+    if count := int(found.backward.sum()):
+        screen.print(
+            f"Backward whirl at the end: {count} of {int(exists.sum())}, all at {found.ranges_of(found.backward)}."
+        )
+    else:
+        screen.print("Backward whirl at the end: none.")
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())
         said = f"exceeded by {over} of {int(exists.sum())}" if over else "met by all"

@@ -78,7 +78,7 @@ BLADE_LOSSES = option(
 INSTANT = option(
     "ANGLE",
     "Angle by which the shaft has turned when the disturbance comes, such as '90 deg'; it matters under gravity, with limits of the magnetic bearings "
-    "and where bearings are anisotropic. Default: 0 for one motion, when the axes that turn with the shaft pass those of the room; any for many.",
+    "and where bearings are anisotropic. Default: 0 for one motion (the co-rotating axes coincide with the fixed ones); random for many.",
 )
 REGAINED_AFTER = option("T", "Time after the release at which levitation returns, such as '50 ms'; by default never.")
 UNTIL = option("T", "Follow a motion to this time, in 1/Omega or with a unit; by default until the outcome is certain.")
@@ -97,7 +97,8 @@ SEED = option("S", "Seed of the sample, by default 0.", min=0)
 def with_purpose(command: Callable[..., None]) -> Callable[..., None]:
     """Give a command that writes figures the option ``--for``, behind that which says where."""
     known = list(signature(command).parameters.values())
-    place = next((n for n, each in enumerate(known, start=1) if each.name in ("out", "figures")), None)
+    folders = (each.name == "figures" or (each.name == "out" and each.default.metavar == "DIR") for each in known)
+    place = next((n for n, is_folder in enumerate(folders, start=1) if is_folder), None)
     if place is None:
         return command
 

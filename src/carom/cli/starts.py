@@ -212,11 +212,12 @@ def read_plane(
 
 def _varied(case: Case, option: str, given: str, entry: str, name: str, others: Mapping[str, Axis]) -> Axis:
     """The parameter that an entry states; what states none alone is refused, with why."""
-    from carom.models import axis
+    from carom.models import axis, rotor_of
 
-    varied = case.parameters.varied
+    model = rotor_of(case)  # it has the parameters of its touchdown bearing too
+    varied = model.varied
     if name in varied:
-        return axis(case.parameters, name)
+        return axis(model, name)
     known = [*others, *varied, *(term for term, (sets, *_) in TERMS.items() if sets in varied)]
     if entry in HELPER_FIELDS:
         words = HELPER_FIELDS[entry].words

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from carom.models import Rotor
 
 
-ANY_INSTANT, ITS_INSTANT = "at any instant of the turn", "at an instant of its own"
+ANY_INSTANT, ITS_INSTANT = "at any instant of the turn", "at its own random instant of the turn"
 INSTANTS = 1
 """Stream of random numbers of instants: sizes and directions are the same on machines on which the instant does not matter."""
 

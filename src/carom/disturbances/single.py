@@ -59,7 +59,9 @@ class Single:
         found = self.model.echo(rotor, *values)
         if not rotor.depends_on_instant:
             return found
-        words = f"{found.words}; the shaft has turned by {format_angle(instant)} since the x axis that turns with it passed that of the room"
+        words = (
+            f"{found.words}; at this instant the co-rotating x axis is {format_angle(instant)} ahead of the fixed one"
+        )
         return dataclasses.replace(found, words=words, sizes={**found.sizes, "instant": (instant, "")})
 
 

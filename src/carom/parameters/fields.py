@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -193,6 +194,8 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
 _MISSPELT = 0.66
 """Likeness from which a name counts as misspelt: one wrong letter of three."""
+_NUMBERED = re.compile(r"(\w+)_\d+")
+"""Name of a parameter of one part, such as ``friction_2``."""
 _OTHER_WORDS = 0.2
 """Taken off the likeness of names with more or fewer words: a word more mostly says something else."""
 
@@ -202,11 +205,13 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     """Error for a name that does not exist, with the nearest name that does.
 
     ``where`` says where the name stood, for example ``"[machine]"``.  Of the known names, those allowed there, the symbol or the
-    partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds all of them to the message.
+    partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds them to the message, without numbered ones such as
+    ``friction_2`` where ``friction`` is known.
     """
     best = nearest_name(name, known)
     advice = [f"did you mean {best}?"] if best else []
-    remedy = " ".join(advice + ([f"allowed: {', '.join(known)}"] if listed else []))
+    allowed = [each for each in known if not (part := _NUMBERED.fullmatch(each)) or part[1] not in known]
+    remedy = " ".join(advice + ([f"allowed: {', '.join(allowed)}"] if listed else []))
     return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
 
 

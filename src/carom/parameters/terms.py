@@ -16,6 +16,7 @@ E. H. Maslen, eds., Magnetic Bearings, 2009, chapter 4; some authors write ``F =
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
@@ -152,8 +153,12 @@ def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has
     if name in TERMS and TERMS[name].sets in varied:
         field, formula, *_ = TERMS[name]
         return InputError(name, shown(given), f"stands for {field} = {formula}; use {field} here")
+    if some := [each for each in varied if re.fullmatch(rf"{re.escape(name)}_\d+", each)]:
+        return InputError(name, shown(given), f"stated for some parts only: use {', '.join(some)}, or state it for all")
+    if name in HELPER_FIELDS:
+        return InputError(name, shown(given), "not varied here; set it in the machine file or, for one run, by --set")
     if has_scales or name not in SETTABLE:
-        return unknown_name(name, given, varied, "the parameters")
+        return unknown_name(name, given, varied, "the parameters that the machine file states")
     partner = {partner: number for number, partner in PHYSICAL_PARTNER.items()}.get(set_by(name))
     advice = f"set {partner} instead" if partner in varied else "use a file with a [machine] table"
     allowed = f"not a parameter here ({', '.join(varied)}), as mass, clearance and speed are not known; {advice}"

@@ -18,7 +18,18 @@ PID_FIELDS: Mapping[str, Field] = by_name(
     Field("proportional", "P", "proportional gain", "a gain", "A/m", 1e-9, 1e15, '"5000 A/m"', True),
     Field("integral", "I", "integral gain", "a gain", "A/m/s", 1e-9, 1e15, '"1500 A/m/s"', True),
     Field("derivative", "D", "derivative gain", "a gain", "A s/m", 1e-12, 1e12, '"5 A s/m"', True),
-    Field("filter_time", "T", "time of the filter of the derivative", "a time", "s", 1e-9, 1e3, '"0.1 ms"'),
+    Field(
+        "filter_time",
+        "T",
+        "time of the filter of the derivative",
+        "a time",
+        "s",
+        1e-9,
+        1e3,
+        '"0.1 ms"',
+        usual="ms",
+        usual_size=1e-3,
+    ),
 )
 _ALLOWED = "a PID, a TransferFunction, a StateSpace, or a system in continuous time of SciPy or python-control: with A, B, C, D, or num, den"
 

@@ -28,7 +28,7 @@ PADE = 3
 BEARING_FIELDS: Mapping[str, Field] = by_name(
     Field("ki", "k_i", "force of the bearing per current", "a force per current", "N/A", 1e-9, 1e12, '"50 N/A"'),
     Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
-    Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True),
+    Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True, usual="ms", usual_size=1e-3),
     Field("amplifier_bandwidth", "", "bandwidth of the amplifier", "an angular frequency", "rad/s", 1e-3, 1e9, '"1 kHz"'),
     *(HELPER_FIELDS[name] for name in ("force_limit", "current_limit", "slew_rate_limit", "air_gap")),
     Field("axis_angle", "", "angle of one of its two axes in the fixed frame, for its limits", "an angle", "rad", -10.0, 10.0, '"45 deg"', True),

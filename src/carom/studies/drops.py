@@ -26,7 +26,7 @@ from carom.studies.wording import Wording
 PLANE = "is_compliant contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
 LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
 _IN_BOTH = (
-    ("restitution seen", "{restitution} in the fastest impact"),
+    ("restitution seen", "{restitution} in the fastest impact (with unbalance, weight)"),
     ("slip energy (heat)", "{heat}"),
     ("heating goes on", "with {lasting_power}"),
     ("friction power", "up to {power}"),
@@ -49,6 +49,8 @@ RIGID = (
     *_IN_BOTH,
 )
 """What people see of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
+AT_THE_END = 0.98
+"""Share of the time of a motion after which its largest force came at its end, in contact: a slow whirl may still speed up."""
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
@@ -159,8 +161,7 @@ def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str,
     """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``."""
     planes = loads.planes
     tables = [
-        (f"Touchdown bearing {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since))
-        for each in planes
+        (f"Touchdown bearing {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads, since)) for each in planes
     ]
     if loads.shaft is not None:
         tables[-1][1].append(("shaft", _shaft_words(loads.shaft)))
@@ -182,12 +183,18 @@ def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
     return [_entry(plane, limits) for plane in loads.planes]
 
 
-def _rows(plane: TouchdownLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
+def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str, str]]:
     if plane.is_compliant and plane.force_at is None:
         rows = [("peak force", "none: it did not touch")]
     else:
         rows = Wording(plane.scales).rows(COMPLIANT if plane.is_compliant else RIGID, plane, since=since)
-    return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, outcome))]
+        if (
+            plane.force_at is not None
+            and plane.force_at > AT_THE_END * loads.time
+            and plane.in_contact_since is not None
+        ):
+            rows.insert(1, ("still growing", "the peak force came at the very end: follow the motion longer"))
+    return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
 def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:

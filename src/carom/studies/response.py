@@ -25,7 +25,7 @@ from carom.studies.standards import FULL_SPEED, vibration_limit
 from carom.studies.wording import listed, micrometres, rpm
 
 RUB = STEADY_WORDS["rub"]
-_WHY_NO_RUBS = "they are found in one touchdown bearing, at constant speed, where nothing stands in the fixed frame; carom attractors finds on which motions disturbances end."
+_WHY_NO_RUBS = "they are found only with one touchdown bearing, at constant speed and without weight; carom attractors finds the motions on which disturbances end."
 RUB_SPEEDS = 121
 """About as many speeds of the curve at which rubs are looked for."""
 NARROWED = 1e-6
@@ -91,7 +91,7 @@ def _present(response: UnbalanceResponse) -> str:
     over, speeds = width / allowed, response.speeds
     inside = speeds[0] <= speed <= speeds[-1]
     lag = response.lags[int(np.abs(speeds - speed).argmin()), worst] if inside else now.lags[0, worst]
-    ratio = f", which is exceeded {number(over, 3)} times" if over > 1.0 else ""
+    ratio = f", exceeded by a factor of {number(over, 3)}" if over > 1.0 else ""
     return (
         f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak{where}{sagging} "
         f"({number(float(now.reach[0, worst]), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), "
@@ -116,7 +116,7 @@ def _saturation(response: UnbalanceResponse) -> str:
     if over:
         return f"The magnetic bearings saturate {_from_to(over)}: there the rotor does not whirl as is calculated here."
     most = float(response.whirl.saturation.max())
-    return f"The magnetic bearings saturate nowhere in this range: at most {number(100.0 * most, 3)} % of a limit is asked."
+    return f"The magnetic bearings do not saturate in this range: they are asked for at most {number(100.0 * most, 3)} % of a limit."
 
 
 def _contact(response: UnbalanceResponse) -> list[str]:

@@ -188,7 +188,7 @@ def size_cells(wording: Wording, found: SmallestUnrecovered, *remarks: str) -> d
     if (up_to := found.largest if none else found.all_back) is not None:
         most = "; with more it cannot levitate" if none and name == "blade_loss" else ""
         cells["back"] = f"{size(up_to)} ({found.tried:,} tried{most})"
-    shown = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "not searched to the end")))
+    shown = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "search cut short")))
     if found.size is not None:
         cells["lost"] = f"{size(found.size)} ({shown})"
     elif not found.complete:
