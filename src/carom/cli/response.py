@@ -68,7 +68,7 @@ def _read(case: Case, start: str | None, end: str | None, operating: str | None)
     along = axis(case, "speed")
     if (start is None) != (end is None):
         option, given = ("--to", start) if end is None else ("--from", end)
-        raise InputError(option, None, f"give both --from and --to, or none of them (the other one is {given})")
+        raise InputError(option, None, f"give both --from and --to, or neither (the other one is {given})")
     interval = None if start is None or end is None else read_ends(start, end, along)
     return interval, None if operating is None else read_range("--operating", operating, along)
 
