@@ -140,7 +140,8 @@ def levitation_words(model: Rotor, along: Axis, branch: EquilibriumBranch) -> li
     if not len(changes):
         where = "stable and clear of the wall at all" if good[0] else "possible at none"
         return [f"Levitation is {where} of the {len(good)} values looked at."]
-    return [_lost(model, along, *branch.values[at : at + 2].tolist(), bool(good[at])) for at in changes.tolist()]
+    values = branch.values.tolist()
+    return [_lost(model, along, values[at], values[at + 1], bool(good[at])) for at in changes.tolist()]
 
 
 def _lost(model: Rotor, along: Axis, low: float, high: float, below: bool) -> str:

@@ -25,6 +25,7 @@
 ``several_impacts`` claims about them
 ``seeds``           what is looked at, found in double precision
 ``claims``          claims and proofs
+``headlines``       a theorem in one sentence with its numbers in the units of the machine
 ``proven_kicks``    what a proof shows of a disc of kicks, for figures and studies
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name
