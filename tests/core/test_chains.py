@@ -61,7 +61,7 @@ def test_flights_are_those_of_the_matrix(length):
 @pytest.mark.parametrize("length", LENGTHS)
 def test_the_first_crossing_is_that_of_a_dense_search(length):
     crossed = clear = 0
-    for seed in range(50):
+    for seed in range(80):
         arrays, table, matrix, amplitudes = chained(length, np.random.default_rng(100 + seed), room=seed % 2)
         step = 1e-3
         forward, state, levels = expm(matrix * step), amplitudes.copy(), []
