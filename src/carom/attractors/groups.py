@@ -111,7 +111,7 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
     words = _words(settled, name)
     return Attractor(
         name=name,
-        words=f"{words} {_sentence(survival.words)}" if survival else words,
+        words=f"{words} {survival.words[0].upper()}{survival.words[1:]}." if survival else words,
         period=settled.period,
         whirl=whirl_of(settled),
         count=len(by_disturbance),
@@ -135,10 +135,6 @@ def _representative(ending: Ending, state: State) -> Trajectory:
     elif not ending.attractor.outcome.settled:
         state, until = ending.start.state, ending.time
     return seen_in_contact(simulate(ending.rotor, state, until, settle=True, patience=FIRST_PATIENCE))
-
-
-def _sentence(words: str) -> str:
-    return f"{words[0].upper()}{words[1:]}."
 
 
 def _words(settled: SettledMotion, name: MotionName) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from carom.attractors.following import SLOWER, Ending, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions, orbits_of
-from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
+from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
 from carom.base.arguments import Count, Seed, Whole, checked
 from carom.base.outcome import IRREGULAR_BOUNCING, InputError, Outcome
@@ -23,8 +23,10 @@ from carom.disturbances import Disturbance, Plan, Sample, Single, Starts
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
+from carom.motions.ensembles import Endings
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import State
+from carom.orbits.orbit import Orbit
 
 RECOGNISED = (
     "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "
@@ -66,14 +68,8 @@ class AttractorSet(Members[Attractor]):
 
     def rows(self) -> list[tuple[str, str]]:
         """Each motion found, and how many starts ended on it."""
-        return [
-            ("rotor", in_a_line(self.rotor)),
-            ("starts", str(len(self.endings))),
-            *(
-                (member.name, f"{member.count} disturbances, {member.known} starts next to it")
-                for member in self.members
-            ),
-        ]
+        lines = [(each.name, f"{each.count} disturbances, {each.known} starts next to it") for each in self.members]
+        return [("rotor", in_a_line(self.rotor)), ("starts", str(len(self.endings))), *lines]
 
     @property
     def disturbances(self) -> tuple[Ending, ...]:
@@ -99,12 +95,8 @@ class AttractorSet(Members[Attractor]):
     @property
     def smallest_unrecovered_kick(self) -> float | None:
         """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
-        kicks = [ending for ending in self.endings if ending.start.kind == "kick"]
-        pushes = [
-            self.rotor.system.translation_velocity(ending.start.state.velocity, ending.start.state.time)
-            for ending in kicks
-            if not ending.recovered
-        ]
+        kicks = [each.start.state for each in self.endings if each.start.kind == "kick" and not each.recovered]
+        pushes = (self.rotor.system.translation_velocity(kick.velocity, kick.time) for kick in kicks)
         return min((float(abs(push)) for push in pushes), default=None)
 
     @property
@@ -212,6 +204,20 @@ def find_attractors(
     followed = ends.outcomes != NOT_FOLLOWED
     asked, tried = sum(each.disturbance for each in tried), list(compress(tried, followed))
     starts, ends, lasted = starts.some(followed), ends[followed], lasted[followed]
+    endings, members = _grouped(rotor, orbits, starts, ends, tried, [survival if each else None for each in lasted])
+    tell(1.0)
+    return AttractorSet(rotor, members, endings, None if isinstance(given, Sequence) else given, patience, asked)
+
+
+def _grouped(
+    rotor: Rotor,
+    orbits: Sequence[Orbit],
+    starts: Starts,
+    ends: Endings,
+    tried: Sequence[Start],
+    survivals: Sequence[Survival | None],
+) -> tuple[tuple[Ending, ...], tuple[Attractor, ...]]:
+    """Where each start ended, and the attractors, those on which most disturbances end first."""
     index, names = name_motions(rotor, ends, orbits)
     touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
     endings = tuple(
@@ -222,7 +228,7 @@ def find_attractors(
             time=float(ends.times[place]),
             impacts=int(ends.impacts[place]),
             touched=bool(touched[place]),
-            survival=survival if lasted[place] else None,
+            survival=survivals[place],
         )
         for place, start in enumerate(tried)
     )
@@ -231,5 +237,4 @@ def find_attractors(
         state = ends.state(int(place))
         members.append(attractor_of(names[name], endings, state))
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
-    tell(1.0)
-    return AttractorSet(rotor, tuple(ordered), endings, None if isinstance(given, Sequence) else given, patience, asked)
+    return endings, tuple(ordered)

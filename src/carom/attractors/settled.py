@@ -85,10 +85,8 @@ def _bouncing(motion: Trajectory, orbit: Orbit | SimulatedOrbit | None) -> Settl
 def seen_in_contact(motion: Trajectory) -> Trajectory:
     """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last impact at a wall."""
     touching = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
-    stations_of_contacts = motion.event_planes[begins_contact(motion)]
-    return motion.seen_at(
-        int(touching[0]) if len(touching) else int(stations_of_contacts[-1]) if len(stations_of_contacts) else 0
-    )
+    planes = touching[:1] if len(touching) else motion.event_planes[begins_contact(motion)]
+    return motion.seen_at(int(planes[-1]) if len(planes) else 0)
 
 
 def _turn_time(motion: Trajectory) -> float | None:
@@ -116,18 +114,12 @@ def _turn_time(motion: Trajectory) -> float | None:
 
 def same_motion(first: SettledMotion, second: SettledMotion) -> bool:
     """Whether two motions have settled to the same one, whichever impact of the period they ended at."""
-    if (first.outcome, first.synchronous, first.multiplicity) != (
-        second.outcome,
-        second.synchronous,
-        second.multiplicity,
-    ):
+    if any(getattr(first, name) != getattr(second, name) for name in ("outcome", "synchronous", "multiplicity")):
         return False
     if first.multiplicity == 0:
         return True
-    if first.orbit is not None and second.orbit is not None:
-        return same_orbit(first.orbit, second.orbit)
     if first.orbit is not None or second.orbit is not None:
-        return False
+        return first.orbit is not None and second.orbit is not None and same_orbit(first.orbit, second.orbit)
     states, others = _last_states(first), _last_states(second)
     apart = [np.abs(np.roll(others, -places, axis=0) - states).max() for places in range(len(states))]
     return bool(min(apart) < SETTLED_RTOL * (1.0 + np.abs(states).max()))

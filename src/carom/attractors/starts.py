@@ -133,22 +133,18 @@ class DisturbanceSet:
         (radii, speeds), (places, directions) = (random.random((self.count - kicks, 2)).T for _ in range(2))
         shares = radii, places, speeds, directions
         values = (coordinate.at(share) for coordinate, share in zip(anywhere.coordinates, shares, strict=True))
-        parts = [VelocityKick(self.fastest).starts(rotor, sizes, angles), anywhere.starts(rotor, *values)]
-        if rotor.depends_on_instant:
-            instants = INSTANT.at(np.random.default_rng([self.seed, INSTANTS]).random(self.count))
-            first, others = instants[:kicks], instants[kicks:]
-            parts[0] = VelocityKick(self.fastest).starts(rotor, sizes, angles, instant=first)
-            parts[1] = parts[1].at(others)
-        return Starts.joined(parts)
+        kick, others = VelocityKick(self.fastest), anywhere.starts(rotor, *values)
+        if not rotor.depends_on_instant:
+            return Starts.joined([kick.starts(rotor, sizes, angles), others])
+        instants = INSTANT.at(np.random.default_rng([self.seed, INSTANTS]).random(self.count))
+        kicked = kick.starts(rotor, sizes, angles, instant=instants[:kicks])
+        return Starts.joined([kicked, others.at(instants[kicks:])])
 
     def words(self, rotor: Rotor) -> str:
         """Describe the disturbances for a given rotor."""
         kicks = self.kicks(rotor)
-        parts = []
-        if kicks:
-            parts.append(f"{kicks} kicks of the levitating rotor")
-        if self.count > kicks:
-            parts.append(f"{self.count - kicks} starts anywhere in the clearance")
+        kinds = (kicks, "kicks of the levitating rotor"), (self.count - kicks, "starts anywhere in the clearance")
+        parts = [f"{number} {words}" for number, words in kinds if number > 0]
         found = f"{' and '.join(parts)}, at up to {format_quantity(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
         if rotor.depends_on_instant:
             found += f", each {ITS_INSTANT}"

@@ -125,8 +125,7 @@ def _rounded(number: float) -> str:
 
 def still_irregular(endings: Endings) -> np.ndarray:
     """Which motions still bounce and have not become periodic."""
-    bouncing: np.ndarray = np.isin(endings.outcomes, REPEATING)
-    return bouncing & (endings.multiplicities == 0)
+    return np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0)
 
 
 def stay_low(endings: Endings) -> np.ndarray:

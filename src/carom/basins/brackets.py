@@ -86,9 +86,8 @@ class SmallestUnrecovered(Result):
     @property
     def words(self) -> str:
         """The bracket in a line."""
-        shown = {
-            name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "contact_free", "largest")
-        }
+        sizes = ("size", "all_back", "contact_free", "largest")
+        shown = {name: self.line_of(name, getattr(self, name)) for name in sizes}
         up_to = f" up to {shown['largest']}" if self.complete else ""
         none = f"none{up_to} that does not come back"
         found = none if self.size is None else f"smallest that does not come back {shown['size']}"
@@ -100,11 +99,8 @@ class SmallestUnrecovered(Result):
 
     def kind_of(self, name: str) -> str:
         """Sizes are of one kind."""
-        return (
-            self.quantity
-            if name in ("size", "recovered", "all_back", "contact_free", "largest")
-            else super().kind_of(name)
-        )
+        sizes = ("size", "recovered", "all_back", "contact_free", "largest")
+        return self.quantity if name in sizes else super().kind_of(name)
 
     @property
     def sensitivity(self) -> str:

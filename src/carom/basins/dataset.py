@@ -139,15 +139,12 @@ def dataset_of(
     }
     times = np.where(starts.exists, endings.times, np.nan)
     weights = np.where(starts.exists, plan.weights().reshape(starts.exists.shape), 0.0)
+    multiplicities = endings.multiplicities.astype(np.int32)
     numbers = {
         "time": ("1/Omega", "time until it was known where the motion ends", times),
         "impacts": ("1", "impacts until then", endings.impacts),
         "touched": ("1", "1 where the rotor met the wall, else 0", _touched(starts, endings).astype(np.int8)),
-        "multiplicity": (
-            "1",
-            "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)",
-            endings.multiplicities.astype(np.int32),
-        ),
+        "multiplicity": ("1", "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)", multiplicities),
         "weight": ("1", "weight in shares: area of the cell, one on average over all cells", weights),
         "start_x": ("c_r", "position at the start, Re U", starts.positions.real),
         "start_y": ("c_r", "position at the start, Im U", starts.positions.imag),
@@ -178,12 +175,9 @@ def dataset_of(
 
 def outcome_flags() -> dict[str, Any]:
     """Attributes of outcomes of motions."""
-    codes = [
-        NO_START,
-        *(outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING),
-    ]
-    meanings = ["no_start", *(Outcome(code).label for code in codes[1:])]
-    return {"long_name": "where the motion ends", **flags(np.array(codes, np.int8), meanings)}
+    seen = [outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING]
+    codes, meanings = np.array([NO_START, *seen], np.int8), ["no_start", *(outcome.label for outcome in seen)]
+    return {"long_name": "where the motion ends", **flags(codes, meanings)}
 
 
 def _touched(starts: Starts, endings: Endings) -> np.ndarray:

@@ -49,19 +49,11 @@ MEASURES = {
 }
 """Numbers of each drop, with unit and words: the largest of all planes, or the sum of contacts, heat and time."""
 TURN = 2.0 * math.pi
+RPM = TURN / 60.0
 _RELEASED = (
     ("phase", "phase of the unbalance at the release", "an angle", "rad", -1e6, '"90 deg"', "°", math.radians(1.0)),
     ("regained_after", "time until levitation is back", "a time", "s", 1e-9, '"50 ms"', "ms", 1e-3),
-    (
-        "race_speed",
-        "speed of the race at the release",
-        "an angular speed",
-        "rad/s",
-        -1e6,
-        '"500 rpm"',
-        "rpm",
-        math.pi / 30,
-    ),
+    ("race_speed", "speed of the race at the release", "an angular speed", "rad/s", -1e6, '"500 rpm"', "rpm", RPM),
 )
 RELEASED = {
     name: Axis(Field(name, "", words, kind, unit, lowest, 1e6, example, usual=usual, usual_size=size))
@@ -148,11 +140,9 @@ class DropMap(OverPlane):
         if not np.isfinite(values).any():
             return "none touched"
         at = np.unravel_index(np.nanargmax(values), values.shape)
-        where = self.at(
-            [float(self.dataset[axis.name].values[place]) for axis, place in zip(self.axes, at, strict=True)]
-        )
+        where = [float(self.dataset[axis.name].values[place]) for axis, place in zip(self.axes, at, strict=True)]
         unit, words, _ = MEASURES[self.hardest]
-        return f"{words} {number(float(values[at]), 4)} {unit} at {where}"
+        return f"{words} {number(float(values[at]), 4)} {unit} at {self.at(where)}"
 
 
 @checked
@@ -222,17 +212,11 @@ def map_drops(
     if scales is None:
         raise InputError("machine", "no scales", "a rotor with mass, clearance and speed, in which weight is in m/s^2")
     longest = None if until is None else own_time("until", until, scales) * scales.time
-    measure, tell = (
-        Landing(released, longest, max_events, threads or available_cores()),
-        Reporter.of(progress, "following drops"),
-    )
-    dataset, rows = map_over(rotor, measure, names, ranges, shape, tell)
+    measure = Landing(released, longest, max_events, threads or available_cores())
+    dataset, rows = map_over(rotor, measure, names, ranges, shape, Reporter.of(progress, "following drops"))
     if not any(rows):
-        raise InputError(
-            STEADY_WORDS["contact-free"],
-            "of none of the machines",
-            "static sag and whirl must stay inside the wall: below 1",
-        )
+        allowed = "static sag and whirl must stay inside the wall: below 1"
+        raise InputError(STEADY_WORDS["contact-free"], "of none of the machines", allowed)
     dataset = dataset.assign(_ends(rows, dataset))
     limits = machine.limits if isinstance(machine, Case) else LoadLimits()
     dataset.attrs |= {

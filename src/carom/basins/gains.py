@@ -16,7 +16,7 @@ from carom.base.outcome import Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import fields_of
 from carom.basins.dataset import Mapped, provenance
-from carom.basins.maps import Measure, OverPlane, Several, map_over
+from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
 from carom.basins.shares import Population, Share
 from carom.basins.unrecovered import smallest_unrecovered_kick
 from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
@@ -125,10 +125,8 @@ def map_gains(
     rotor = rotor_of(machine)
     names = names or usual_gains(rotor)
     limits = {"patience": patience, "max_events": max_events}
-    measure, tell = (
-        RecoveryMeasure(disturbances, {**limits, "threads": threads}),
-        Reporter.of(progress, "following starts of other gains"),
-    )
+    measure = RecoveryMeasure(disturbances, {**limits, "threads": threads})
+    tell = Reporter.of(progress, "following starts of other gains")
     dataset, _ = map_over(rotor, measure, names, ranges, shape, tell)
     axes = axis(rotor, names[0]), axis(rotor, names[1])
     here = axes[0].value(rotor), axes[1].value(rotor)
@@ -149,9 +147,7 @@ def usual_gains(rotor: Rotor) -> tuple[str, str]:
     return next((pair for pair in known if all(name in rotor.varied for name in pair)), known[1])
 
 
-def measured(
-    rotor: Rotor, axes: tuple[Axis, Axis], nodes: list[Node], limits: Mapping[str, Any]
-) -> Iterator[dict[str, Any]]:
+def measured(rotor: Rotor, axes: tuple[Axis, Axis], nodes: list[Node], limits: Mapping[str, Any]) -> Iterator[Entry]:
     """Yield the measures of each node, which has disturbances of its own; nodes are followed in chunks of about CHUNK starts.
 
     If all nodes of a map shared one sample, a sample with too many unrecovered starts would make the intervals of all of them too
@@ -204,9 +200,7 @@ class RecoveryMeasure(Measure):
 
     stated: ClassVar[Mapping[str, Quantity]] = SHARES | {"levitates": _LEVITATES} | KICKS
 
-    def entries(
-        self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]
-    ) -> Iterator[dict[str, Any]]:
+    def entries(self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]) -> Iterator[Entry]:
         """Measures of each node."""
         tried = [(self.plan.fresh(number), node) for number, node in enumerate(nodes)]
         return measured(rotor, axes, tried, self.limits)

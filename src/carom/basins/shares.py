@@ -117,9 +117,8 @@ class Share:
             return cls.of(count, total, drawn=True, population=population, does=does)
         weights = plan.weights().reshape(exists.shape)
         whole = float(weights[exists].sum())
-        share = float(weights[chosen & exists].sum()) / whole if total else math.nan
         # All cells are all, whatever the rounding of the sums.
-        share = 1.0 if count == total else share
+        share = 1.0 if count == total else float(weights[chosen & exists].sum()) / whole
         return cls(share, share, share, count, total, False, population, does)
 
     def __repr__(self) -> str:

@@ -170,11 +170,8 @@ class _SizeSearch:
             raise InputError("disturbance", model.kind, "one with a size from 0 and a direction")
         self.rotor, self.model, self.size, self.effort = rotor, model, size, effort
         self.tolerance, self.threads = tolerance, threads
-        self.contact_free, self.largest, self.timed = (
-            contact_free_size(rotor, model),
-            size.high,
-            rotor.depends_on_instant,
-        )
+        self.contact_free, self.largest = contact_free_size(rotor, model), size.high
+        self.timed = rotor.depends_on_instant
         self.pairs = PAIRS if self.timed else 1
         self.surely = 1.0 - (MARGIN if self.timed else 1.0) * tolerance
         self.random = np.random.default_rng(0)

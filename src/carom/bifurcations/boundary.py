@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import Literal
+from typing import Literal, get_args
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
@@ -38,6 +38,9 @@ from carom.models import Subject, exact_rotor_of, jeffcott
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import longest_within_reach
 from carom.parameters import Parameters
+
+Side = Literal["above", "below"]
+"""On which side of the value the rotor levitates."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -95,7 +98,7 @@ class BoundaryEquilibrium(Result):
     gain: Gain
     value: float
     parameters: Parameters
-    levitates: Literal["above", "below"]
+    levitates: Side
     kind: BoundaryKind
     force_rate: float
     orbits: tuple[SmallOrbit, ...]
@@ -163,18 +166,12 @@ def boundary_equilibria(machine: Subject, gain: Gain = "gamma") -> tuple[Boundar
     0.0724686787 non-smooth fold
     """
     rotor = exact_rotor_of(machine)
-    found = []
-    for low, high in ranges_of("contact-free", rotor.parameters, gain):
-        if low.kind:
-            found.append(_classified(rotor.parameters, gain, low.value, "above"))
-        if high.kind:
-            found.append(_classified(rotor.parameters, gain, high.value, "below"))
-    return tuple(found)
+    ranges, sides = ranges_of("contact-free", rotor.parameters, gain), get_args(Side)
+    ends = [pair for span in ranges for pair in zip(span, sides, strict=True)]
+    return tuple(_classified(rotor.parameters, gain, end.value, side) for end, side in ends if end.kind)
 
 
-def _classified(
-    parameters: Parameters, gain: Gain, value: float, levitates: Literal["above", "below"]
-) -> BoundaryEquilibrium:
+def _classified(parameters: Parameters, gain: Gain, value: float, levitates: Side) -> BoundaryEquilibrium:
     at = parameters.replace(**{gain: value})
     balance = boundary_balance(at)
     orbits, complete = _small_orbits(at)

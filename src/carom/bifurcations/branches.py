@@ -113,9 +113,8 @@ class OrbitBranch(Result):
         """
         if not isinstance(self.name, OrbitName):
             raise CaromError(f"the orbits of the branch of {self.name} have no closed form")
-        each = zip(
-            map(self.numbers_at, self.values.tolist()), self.period.tolist(), self.radial_speed.tolist(), strict=True
-        )
+        numbers = map(self.numbers_at, self.values.tolist())
+        each = zip(numbers, self.period.tolist(), self.radial_speed.tolist(), strict=True)
         return tuple(Solution(name_of(at[0], self.name.pair, *at[1:]), *at) for at in each)
 
     @checked

@@ -69,9 +69,8 @@ def settled_cells(
     def nearest(cell: tuple[int, int]) -> Motions:
         return known[min(known, key=lambda other: abs(other[0] - cell[0]) + abs(other[1] - cell[1]))]
 
-    return [[PlanePoint(np.array([x, y]), nearest((i, j))) for j, y in enumerate(ys)] for i, x in enumerate(xs)], len(
-        known
-    )
+    cells = [[PlanePoint(np.array([x, y]), nearest((i, j))) for j, y in enumerate(ys)] for i, x in enumerate(xs)]
+    return cells, len(known)
 
 
 def _spread(grid: int) -> list[tuple[int, int]]:

@@ -11,14 +11,9 @@ from carom.base.outcome import STEADY_WORDS
 from carom.base.results import Result
 from carom.bifurcations.conditions import RESONANCES
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import STEADY
 from carom.orbits.names import CountedName, OrbitName, combined
 from carom.parameters.formats import format_along
-
-_SUBJECTS = {
-    "boundary-equilibrium": STEADY_WORDS["contact-free"],
-    "rub-fold": STEADY_WORDS["rub"],
-    "rolling-limit": STEADY_WORDS["rolling"],
-}
 
 
 @dataclass(frozen=True)
@@ -110,4 +105,4 @@ class Curve(Result):
         single = [name for name in self.orbits if isinstance(name, OrbitName)]
         if self.orbits and not single:
             return ", ".join(self.orbits)
-        return combined(single) if single else _SUBJECTS.get(self.kind, "")
+        return combined(single) if single else STEADY_WORDS.get(STEADY.get(self.kind, ""), "")

@@ -124,9 +124,8 @@ class ClosedFormCurve(CurveEquations):
             return
         self.guess = [point.period, point.radial_speed]
         if not np.isfinite(self.guess).all():
-            raise InputError(
-                "bifurcation", f"{self.kind} without them", "the period and radial speed of the orbit are needed"
-            )
+            needed = "the period and radial speed of the orbit are needed"
+            raise InputError("bifurcation", f"{self.kind} without them", needed)
         if self.kind == "grazing":
             self.guess.append(profile_at(self.base, *self.guess).top)
         if self.kind in ("grazing", "slip-stop", "contact-onset", "non-smooth-hopf"):

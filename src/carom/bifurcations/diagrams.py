@@ -13,7 +13,7 @@ from carom.base.outcome import STEADY_WORDS
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result, in_a_line
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.followed import followed_branches
+from carom.bifurcations.followed import EVENTS, Followed
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.steady import (
     EquilibriumBranch,
@@ -82,17 +82,12 @@ class Diagram(Result):
         names = dict.fromkeys(name for branch in self.branches for name in branch.names)
         field = self.axis.field
         unit = f" {field.usual_unit}".rstrip()
-        return [
-            (self.parameter, f"from {field.in_usual_unit(low):.6g} to {field.in_usual_unit(high):.6g}{unit}"),
-            ("orbits", in_a_line(tuple(names))),
-            *(
-                (
-                    f"{field.in_usual_unit(point.value):.6g}{unit}",
-                    f"{point.kind}, {STEADY_WORDS.get(point.name, point.name)}",
-                )
-                for point in self.points
-            ),
+        ends = f"from {field.in_usual_unit(low):.6g} to {field.in_usual_unit(high):.6g}{unit}"
+        found = [
+            (f"{field.in_usual_unit(each.value):.6g}{unit}", f"{each.kind}, {STEADY_WORDS.get(each.name, each.name)}")
+            for each in self.points
         ]
+        return [(self.parameter, ends), ("orbits", in_a_line(tuple(names))), *found]
 
     @property
     def branches(self) -> list[Any]:
@@ -231,10 +226,12 @@ def _branches(
     virtual: bool,
 ) -> tuple[tuple[Any, ...], tuple[Any, ...], Searched | None]:
     """Branches of orbits with one impact a period, those of others, and what was searched."""
+    budget = budget or FlowBudget(EVENTS)
     if not model.has_closed_forms:
-        found, search = followed_branches(model, along, limits, impacts, (), virtual=virtual, budget=budget, tell=tell)
-        single = tuple(branch for branch in found if branch.impacts == 1)
-        return single, tuple(branch for branch in found if branch.impacts != 1), search
+        followed = Followed(along, limits, impacts, (), virtual, budget)
+        search = followed.run(model, tell)
+        single = tuple(branch for branch in followed.found if branch.impacts == 1)
+        return single, tuple(branch for branch in followed.found if branch.impacts != 1), search
     branches: list[OrbitBranch] = []
     part = tell.part(0.0, 1.0 if impacts == 1 else SINGLE_SHARE)
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
@@ -245,11 +242,9 @@ def _branches(
         part((done + 1) / SAMPLES)
     if impacts == 1:
         return tuple(branches), (), None
-    rest = tell.part(SINGLE_SHARE, 1.0)
-    several, searched = followed_branches(
-        model, along, limits, impacts, branches, virtual=virtual, budget=budget, tell=rest
-    )
-    return tuple(branches), several, searched
+    followed = Followed(along, limits, impacts, branches, virtual, budget)
+    search = followed.run(model, tell.part(SINGLE_SHARE, 1.0))
+    return tuple(branches), tuple(followed.found), search
 
 
 def _orbits(rotor: Rotor) -> Iterator[Orbit]:

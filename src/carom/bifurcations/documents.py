@@ -38,12 +38,10 @@ def _period_of_point(point: Bifurcation, diagram: Diagram) -> str:
 
 def _speed(point: Bifurcation, diagram: Diagram) -> str:
     """With six decimals in units of the equations, with four in mm/s: where an orbit shrinks to a point it vanishes but for rounding."""
-    decimals, speed = 6 if diagram.model.scales is None else 4, point.radial_speed
-    return (
-        ""
-        if speed != speed
-        else f"{round(float(diagram.shown_speeds(point.value, speed)), decimals) + 0.0:.{decimals}f}"
-    )
+    if point.radial_speed != point.radial_speed:
+        return ""
+    decimals, speed = 6 if diagram.model.scales is None else 4, diagram.shown_speeds(point.value, point.radial_speed)
+    return f"{round(float(speed), decimals) + 0.0:.{decimals}f}"
 
 
 def _possible(entry: Any, _: object) -> str:
@@ -150,7 +148,7 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
         "several": [record(branch, f"name {BRANCH} radial_speeds") | _word(branch) for branch in diagram.several],
         "search": None if diagram.search is None else search_document(diagram.search),
         "equilibria": [
-            record(branch, "kind values radius normal_force admissible stable") for branch in diagram.equilibria
+            record(each, "kind values radius normal_force admissible stable") for each in diagram.equilibria
         ],
         "rolling": record(diagram.rolling, "values largest_force holds"),
     }
@@ -174,8 +172,8 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
     return {
         **found.model.document(),
         "plane": [
-            {**_axis(axis), "range": list(limits)}
-            for axis, limits in ((first, plane.first_range), (second, plane.second_range))
+            _axis(first) | {"range": list(plane.first_range)},
+            _axis(second) | {"range": list(plane.second_range)},
         ],
         "curves": [record(curve, keys_of(CURVE)) for curve in found.curves],
         "codim2": [record(point, keys_of(CODIMENSION2)) for point in found.codimension2],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
@@ -79,21 +80,17 @@ class Followed:
         if any(branch.passes(orbit, value) for branch in self.found):
             return
         if isinstance(orbit, Orbit):
-            self._add(
-                renamed(
-                    continue_orbit(orbit, self.along.name, self.limits, virtual=self.virtual), self._name(orbit.impacts)
-                )
-            )
+            branch = continue_orbit(orbit, self.along.name, self.limits, virtual=self.virtual)
+            self._add(renamed(branch, self._name(orbit.impacts)))
             return
         named = numbered(orbit, self._name(orbit.impacts).number)
-        try:
-            followed = len(Flow.vector(orbit.start)) <= MOST_NUMBERS and not self.budget.spent
-            branch = continue_simulated(named, self.along.name, self.limits, FEW, self.budget) if followed else None
-        except CaromError:
-            branch = None
         # Where it cannot be followed the orbit is shown alone.
-        alone = SimulatedBranch(self.along, named.name, orbit.rotor, np.array([value]), (named,), (), (ALONE, ALONE))
-        self._add(branch if branch is not None and len(branch) else alone)
+        shown = SimulatedBranch(self.along, named.name, orbit.rotor, np.array([value]), (named,), (), (ALONE, ALONE))
+        if len(Flow.vector(orbit.start)) <= MOST_NUMBERS and not self.budget.spent:
+            with suppress(CaromError):
+                found = continue_simulated(named, self.along.name, self.limits, FEW, self.budget)
+                shown = found if len(found) else shown
+        self._add(shown)
 
     def _add(self, branch: OrbitBranch | SimulatedBranch) -> None:
         self.found.append(branch)
@@ -102,23 +99,20 @@ class Followed:
     def leave(self, points: Sequence[Bifurcation]) -> None:
         """Follow the branches that begin at special points of another."""
         for point in points:
-            simulated = isinstance(point.shot, SimulatedOrbit)
-            if not (self.virtual or point.admissible) or not self._begins_another(point):
-                continue
-            try:
-                branch: Any = (
-                    switch_simulated(point, self.limits, self.budget)
-                    if simulated
-                    else switch(point, self.limits, virtual=self.virtual)
-                )
-            except CaromError:
-                continue
-            if not simulated:
-                self._add(renamed(branch, self._name(branch.impacts)))
-                continue
-            middle = len(branch) // 2
-            if not any(other.passes(branch.orbits[middle], float(branch.values[middle])) for other in self.found):
-                self.found.append(replace(branch, name=self._name(branch.impacts)))
+            if (self.virtual or point.admissible) and self._begins_another(point):
+                with suppress(CaromError):
+                    self._switch(point)
+
+    def _switch(self, point: Bifurcation) -> None:
+        """Follow the branch that begins at a special point."""
+        if not isinstance(point.shot, SimulatedOrbit):
+            branch: Any = switch(point, self.limits, virtual=self.virtual)
+            self._add(renamed(branch, self._name(branch.impacts)))
+            return
+        branch = switch_simulated(point, self.limits, self.budget)
+        middle = len(branch) // 2
+        if not any(other.passes(branch.orbits[middle], float(branch.values[middle])) for other in self.found):
+            self.found.append(replace(branch, name=self._name(branch.impacts)))
 
     def _begins_another(self, point: Bifurcation) -> bool:
         """Whether a branch of orbits with so many impacts begins at a special point, which is not known."""
@@ -126,9 +120,8 @@ class Followed:
             few = point.kind == "period-doubling" and 2 * point.orbit.impacts <= self.impacts
             return few and not self.budget.spent
         if point.kind == "period-doubling":
-            return 2 * point.orbit.impacts <= self.impacts and not any(
-                _begins_at(each, point) for each in self.branches
-            )
+            few = 2 * point.orbit.impacts <= self.impacts
+            return few and not any(_begins_at(each, point) for each in self.branches)
         if point.kind not in BORDERS:
             return False
         try:
@@ -144,49 +137,35 @@ class Followed:
         orbits = (orbit_near(rotor, branch.word, start) for branch, start in starts)
         return [orbit for orbit in orbits if orbit is not None and orbit.admissible]
 
+    def run(self, model: Rotor, tell: Reporter) -> Searched:
+        """Follow what special points of the branches of the closed form and searches lead to; say what was searched.
 
-def followed_branches(
-    model: Rotor,
-    along: Axis,
-    limits: tuple[float, float],
-    impacts: int,
-    singles: Sequence[OrbitBranch],
-    *,
-    virtual: bool,
-    budget: FlowBudget | None,
-    tell: Reporter,
-) -> tuple[tuple[Any, ...], Searched]:
-    """Branches of orbits with at most a number of impacts a period beside those of the closed form, and what was searched.
-
-    Orbits found at one value are followed to all others, those of rotors of very many states are not.  With a ``budget`` they are simulated
-    at one value only.
-    """
-    all_of = Followed(along, limits, impacts, singles, virtual, budget or FlowBudget(EVENTS))
-    for single in singles:
-        all_of.leave(single.special)
-    exact, done = model.has_closed_forms, list[Searched]()
-    values = np.linspace(*limits, VALUES).tolist()
-    if not exact:
-        # Branches of many numbers are not followed, and setting up their equations takes long.
-        few = budget is not None or 4 * len(model.system.rest) > MOST_NUMBERS
-        values = [limits[0] + share * (limits[1] - limits[0]) for share in (PLACES[:1] if few else PLACES)]
-    orbits: list[Orbit | SimulatedOrbit]
-    for place, value in enumerate(values):
-        rotor, part = along.move(model, value), tell.part(place / len(values), (place + 1) / len(values))
-        if exact:
-            search = OrbitSearch(rotor, impacts, all_of.known(rotor, value))
-            done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
-            orbits = [
-                each for each in search.found if isinstance(each, Orbit) and each.admissible and each.impacts >= 2
-            ]
-        else:
-            share = SHARE if budget is None else FIRST_SHARE
-            found, searched = search_simulated(rotor, impacts, None, place, part, share)
-            orbits = list(found)
+        Orbits found at one value are followed to all others, those of rotors of very many states are not.  With a binding budget they are
+        simulated at one value only.
+        """
+        for single in self.singles:
+            self.leave(single.special)
+        exact, brief, (low, high), done = model.has_closed_forms, self.budget.binding, self.limits, list[Searched]()
+        values = np.linspace(low, high, VALUES).tolist()
+        if not exact:
+            # Branches of many numbers are not followed, and setting up their equations takes long.
+            few = brief or 4 * len(model.system.rest) > MOST_NUMBERS
+            values = [low + share * (high - low) for share in (PLACES[:1] if few else PLACES)]
+        orbits: Sequence[Orbit | SimulatedOrbit]
+        for place, value in enumerate(values):
+            rotor, part = self.along.move(model, value), tell.part(place / len(values), (place + 1) / len(values))
+            if exact:
+                search = OrbitSearch(rotor, self.impacts, self.known(rotor, value))
+                searched = search.run(SETTLED, GUESSES, FRESH, [0, place], part)
+                words = [each for each in search.found if isinstance(each, Orbit)]
+                orbits = [each for each in words if each.admissible and each.impacts >= 2]
+            else:
+                share = FIRST_SHARE if brief else SHARE
+                orbits, searched = search_simulated(rotor, self.impacts, None, place, part, share)
             done.append(searched)
-        for orbit in orbits:
-            all_of.follow(orbit, value)
-    return tuple(all_of.found), reduce(Searched.and_then, done)
+            for orbit in orbits:
+                self.follow(orbit, value)
+        return reduce(Searched.and_then, done)
 
 
 def _begins_at(branch: OrbitBranch, point: Bifurcation) -> bool:

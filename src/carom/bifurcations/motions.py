@@ -126,11 +126,8 @@ def _settled_motions(rotor: Rotor, budget: FlowBudget) -> Motions:
         motion = budget.pay(simulate(rotor, start_of(rotor, random), patience=PATIENCE, max_events=MOST_EVENTS))
         found.add((motion.outcome, motion.multiplicity))
     levitates = rotor.system.levitates
-    words = [
-        f"{outcome.words} ({count} a period)" if count else outcome.words
-        for outcome, count in sorted(found)
-        if outcome is not Outcome.LEVITATED
-    ]
+    settled = sorted(each for each in found if each[0] is not Outcome.LEVITATED)
+    words = [f"{outcome.words} ({count} a period)" if count else outcome.words for outcome, count in settled]
     outcomes = {outcome for outcome, _ in found}
     periodic = sum(count > 0 for _, count in found)
     return Motions(

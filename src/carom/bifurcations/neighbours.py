@@ -18,9 +18,8 @@ from carom.orbits.word import Kind, Word
 def _with_impact(orbit: Orbit) -> tuple[Word, ShootingStart]:
     """One impact more, where the highest maximum of the radius touches the wall."""
     system, best = orbit.rotor.system, (-np.inf, 0, 0.0)
-    left = [
-        departure(orbit.rotor, *pair) for pair in zip(orbit.word, system.nodes.amplitudes(orbit.nodes), strict=True)
-    ]
+    nodes = system.nodes.amplitudes(orbit.nodes)
+    left = [departure(orbit.rotor, *pair) for pair in zip(orbit.word, nodes, strict=True)]
     for i, after in enumerate(left):
         height, top = highest_point(system.arrays, 0, after, float(orbit.durations[i]))
         if height > best[0]:

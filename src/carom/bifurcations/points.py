@@ -15,6 +15,7 @@ from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
+from carom.orbits.simulated import SimulatedOrbit
 from carom.parameters import Numbers, Scales
 from carom.parameters.formats import format_entry
 
@@ -123,6 +124,14 @@ class Bifurcation(Result):
         """
         return cls(kind, Numbers.of(exact_rotor_of(machine).parameters), period, radial_speed)
 
+    @classmethod
+    def of(
+        cls, kind: str, orbit: Orbit | SimulatedOrbit, parameter: str, value: float, place: float, *, real: bool = True
+    ) -> Bifurcation:
+        """A special point of orbits that have no closed form."""
+        at = orbit.period, orbit.radial_speed, orbit.name, parameter, value, real
+        return cls(kind, None, *at, place=place, shot=orbit)
+
     @property
     def at(self) -> Any:
         """What tells the values of parameters there: numbers, or the rotor."""
@@ -147,7 +156,6 @@ class Bifurcation(Result):
         if self.shot is not None:
             return self.shot
         if not isinstance(self.name, OrbitName):
-            raise InputError(
-                "bifurcation", f"{self.kind} of {self.name or 'a motion without a name'}", "one of an orbit"
-            )
+            unnamed = self.name or "a motion without a name"
+            raise InputError("bifurcation", f"{self.kind} of {unnamed}", "one of an orbit")
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)

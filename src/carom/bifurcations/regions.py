@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -20,7 +19,6 @@ from carom.bifurcations.diagrams import special_points
 from carom.bifurcations.motions import STARTS, Motions, motions_at
 from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
-from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Rotor, Subject, rotor_of
 from carom.orbits.flow import FlowBudget
@@ -109,9 +107,8 @@ class RegionMap(Result):
         for point in (point for curve in ordered for point in curve.codimension2):
             for i, other in enumerate(found):
                 if self._same(point, other):
-                    found[i] = replace(
-                        other, kinds=_joined(other, point), admissible=other.admissible or point.admissible
-                    )
+                    real = other.admissible or point.admissible
+                    found[i] = replace(other, kinds=_joined(other, point), admissible=real)
                     break
             else:
                 found.append(point)
@@ -197,15 +194,7 @@ def map_regions(
     place = plane.place_of(given)
     inside = plane.holds(*place)
     base = given if inside else plane.at(given, *np.mean([plane.first_range, plane.second_range], axis=1).tolist())
-    curves: list[Curve] = []
-    lost: list[str] = []
-    following = FlowBudget(CURVE_EVENTS, binding=True)
-    for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        points = special_points(
-            rotor_of(base), name, interval, FlowBudget(DIAGRAM_EVENTS, binding=True), virtual=virtual
-        )
-        curves = _through_points(plane, points, virtual, curves, lost, following)
-        tell(share)
+    curves, lost = _on_two_lines(rotor_of(base), plane, virtual, tell)
     present, later = motions_at(given), tell.part(0.3, 1.0)
     if exact:
         survey = Survey(base, plane, curves)
@@ -242,15 +231,18 @@ def _remarks(grid: int, examined: int) -> list[str]:
     return words
 
 
-def _through_points(
-    plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str], budget: FlowBudget
-) -> list[Curve]:
-    """Add to the known curves those through special points, simulated ones within a budget; failures are appended to ``lost``."""
-    for point in points:
-        wanted = can_be_followed(point) and (virtual or point.admissible)
-        if wanted and not any(passes(curve, point) for curve in curves):
+def _on_two_lines(rotor: Rotor, plane: Plane, virtual: bool, tell: Reporter) -> tuple[list[Curve], list[str]]:
+    """Curves through the special points on the two lines of a plane through a rotor, and which of them could not be followed."""
+    curves, lost, budget = list[Curve](), list[str](), FlowBudget(CURVE_EVENTS, binding=True)
+    for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
+        allowed = FlowBudget(DIAGRAM_EVENTS, binding=True)
+        for point in special_points(rotor, name, interval, allowed, virtual=virtual):
+            wanted = can_be_followed(point) and (virtual or point.admissible)
+            if not wanted or any(passes(curve, point) for curve in curves):
+                continue
             try:
                 curves = with_curve(curves, continue_curve(point, plane, budget=budget))
             except CaromError as problem:
                 lost.append(f"{point.kind} of {point.name} at {point.parameter} = {point.value:.6g}: {problem}")
-    return curves
+        tell(share)
+    return curves, lost

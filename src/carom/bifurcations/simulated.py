@@ -192,10 +192,8 @@ def continue_simulated(
     """
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
-    if len(Flow.vector(orbit.start)) > MOST_NUMBERS:
-        raise InputError(
-            "orbit", len(Flow.vector(orbit.start)), f"a rotor of at most {MOST_NUMBERS} numbers of a state"
-        )
+    if (count := len(Flow.vector(orbit.start))) > MOST_NUMBERS:
+        raise InputError("orbit", count, f"a rotor of at most {MOST_NUMBERS} numbers of a state")
     begun = begun_at_least_radius(orbit) if orbit.repeats is None else orbit
     family = SimulatedFamily(begun, along, limits, budget or FlowBudget())
     vector = Flow.vector(begun.start)
@@ -214,19 +212,13 @@ def continue_simulated(
         steps=steps or STEPS,
         scales=scales,
     )
-    orbits: list[SimulatedOrbit] = []
-    values: list[float] = []
-    for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True):
-        found = family.orbit_at(u, p, orbit.name)
-        if found is not None:
-            orbits.append(found)
-            values.append(p)
+    points = zip(branch.unknowns, branch.parameters.tolist(), strict=True)
+    found = [(p, each) for u, p in points if (each := family.orbit_at(u, p, orbit.name)) is not None]
+    values, orbits = np.array([p for p, _ in found]), tuple(each for _, each in found)
     special = [point for each in branch.special if (point := _special(family, each, orbit.name)) is not None]
     special += _changes(family, branch, orbit.name)
     special.sort(key=lambda point: point.place)
-    return SimulatedBranch(
-        along, orbit.name, orbit.rotor, np.array(values), tuple(orbits), tuple(special), branch.stops
-    )
+    return SimulatedBranch(along, orbit.name, orbit.rotor, values, orbits, tuple(special), branch.stops)
 
 
 def _special(family: SimulatedFamily, point: SpecialPoint, name: Any) -> Bifurcation | None:
@@ -237,22 +229,7 @@ def _special(family: SimulatedFamily, point: SpecialPoint, name: Any) -> Bifurca
         pairs = list(combinations(orbit.multipliers.values.tolist(), 2))
         if abs(min(pairs, key=lambda pair: abs(pair[0] * pair[1] - 1.0))[0].imag) < 1e-9:
             return None
-    return _point(family, point.kind, orbit, point.parameter, point.place)
-
-
-def _point(family: SimulatedFamily, kind: str, orbit: SimulatedOrbit, value: float, place: float) -> Bifurcation:
-    return Bifurcation(
-        kind,
-        None,
-        orbit.period,
-        orbit.radial_speed,
-        orbit.name,
-        family.along.name,
-        value,
-        True,
-        place=place,
-        shot=orbit,
-    )
+    return Bifurcation.of(point.kind, orbit, family.along.name, point.parameter, point.place)
 
 
 def _changes(family: SimulatedFamily, branch: Branch, name: Any) -> list[Bifurcation]:
@@ -275,7 +252,7 @@ def _changes(family: SimulatedFamily, branch: Branch, name: Any) -> list[Bifurca
             kind = JOINS if before[1] != after[1] else CHANGES
             length = float(np.linalg.norm(ends[1] - ends[0])) or 1.0
             place = i + float(np.linalg.norm(low - ends[0])) / length
-            found.append(_point(family, kind, orbit, float(low[-1]), place))
+            found.append(Bifurcation.of(kind, orbit, family.along.name, float(low[-1]), place))
     return found
 
 

@@ -38,9 +38,8 @@ class SimulatedCurve(CurveEquations):
         orbit: SimulatedOrbit = point.shot
         numbers = len(Flow.vector(orbit.start))
         if numbers > MOST_NUMBERS:
-            raise InputError(
-                "bifurcation", f"{numbers} numbers of a state", f"one of a rotor with at most {MOST_NUMBERS}"
-            )
+            allowed = f"one of a rotor with at most {MOST_NUMBERS}"
+            raise InputError("bifurcation", f"{numbers} numbers of a state", allowed)
         self.kind, self.plane, self.name = point.kind, plane, orbit.name
         begun = begun_at_least_radius(orbit) if orbit.repeats is None else orbit
         self.family = SimulatedFamily(begun, plane, plane.second_range, budget or FlowBudget())

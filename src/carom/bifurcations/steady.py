@@ -68,9 +68,8 @@ def rolling_branch(rotor: Rotor, along: Axis, interval: tuple[float, float]) -> 
     """Rolling on an evenly spaced grid of the parameter; empty for other models than the planar rotor."""
     grid = np.linspace(*interval, SAMPLES if rotor.has_closed_forms else 0)
     found = [rolling(along.move(rotor, value)) for value in grid.tolist()]
-    return RollingBranch(
-        grid, np.array([entry.largest_force for entry in found]), np.array([entry.holds for entry in found], bool)
-    )
+    forces, holds = [entry.largest_force for entry in found], [entry.holds for entry in found]
+    return RollingBranch(grid, np.array(forces), np.array(holds, bool))
 
 
 def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> list[Bifurcation]:
@@ -117,16 +116,10 @@ def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float
             continue
         found = find_equilibria(rotor)
         for equilibrium in sorted(found, key=lambda at: (at.status == "admissible", at.normal_force)):
-            attracts = (
-                equilibrium.stable if equilibrium.status == "admissible" else equilibrium.eigenvalues.real.max() < 0.0
-            )
+            real = equilibrium.status == "admissible"
+            attracts = equilibrium.stable if real else equilibrium.eigenvalues.real.max() < 0.0
             place = 0 if equilibrium.kind == "contact-free" else 1 if attracts else 2
-            table[place, column] = (
-                equilibrium.radius,
-                equilibrium.normal_force,
-                equilibrium.status == "admissible",
-                equilibrium.stable,
-            )
+            table[place, column] = equilibrium.radius, equilibrium.normal_force, real, equilibrium.stable
     return tuple(
         EquilibriumBranch(kind, grid, rows[:, 0], rows[:, 1], rows[:, 2] == 1.0, rows[:, 3] == 1.0)
         for kind, rows in zip(kinds, table, strict=True)

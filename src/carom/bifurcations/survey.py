@@ -188,7 +188,5 @@ class Survey:
         return ""
 
     def _record(self, low: PlanePoint, high: PlanePoint, reason: str) -> None:
-        point = 0.5 * (low.place + high.place)
-        self.unexplained.append(
-            UnexplainedChange((float(point[0]), float(point[1])), low.motions, high.motions, reason)
-        )
+        x, y = (0.5 * (low.place + high.place)).tolist()
+        self.unexplained.append(UnexplainedChange((x, y), low.motions, high.motions, reason))

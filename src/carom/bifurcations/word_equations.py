@@ -204,11 +204,9 @@ class WordFamily:
     def _nearness(self, u: np.ndarray, p: float) -> float:
         """Above zero as long as the orbit is a motion, or not far from one."""
         point = self.point(u, p)
-        return (
-            np.nan
-            if point is None
-            else min(point.margins.radius - RADIUS_MARGIN, point.margins.approach - SPEED_MARGIN, 1.0)
-        )
+        if point is None:
+            return np.nan
+        return min(point.margins.radius - RADIUS_MARGIN, point.margins.approach - SPEED_MARGIN, 1.0)
 
     def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
         """Functions that vanish at the special points, and where the branch ends."""

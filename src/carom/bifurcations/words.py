@@ -50,11 +50,9 @@ MOST_UNKNOWNS = 1500
 
 def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
     """A branch followed by multiple shooting, with another name."""
-    special = tuple(
-        replace(point, name=name, shot=replace(point.shot, name=name) if point.shot else None)
-        for point in branch.special
-    )
-    return replace(branch, name=name, special=special)
+    shots = [replace(point.shot, name=name) if point.shot else None for point in branch.special]
+    pairs = zip(branch.special, shots, strict=True)
+    return replace(branch, name=name, special=tuple(replace(point, name=name, shot=shot) for point, shot in pairs))
 
 
 @overload
@@ -237,19 +235,8 @@ def _special_point(
         value, unknowns = _halved(family, unknowns, value)
         rotor = family.along.move(family.rotor, value)
     orbit = orbit_at(rotor, family.word, unknowns, name)
-    return Bifurcation(
-        point.kind,
-        None,
-        orbit.period,
-        orbit.radial_speed,
-        name,
-        parameter,
-        value,
-        orbit.admissible
-        or (point.kind in (*BORDERS, HOPF) and min(orbit.margins.least, orbit.durations.min()) > -ON_BORDER),
-        place=point.place,
-        shot=orbit,
-    )
+    on_border = point.kind in (*BORDERS, HOPF) and min(orbit.margins.least, orbit.durations.min()) > -ON_BORDER
+    return Bifurcation.of(point.kind, orbit, parameter, value, point.place, real=orbit.admissible or on_border)
 
 
 def _halved(family: WordFamily, unknowns: np.ndarray, value: float) -> tuple[float, np.ndarray]:

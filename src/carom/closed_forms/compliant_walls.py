@@ -143,9 +143,8 @@ def _slipping_speeds(system: System, plane: int) -> list[tuple[float, float]]:
     column = system.arrays["columns"][free, plane]
     size, fastest = len(generator), float(np.abs(generator).max())
     pencil, shifts = np.zeros((2 * size + 1, 2 * size + 1), complex), np.diag([*np.ones(2 * size), 0.0])
-    for part, (matrix, out, into) in enumerate(
-        ((generator, row, column), (generator.conj(), -row.conj(), column.conj()))
-    ):
+    parts = (generator, row, column), (generator.conj(), -row.conj(), column.conj())
+    for part, (matrix, out, into) in enumerate(parts):
         here = slice(part * size, (part + 1) * size)
         pencil[here, here], pencil[-1, here], pencil[here, -1] = matrix, out * fastest, into
     zeros: np.ndarray = eigvals(pencil, shifts)

@@ -107,13 +107,10 @@ class EquilibriumSet(Members[Equilibrium]):
 
     def rows(self) -> list[tuple[str, str]]:
         """Each equilibrium in a line."""
-        lines = [
-            (
-                f"{at.kind}{_at_planes(at)}",
-                f"{at.status}, {'stable' if at.stable else 'not stable'}, normal force {self.line_of('normal_force', at.normal_force)}",
-            )
-            for at in self.members
-        ]
+        lines = []
+        for at in self.members:
+            stable, force = "stable" if at.stable else "not stable", self.line_of("normal_force", at.normal_force)
+            lines.append((f"{at.kind}{_at_planes(at)}", f"{at.status}, {stable}, normal force {force}"))
         return [("rotor", in_a_line(self.rotor)), *lines, ("complete", in_a_line(self.complete))]
 
     @cached_property
@@ -171,29 +168,21 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     model = rotor_of(machine)
     system = model.system
     model.refuse_forces()
-    rubs = [
-        _rub(model, *balance) for balance in rub_forces(system) if not saturates(system, static_state(system, *balance))
-    ]
+    balances = (each for each in rub_forces(system) if not saturates(system, static_state(system, *each)))
+    rubs = [_rub(model, *balance) for balance in balances]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=all_found(system))
 
 
 def _contact_free(model: Rotor) -> Equilibrium:
     system = model.system
-    places = np.asarray(system.arrays["offsets"])
+    places, rates = np.asarray(system.arrays["offsets"]), system.exponents
+    position = complex(system.rest[0]) if len(system.rest) == 1 else system.rest
+    at = position, places, np.zeros(len(places)), (), status_of(1.0 - float(np.abs(places).max()))
     # The exponents of the planar rotor are exact, others have rounding errors.
     margin = 0.0 if model.has_closed_forms else NEUTRAL
-    return Equilibrium(
-        "contact-free",
-        complex(system.rest[0]) if len(system.rest) == 1 else system.rest,
-        places,
-        np.zeros(len(places)),
-        (),
-        status_of(1.0 - float(np.abs(places).max())),
-        system.exponents,
-        _dies_out(system.exponents, margin) and not saturates(system, np.zeros(system.modes)),
-        model.scales,
-    )
+    stable = _dies_out(rates, margin) and not saturates(system, np.zeros(system.modes))
+    return Equilibrium("contact-free", *at, rates, stable, model.scales)
 
 
 def _rub(model: Rotor, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
@@ -213,17 +202,9 @@ def _rub(model: Rotor, planes: tuple[int, ...], forces: np.ndarray, touching: np
     lands = len(planes) > 1 or bool(arrays["restitution"][planes[0]] < 1.0)
     margin = min(forces.min(), *(1.0 - np.abs(np.delete(places, chosen))), np.inf)
     stable = _dies_out(eigenvalues) and bool(forces.min() > 0.0) and lands
-    return Equilibrium(
-        "rub",
-        complex(touching[0]) if system.is_planar else position if len(system.rest) > 1 else complex(position),
-        places,
-        pushes,
-        planes,
-        status_of(float(margin)),
-        eigenvalues,
-        stable,
-        model.scales,
-    )
+    place = complex(touching[0]) if system.is_planar else position if len(system.rest) > 1 else complex(position)
+    at = place, places, pushes, planes, status_of(float(margin))
+    return Equilibrium("rub", *at, eigenvalues, stable, model.scales)
 
 
 def _dies_out(eigenvalues: np.ndarray, margin: float = NEUTRAL) -> bool:

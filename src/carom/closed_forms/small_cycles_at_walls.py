@@ -178,10 +178,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     linear = pieces.rigid or exponent_of(system.contacts[place].wall) == 1.0
     eigenvalues = np.linalg.eigvals(pieces.contact if linear else pieces.flight) if not pieces.rigid else np.empty(0)
     lever = pieces.compliance if linear else math.inf
-    found: list[SmallCycle] = []
-    complete = False
-    if pieces.rigid:
-        found, complete = _bouncing(system, place, pieces, longest)
+    found, complete = _bouncing(system, place, pieces, longest) if pieces.rigid else ([], False)
     return WallMeeting(
         rotor=model,
         plane=place,

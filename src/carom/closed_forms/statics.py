@@ -171,10 +171,8 @@ def rubs_in_wall(h: complex, rest: complex, stiffness: float, exponent: float) -
 
 def _in_curved_wall(h: complex, rest: complex, wall: Wall) -> list[tuple[np.ndarray, np.ndarray]]:
     exponent = exponent_of(wall)
-    return [
-        (np.array([wall.stiffness * depth**exponent]), np.array([place / abs(place)]))
-        for depth, place in rubs_in_wall(h, rest, wall.stiffness, exponent)
-    ]
+    rubs = rubs_in_wall(h, rest, wall.stiffness, exponent)
+    return [(np.array([wall.stiffness * depth**exponent]), np.array([place / abs(place)])) for depth, place in rubs]
 
 
 def _two_planes(h: np.ndarray, rest: np.ndarray) -> np.ndarray:

@@ -170,12 +170,8 @@ def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None)
     for parts in range(min(most, MOST_PARTS), 1, -1):
         part = period / parts
         whole = repeats is None or abs(part / repeats - round(part / repeats)) < CLOSURE_RTOL
-        if (
-            part > SHORTEST
-            and whole
-            and len(found) % parts == 0
-            and _size(flow.end(vector, part) - vector, vector) < CLOSURE_RTOL
-        ):
+        possible = part > SHORTEST and whole and len(found) % parts == 0
+        if possible and _size(flow.end(vector, part) - vector, vector) < CLOSURE_RTOL:
             closed = newton(flow, vector, part, free=repeats is None)
             if closed is not None and abs(closed[1] - part) < CLOSURE_RTOL * part:
                 return _orbit(flow, *closed, repeats)

@@ -29,8 +29,6 @@ CHUNK = 4096
 """Events that are simulated at a time."""
 LEFT = 1e-6
 """Factor in any stretch below which a direction counts as taken away."""
-CONFIDENT = 3.0
-"""Standard errors by which an exponent has to differ from zero to have a sign."""
 TINY = float(np.finfo(float).tiny)
 """Growth of directions that contact takes away, whose exponents are left out: its logarithm is finite."""
 
@@ -92,18 +90,6 @@ class LyapunovExponents(Result):
     def lost(self) -> int:
         """Number of directions that are taken away: how many exponents are minus infinity."""
         return int(np.isneginf(self.values).sum())
-
-    @property
-    def positive(self) -> bool:
-        """Whether the largest exponent across the motion is above zero by more than three standard errors."""
-        value, error = self.across
-        return value > CONFIDENT * error
-
-    @property
-    def negative(self) -> bool:
-        """Whether the largest exponent across the motion is below zero by more than three standard errors."""
-        value, error = self.across
-        return value < -CONFIDENT * error
 
 
 @checked
@@ -239,9 +225,8 @@ def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch | 
             return
         last = min(impacts, len(motion.is_impact) - 1)
         if last < 1:
-            raise CaromError(
-                f"the motion stops hitting the wall ({motion.outcome.label}): it has no exponents of impacts"
-            )
+            ended = motion.outcome.label
+            raise CaromError(f"the motion stops hitting the wall ({ended}): it has no exponents of impacts")
         word, begin = impacts_between(motion, 0, last + 1)
         links = links_of(rotor, word, begin)
         apart = np.abs(links.ends[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())

@@ -88,9 +88,8 @@ class Flow:
         amplitudes, phases = (found[0] for found in motion.amplitudes_at(np.array([time])))
         rigid = (phases != Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0)
         rests = tuple((int(plane), bool(phases[plane] == Phase.ROLLING)) for plane in np.flatnonzero(rigid))
-        flow = cls(
-            motion.rotor, motion.begins + time if system.is_time_dependent else 0.0, rests, budget or FlowBudget()
-        )
+        begins = motion.begins + time if system.is_time_dependent else 0.0
+        flow = cls(motion.rotor, begins, rests, budget or FlowBudget())
         position, velocity = system.state(amplitudes)
         return flow, flow.vector(State.of(position, velocity, system.race_speeds(amplitudes)))
 

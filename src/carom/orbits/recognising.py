@@ -70,9 +70,8 @@ def impacts_between(motion: Trajectory, first: int, last: int) -> tuple[Word, Sh
     """Word, nodes and durations of a motion from one impact up to another, with nothing but impacts in between."""
     kinds = impact_kinds(motion)[first:last].tolist()
     times = np.append(motion.segment_starts[1:], motion.time)
-    return Word(tuple(map(Kind, kinds))), ShootingStart(
-        motion.rotor.system.nodes.of(motion.event_amplitudes[first:last]), np.diff(times[first : last + 1])
-    )
+    nodes = motion.rotor.system.nodes.of(motion.event_amplitudes[first:last])
+    return Word(tuple(map(Kind, kinds))), ShootingStart(nodes, np.diff(times[first : last + 1]))
 
 
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, ShootingStart] | None:

@@ -165,9 +165,8 @@ class OrbitSearch:
             return State.of(positions[0], velocities[0])
         known = beside[int(random.integers(len(beside)))].departure
         velocity = np.array(known.velocity, complex)
-        change = np.exp(random.uniform(*np.log(DISTANCES_TRIED))) * (
-            random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j]
-        )
+        size = np.exp(random.uniform(*np.log(DISTANCES_TRIED)))
+        change = size * (random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j])
         return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
 
     def _stretches(self, start: State) -> Iterator[tuple[int, Word, ShootingStart]]:

@@ -6,7 +6,7 @@ there and, where nothing stands in the fixed frame, the period are the unknowns 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -161,14 +161,10 @@ class SimulatedOrbit(Result):
     def contacts(self) -> list[tuple[str, int, float, Section]]:
         """Kind, contact plane (of a limit its number) and time since the first of each happening, and the state there."""
         begun = self.happenings[0].time if self.happenings else 0.0
+        places = [each.place // 2 if each.limits else each.place for each in self.happenings]
+        each_with = zip(self.happenings, places, strict=True)
         return [
-            (
-                each.label,
-                each.place // 2 if each.limits else each.place,
-                (each.time - begun) % self.period,
-                self.section_of(each),
-            )
-            for each in self.happenings
+            (each.label, place, (each.time - begun) % self.period, self.section_of(each)) for each, place in each_with
         ]
 
     @property
@@ -186,17 +182,8 @@ class SimulatedOrbit(Result):
         self, flow: Flow, vector: np.ndarray, period: float, multipliers: np.ndarray, name: Any
     ) -> SimulatedOrbit:
         """Another closed path that repeats as this one does."""
-        state = flow.state(vector)
-        return replace(
-            self,
-            rotor=flow.rotor,
-            name=name,
-            start=state,
-            period=period,
-            multipliers=Multipliers(multipliers),
-            complete=True,
-            rests=flow.rests,
-        )
+        at = flow.state(vector), period, Multipliers(multipliers)
+        return SimulatedOrbit(flow.rotor, name, *at, complete=True, repeats=self.repeats, rests=flow.rests)
 
     @property
     def radial_speed(self) -> float:
@@ -238,6 +225,5 @@ def same_simulated(first: SimulatedOrbit, second: SimulatedOrbit) -> bool:
         size = SAME_ORBIT_RTOL * (1.0 + float(np.abs(first.impact_states).max()))
         places = range(len(first.impact_states))
         return any(np.abs(np.roll(first.impact_states, -k, axis=0) - second.impact_states).max() < size for k in places)
-    return bool(
-        np.abs(np.subtract(first.extremes, second.extremes)).max() < SAME_ORBIT_RTOL * (1.0 + max(first.extremes))
-    )
+    apart = np.abs(np.subtract(first.extremes, second.extremes)).max()
+    return bool(apart < SAME_ORBIT_RTOL * (1.0 + max(first.extremes)))

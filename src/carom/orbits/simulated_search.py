@@ -205,8 +205,7 @@ def _first_return(motion: Trajectory) -> float:
         near = np.flatnonzero(apart[1:] < RETURNS * (1.0 + np.abs(states[0]).max()))
         return float(times[1:][near[0]]) if len(near) else 0.0
     away = np.flatnonzero(apart > 0.5 * apart.max())
-    back = (
-        np.flatnonzero((apart[1:-1] < 0.1 * apart.max()) & (apart[1:-1] <= apart[2:]) & (apart[1:-1] <= apart[:-2])) + 1
-    )
+    inner = apart[1:-1]
+    back = np.flatnonzero((inner < 0.1 * apart.max()) & (inner <= apart[2:]) & (inner <= apart[:-2])) + 1
     back = back[back > away[0]]
     return float(times[back[0]]) if len(back) else 0.0

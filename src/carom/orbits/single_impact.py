@@ -24,6 +24,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.search import Impacts, search_orbits
 from carom.orbits.searched import Searched
 from carom.orbits.shooting import ShootingStart
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
@@ -190,44 +191,35 @@ def find_orbits(
     2.328416 True
     """
     rotor = rotor_of(machine)
-    if impacts is not None or not rotor.has_closed_forms:
-        if longest_period is not None:
-            raise InputError("longest_period", longest_period, _CLOSED_FORMS_ALONE)
-        if impacts is None:
-            impacts, guesses = 1, guesses or A_FEW
-        tell = Reporter.of(progress, "searching orbits")
-        rotor.system.refuse_non_stationary()
-        members: tuple[Any, ...]
-        if rotor.has_closed_forms:
-            there = [orbit for orbit in orbits_within_reach(rotor) if orbit.admissible]
-            members, search = search_orbits(rotor, impacts, guesses, seed, there, tell)
-        else:
-            members, search = search_simulated(rotor, impacts, guesses, seed, tell)
-        return OrbitSet(
-            rotor, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
-        )
-    condition = PeriodCondition.planar(rotor.parameters)
-    roots = condition.roots(longest_period)
+    if impacts is None and rotor.has_closed_forms:
+        return _in_closed_form(rotor, longest_period)
+    if longest_period is not None:
+        raise InputError("longest_period", longest_period, _CLOSED_FORMS_ALONE)
+    if impacts is None:
+        impacts, guesses = 1, guesses or A_FEW
+    tell = Reporter.of(progress, "searching orbits")
+    rotor.system.refuse_non_stationary()
+    members: tuple[Orbit | SimulatedOrbit, ...]
+    if rotor.has_closed_forms:
+        there = [orbit for orbit in orbits_within_reach(rotor) if orbit.admissible]
+        members, search = search_orbits(rotor, impacts, guesses, seed, there, tell)
+    else:
+        members, search = search_simulated(rotor, impacts, guesses, seed, tell)
+    return OrbitSet(rotor, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False)
+
+
+def _in_closed_form(rotor: Rotor, longest_period: float | None) -> OrbitSet:
+    """All orbits with one impact a period up to a longest one."""
+    roots = PeriodCondition.planar(rotor.parameters).roots(longest_period)
     orbits = _orbits_at(rotor, roots, 1)
     forward_only = slip_stays_forward(rotor)
     if not forward_only:
         backward = PeriodCondition.planar(rotor.parameters, slip=-1)
-        reversed_orbits = _orbits_at(rotor, backward.roots(longest_period), -1)
-        orbits += [
-            orbit
-            for orbit in reversed_orbits
-            if rotor.parameters.radius_ratio + 1.0 + orbit.angular_speed < 0.0 < orbit.radial_speed
-        ]
-    return OrbitSet(
-        rotor,
-        tuple(orbits),
-        1,
-        None,
-        roots.periods,
-        roots.longest_period,
-        roots.proven,
-        slip_stays_forward=forward_only,
-    )
+        surface = rotor.parameters.radius_ratio + 1.0
+        found = _orbits_at(rotor, backward.roots(longest_period), -1)
+        orbits += [orbit for orbit in found if surface + orbit.angular_speed < 0.0 < orbit.radial_speed]
+    reached = roots.periods, roots.longest_period, roots.proven
+    return OrbitSet(rotor, tuple(orbits), 1, None, *reached, slip_stays_forward=forward_only)
 
 
 @checked
