@@ -30,17 +30,17 @@ def at_precision(bits: int) -> Iterator[None]:
         ctx.prec = before
 
 
-def rational(number: Fraction) -> Any:
+def rational(number: Fraction) -> arb:
     """Ball that contains a rational number."""
     return arb(fmpq(number.numerator, number.denominator))
 
 
-def interval(low: Fraction, high: Fraction) -> Any:
+def interval(low: Fraction, high: Fraction) -> arb:
     """Ball that contains all numbers between two rational ones."""
     return rational(low) if low == high else rational(low).union(rational(high))
 
 
-def ball_of(number: ExactNumber) -> Any:
+def ball_of(number: ExactNumber) -> arb:
     """Ball that contains an exact number, or all numbers of an interval."""
     ball = interval(number.low, number.high)
     return ball * arb.pi() ** number.turns if number.turns else ball
@@ -119,7 +119,7 @@ def enclosures_of(**balls: Any) -> dict[str, Enclosure]:
     return {name: enclosure_of(ball) for name, ball in balls.items() if ball.is_finite()}
 
 
-def enclosure_of(ball: Any) -> Enclosure:
+def enclosure_of(ball: arb) -> Enclosure:
     """Decimal enclosure of a real ball, wider by a share of it (``MARGIN``) on both sides, with the digits that it has.
 
     The margin allows a check by another version of the arithmetic, whose roundings differ in far less.

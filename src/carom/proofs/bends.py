@@ -34,7 +34,7 @@ _REFINEMENTS = 2
 """How often what is known of the crossing times is made sharper."""
 
 
-def second_derivatives(departure: PatchDeparture, time: Any, window: Any) -> tuple[Squares, Squares, Squares]:
+def second_derivatives(departure: PatchDeparture, time: arb, window: arb) -> tuple[Squares, Squares, Squares]:
     """Those of ``a``, ``b`` and ``ψ⁺`` for all flights, from the time at which the centre crosses and times in which all do.
 
     The unknowns of the forms are those of the two spans of the cell, one for each coordinate that holds all other columns, and one for what
@@ -55,12 +55,12 @@ def second_derivatives(departure: PatchDeparture, time: Any, window: Any) -> tup
     return _Bends(departure, columns, MeanValueForm(time, [*slopes, apart], window), 4).totals()
 
 
-def bent(columns: list[list[Any]], squares: Squares) -> list[Any]:
+def bent(columns: list[list[arb]], squares: Squares) -> list[arb]:
     """Second-order terms in the centre by the two spans ``s`` and ``t``: ``½ F(s, s)``, ``F(s, t)`` and ``½ F(t, t)``."""
     return _bent(columns, {pair: value.at for pair, value in squares.items()})
 
 
-def remainder(columns: list[list[Any]], squares: Squares) -> Any:
+def remainder(columns: list[list[arb]], squares: Squares) -> arb:
     """Bound of the second-order term of a mean value form, less what :func:`bent` gives.
 
     Of all columns but the two spans the sums of their moduli are taken.
@@ -75,26 +75,26 @@ def remainder(columns: list[list[Any]], squares: Squares) -> Any:
     return total.upper()
 
 
-def _bent(columns: list[list[Any]], squares: dict[tuple[int, int], Any]) -> list[Any]:
+def _bent(columns: list[list[arb]], squares: dict[tuple[int, int], Any]) -> list[arb]:
     one, other = columns[:2]
     return [_applied(squares, one, one) / 2, _applied(squares, one, other), _applied(squares, other, other) / 2]
 
 
-def _applied(squares: dict[tuple[int, int], Any], one: list[Any], other: list[Any]) -> Any:
+def _applied(squares: dict[tuple[int, int], Any], one: list[arb], other: list[arb]) -> arb:
     total: Any = arb(0)
     for (m, n), value in squares.items():
         total = total + value * (one[m] * other[n] if m == n else one[m] * other[n] + one[n] * other[m])
     return total
 
 
-def _sum(numbers: Iterable[Any]) -> Any:
+def _sum(numbers: Iterable[Any]) -> arb:
     total: Any = arb(0)
     for number in numbers:
         total = total + abs(number)
     return total
 
 
-def _few(columns: list[list[Any]]) -> list[list[Any]]:
+def _few(columns: list[list[arb]]) -> list[list[arb]]:
     """The two spans of the cell, and one for each coordinate that holds all others."""
     size, found = len(columns[0]), columns[:2]
     for j in range(size):
@@ -117,7 +117,7 @@ class _Bends:
         How many derivatives by time are taken, the function itself counted.
     """
 
-    def __init__(self, departure: PatchDeparture, columns: list[list[Any]], time: MeanValueForm, orders: int) -> None:
+    def __init__(self, departure: PatchDeparture, columns: list[list[arb]], time: MeanValueForm, orders: int) -> None:
         held, patch = departure.held, departure.patch
         self.size, self.ell = len(patch.centre), held.radius_squared
         state = [MeanValueForm(x, [*(column[m] for column in columns), arb(0)]) for m, x in enumerate(patch.centre)]

@@ -63,7 +63,7 @@ class OrbitFact:
     stable: bool | None
     reason: str
     instability: str
-    period: Any
+    period: arb
     speed: Any
 
     @property
@@ -273,10 +273,10 @@ def inside(plain: OrbitCourse, along: Along, touch: Any = None, narrowest: float
     is allowed to touch the wall without radial speed.
     """
 
-    def narrow(time: Any, backward: bool) -> Any:
+    def narrow(time: arb, backward: bool) -> arb:
         return along(lambda course: course.height(arb_series([time]), backward)[0])
 
-    def height(time: Any, backward: bool) -> Any:
+    def height(time: arb | arb_series, backward: bool) -> Any:
         return plain.height(time, backward)[0]
 
     return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch, narrowest)

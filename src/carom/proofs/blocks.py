@@ -36,21 +36,21 @@ class Block:
     """
 
     line: Line
-    low: Any
-    high: Any
+    low: arb
+    high: arb
 
     @cached_property
-    def ball(self) -> Any:
+    def ball(self) -> arb:
         """All its values."""
         return hull(self.low, self.high)
 
     @cached_property
-    def middle(self) -> Any:
+    def middle(self) -> arb:
         """Exact value in the middle."""
         return self.ball.mid()
 
     @cached_property
-    def off(self) -> Any:
+    def off(self) -> arb:
         """Distance from the middle."""
         return self.ball - self.middle
 
@@ -64,7 +64,7 @@ class Block:
         """Numbers in its middle."""
         return self.line.at(self.middle)
 
-    def moving(self, about: Any) -> LineNumbers:
+    def moving(self, about: arb) -> LineNumbers:
         """Numbers as power series of the parameter about a ball."""
         return self.line.at(arb_series([about, 1]))
 
@@ -85,7 +85,7 @@ class Slopes(NamedTuple):
     rate: Any
 
 
-def slopes_on(block: Block, period: Any) -> Slopes | None:
+def slopes_on(block: Block, period: arb) -> Slopes | None:
     """Motion of roots of the period condition in a range of periods; ``None`` where they may be double."""
     rate, push, (along, across, mixed) = _rates(block, period)
     if not rate.is_finite() or rate.contains(0):
@@ -100,7 +100,7 @@ def _bounded(slopes: Slopes | None) -> Slopes:
     return slopes
 
 
-def _rates(block: Block, period: Any) -> tuple[Any, Any, tuple[Any, Any, Any]]:
+def _rates(block: Block, period: arb) -> tuple[arb, arb, tuple[arb, arb, arb]]:
     """First derivatives of the period condition by period and parameter, and ½F_TT, ½F_pp and F_Tp."""
     condition, middle = period_condition(block.whole, period), period.mid()
     with terms(3):
@@ -119,7 +119,7 @@ def _rates(block: Block, period: Any) -> tuple[Any, Any, tuple[Any, Any, Any]]:
     )
 
 
-def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) -> tuple[Any, Any, Any]:
+def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) -> tuple[arb, arb, arb]:
     """Value, slope and half of the second derivative of a function on a block.
 
     It is one of something known as series of two terms in the middle, and of three on the block.
@@ -179,11 +179,11 @@ class BlockBranch:
             self.near = Return(block.moving(block.middle), arb_series([central, at_centre.slope]))
         self.plain = Return(block.whole, period)
 
-    def along(self, function: Callable[[Return], Any]) -> Any:
+    def along(self, function: Callable[[Return], Any]) -> arb:
         """Enclosure of a function of the returns on the block."""
         return enclosed(self.block, self.near, self.far, function)[0]
 
-    def _root_at_centre(self, low: float, high: float) -> Any:
+    def _root_at_centre(self, low: float, high: float) -> arb:
         """The root in the middle of the block, by bisection and by interval Newton steps."""
         numbers, period = self.block.centre, hull(low, high)
         condition = period_condition(numbers, period)
@@ -204,7 +204,7 @@ class BlockBranch:
             period = narrow
         return period
 
-    def _wider(self, central: Any, low: float, high: float) -> Any:
+    def _wider(self, central: arb, low: float, high: float) -> arb:
         """Periods between which the root stays on the block, by signs of the condition."""
         block, middle = self.block, central.mid()
         start = slopes_on(Block(block.line, block.middle, block.middle), central)
@@ -226,7 +226,7 @@ class BlockBranch:
         return hull(*ends)
 
 
-def value_on(block: Block, period: Any) -> Any:
+def value_on(block: Block, period: arb) -> arb:
     """The period condition at one period, on all of a block."""
     condition = period_condition(block.whole, period)
     near, far = block.moving(block.middle), block.moving(block.ball)
@@ -261,6 +261,6 @@ class BlockOrbitBranch:
             self.far = OrbitCourse(branch.far, arb_series(list(found)))
         self.plain = OrbitCourse(branch.plain, self.speed)
 
-    def along(self, function: Callable[[OrbitCourse], Any]) -> Any:
+    def along(self, function: Callable[[OrbitCourse], Any]) -> arb:
         """Enclosure of a function of the orbit on the block."""
         return enclosed(self.branch.block, self.near, self.far, function)[0]

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from flint import acb, arb
+from flint import acb, arb, arb_series
 
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants
@@ -20,7 +20,7 @@ _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
 
 
-def period_condition(whole: LineNumbers, period: Any) -> Callable[[LineNumbers, Any], Any]:
+def period_condition(whole: LineNumbers, period: arb) -> Callable[[LineNumbers, Any], Any]:
     """A function of numbers and period that has the zeros of ``F₁`` and its signs, suited to a range of periods.
 
     At short periods it is ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
@@ -29,19 +29,19 @@ def period_condition(whole: LineNumbers, period: Any) -> Callable[[LineNumbers, 
     return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else entire_condition
 
 
-def _short_condition(n: LineNumbers, period: Any) -> Any:
+def _short_condition(n: LineNumbers, period: arb | arb_series) -> Any:
     found = short_return(n.half, n.split, period)
     return period * arb.nan() if found is None else 1 + real(n.q * found[1])
 
 
-def entire_condition(n: LineNumbers, period: Any) -> Any:
+def entire_condition(n: LineNumbers, period: arb | arb_series) -> Any:
     """``|det(1 − e^{MT})|²F₁``."""
     numerator, gap = numerator_and_gap(n, period)
     other = gap + n.q * numerator
     return real(other) * real(gap) + imaginary(other) * imaginary(gap)
 
 
-def numerator_and_gap(n: LineNumbers, period: Any) -> tuple[Any, Any]:
+def numerator_and_gap(n: LineNumbers, period: arb | arb_series) -> tuple[Any, Any]:
     """``a₂₂ det(1 − e^{MT})`` and ``det(1 − e^{MT})``."""
     even, odd, growth = n.flight(period)
     decay = growth * growth
@@ -167,7 +167,7 @@ class OrbitCourse:
         """Slip velocity just after the impact."""
         return self.back.numbers.radius_ratio + 1 + imaginary(self.leaving) * self.speed
 
-    def height(self, time: Any, backward: bool = False) -> tuple[Any, Any]:
+    def height(self, time: arb | arb_series, backward: bool = False) -> tuple[Any, Any]:
         """``(|U|² − 1)/ṙ`` and half of its rate, which are regular where the orbit shrinks to a point.
 
         The time is that after the impact, or with ``backward`` the negative time before the next one.  Then it starts from the

@@ -95,7 +95,7 @@ def _shocks(text: str, hypotheses: Hypotheses) -> Scale:
         read_size(field, part.strip(), hypotheses, text) for field, part in zip((_PEAK, _TIME), parts, strict=True)
     )
 
-    def duration() -> Any:
+    def duration() -> arb:
         return ball_of(lasts) * unit_of(hypotheses, "speed")
 
     return Scale(

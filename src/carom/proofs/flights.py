@@ -66,7 +66,7 @@ def _peak(height: Height, near: float, period: float) -> float:
     return time
 
 
-def _touches(height: Height, cell: tuple[float, float], backward: bool, touch: Any) -> bool:
+def _touches(height: Height, cell: tuple[float, float], backward: bool, touch: arb) -> bool:
     """Whether the height is concave from a cell of times to a time at which it vanishes with its rate."""
     time = hull(hull(*cell), touch)
     if not time.rad() < 0.5:
@@ -75,7 +75,7 @@ def _touches(height: Height, cell: tuple[float, float], backward: bool, touch: A
         return bool(height(arb_series([-time if backward else time, 1]), backward)[2] < 0)
 
 
-def _below(height: Height, narrow: Height, fall: Any, cell: tuple[float, float], backward: bool) -> bool:
+def _below(height: Height, narrow: Height, fall: arb, cell: tuple[float, float], backward: bool) -> bool:
     """Whether the height is negative on a cell of times; at time zero itself it vanishes."""
     low, high = cell
     sign = -1 if backward else 1

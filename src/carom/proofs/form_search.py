@@ -149,7 +149,7 @@ def _listed(forms: Form, chosen: Sequence[int]) -> Listed:
     return [[str(Fraction(round(float(values[place]) * _FINE), _FINE)) for values in forms] for place in chosen]
 
 
-def search(wall: Surface, speed: Any) -> list[Any] | None:
+def search(wall: Surface, speed: arb) -> list[Any] | None:
     """A share of a speed up to which all states return, the traps, and the forms that bound what arrives; ``None`` if none is found.
 
     Parameters are balls.
@@ -177,7 +177,7 @@ def _largest_share(candidates: Candidates, largest: float) -> Fraction:
     return low
 
 
-def shown(wall: Surface, speed: Any, traps: Any, limits: Any) -> bool:
+def shown(wall: Surface, speed: arb, traps: Any, limits: Any) -> bool:
     """Whether forms, as in evidence, show that all states up to a speed return."""
     trapping = traps_of(wall, read_forms(traps))
     arriving = limits_of(wall, speed, read_forms(limits))

@@ -152,13 +152,13 @@ def energy(wall: Surface) -> Form:
     return Form(arb(0), arb(0), wall.omega_squared, arb(1), arb(0))
 
 
-def angles(parts: int = PARTS) -> list[tuple[Any, Any]]:
+def angles(parts: int = PARTS) -> list[tuple[arb, arb]]:
     """Sines and cosines of the parts of a turn, as balls."""
     width = arb.pi() / parts
     return [(width * (2 * k + arb(0, 1))).sin_cos() for k in range(parts)]
 
 
-def level(form: Form, wall: Surface, turns: list[tuple[Any, Any]]) -> Any:
+def level(form: Form, wall: Surface, turns: list[tuple[arb, arb]]) -> arb:
     """A level ``C`` that contact does not let a form leave, as a ball without radius."""
     bounds = []
     for sine, cosine in turns:
@@ -181,7 +181,7 @@ def returns(form: Form, wall: Surface) -> bool:
     return bool(form.shift == 1)
 
 
-def highest(form: Form, wall: Surface, speed: Any, turns: list[tuple[Any, Any]]) -> Any:
+def highest(form: Form, wall: Surface, speed: arb, turns: list[tuple[arb, arb]]) -> arb:
     """A bound of a form over all states ``|z| ≤ 1``, ``|ż| ≤ speed``.
 
     The form is convex in ``(z, ż)``, so its largest value is at ``|z| = 1`` and ``|ż| = speed``, at most ``(speed + |v₀|)² + (k − |g|²)|1 − σΛ|²``.

@@ -28,7 +28,7 @@ class Bounded:
     """A form with a number: a trap ``Q ≤ bound``, or a bound of what arrives."""
 
     form: Form
-    bound: Any
+    bound: arb
 
 
 def read_forms(listed: Any) -> list[Form]:
@@ -49,7 +49,7 @@ def traps_of(wall: Surface, forms: Sequence[Form]) -> list[Bounded] | None:
     return traps or None
 
 
-def limits_of(wall: Surface, speed: Any, forms: Sequence[Form]) -> list[Bounded] | None:
+def limits_of(wall: Surface, speed: arb, forms: Sequence[Form]) -> list[Bounded] | None:
     """Bounds of what arrives, that of energy first; ``None`` if a form may rise in flight beyond its core."""
     turns, first = angles(), energy(wall)
     if not all(0 <= form.shift <= 1 and form.falls(wall) for form in forms):
@@ -61,7 +61,7 @@ def limits_of(wall: Surface, speed: Any, forms: Sequence[Form]) -> list[Bounded]
     return limits
 
 
-def _fastest(wall: Surface, energy: Bounded) -> Any:
+def _fastest(wall: Surface, energy: Bounded) -> arb:
     """Largest speed at the wall by energy: ``|v − iΛ|² ≤ sup Q − ω²(1 − ℓ)²``."""
     room = 1 - wall.radius
     return (wall.radius + (energy.bound - wall.omega_squared * room * room).max(arb(0)).sqrt()).upper()
@@ -104,7 +104,7 @@ def all_trapped(wall: Surface, limits: Sequence[Bounded], traps: Sequence[Bounde
 class _Cover:
     """What decides boxes of states that arrive."""
 
-    def __init__(self, wall: Surface, fastest: Any, limits: Sequence[Bounded], traps: Sequence[Bounded]) -> None:
+    def __init__(self, wall: Surface, fastest: arb, limits: Sequence[Bounded], traps: Sequence[Bounded]) -> None:
         self._wall, self._fastest, self._speed = wall, fastest, float(fastest)
         self._limits, self._traps = limits, traps
         self._arriving, self._trapping = _Plain(wall, limits), _Plain(wall, traps)
@@ -138,5 +138,5 @@ class _Cover:
         return tuple(one), tuple(other)  # type: ignore[return-value]
 
 
-def _ball(begin: float, width: float) -> Any:
+def _ball(begin: float, width: float) -> arb:
     return arb(begin).union(arb(begin + width))

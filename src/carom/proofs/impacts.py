@@ -81,7 +81,7 @@ def after_brush(departure: PatchDeparture, brush: Brush) -> Patch:
     return _reset(departure, [brush.fastest / 2, *centre[1:]], columns, drift)
 
 
-def _crossing(departure: PatchDeparture, window: Any) -> Any:
+def _crossing(departure: PatchDeparture, window: arb) -> arb:
     """Time at which the flight of the centre crosses, by one step of Newton's method on an interval."""
     guess = float(window.mid())
     for _ in range(8):
@@ -95,7 +95,7 @@ def _crossing(departure: PatchDeparture, window: Any) -> Any:
     return (arb(guess) - (dot(z, z) - 1) / slope).intersection(window)
 
 
-def _at_wall(departure: PatchDeparture, moment: Moment, time: Any) -> list[Any]:
+def _at_wall(departure: PatchDeparture, moment: Moment, time: arb) -> list[arb]:
     """``a``, ``b`` and ``ψ`` of the flight of the centre."""
     z, dz = moment.centre(0), moment.centre(1)
     # Away from the cut of the argument on the negative axis.
@@ -103,7 +103,7 @@ def _at_wall(departure: PatchDeparture, moment: Moment, time: Any) -> list[Any]:
     return [dot(z, dz), cross(z, dz), departure.patch.centre[-1] + time - angle]
 
 
-def _reset(departure: PatchDeparture, centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
+def _reset(departure: PatchDeparture, centre: list[arb], columns: Columns, drift: list[arb]) -> Patch:
     """Patch after the impact of states ``a, b, ψ`` before it."""
     held = departure.held
     wide = [x + spread([column[j] for column in columns]) + drift[j] for j, x in enumerate(centre)]
@@ -113,7 +113,7 @@ def _reset(departure: PatchDeparture, centre: list[Any], columns: Columns, drift
     kept = slip - slip.min(most).max(-most)
     start = [-middle.d * centre[0], kept - middle.radius_ratio, centre[2]]
 
-    def through(x: list[Any]) -> list[Any]:
+    def through(x: list[arb]) -> list[arb]:
         return [-held.numbers.d * x[0], (1 - stops) * x[1] - goes * held.grip * x[0], x[2]]
 
     after = [through(column) for column in columns]
@@ -124,7 +124,7 @@ def _reset(departure: PatchDeparture, centre: list[Any], columns: Columns, drift
     return patch_of(start, after, through(drift), FORM + len(held.sides))
 
 
-def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
+def _slip_slopes(slip: arb, grip: arb) -> tuple[arb, arb]:
     """Slopes of ``clip`` by the slip and by what friction can take of it."""
     if slip > grip:
         return arb(0), arb(1)
@@ -135,7 +135,7 @@ def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
     return hull(0, 1), UNIT
 
 
-def patch_of(centre: list[Any], columns: Columns, drift: list[Any], first: int) -> Patch:
+def patch_of(centre: list[arb], columns: Columns, drift: list[arb], first: int) -> Patch:
     """Patch with exact numbers that holds all states of mean value forms; the first columns keep their places, small ones are taken together."""
     kept, small = columns[:first], sorted(columns[first:], key=lambda column: -_length(column))
     kept, small = kept + small[: MOST_SPANS - first], small[MOST_SPANS - first :]
@@ -151,5 +151,5 @@ def patch_of(centre: list[Any], columns: Columns, drift: list[Any], first: int) 
     return Patch([x.mid() for x in centre], [[x.mid() for x in column] for column in kept], rest)
 
 
-def _length(column: list[Any]) -> float:
+def _length(column: list[arb]) -> float:
     return sum(abs(float(x.mid())) for x in column)

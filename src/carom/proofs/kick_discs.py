@@ -108,7 +108,7 @@ class KickDisc:
         """Its largest size in the SI unit, or dimensionless: a rational number, times π to a power."""
         return self.scale.largest.low, self.scale.largest.turns
 
-    def size(self, share: Fraction) -> Any:
+    def size(self, share: Fraction) -> arb:
         """Ball of a share of the largest size, dimensionless."""
         return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] * self.scale.one()
 
@@ -241,7 +241,7 @@ class BoxPart:
     """
 
     held: Held
-    reaches: tuple[Any, Any]
+    reaches: tuple[arb, arb]
     moves: list[Any]
     phase: float
 

@@ -19,7 +19,7 @@ _WIDTHS = (8, 12, 16, 20, 26, 32, 40, 50, 64, 80, 100)
 """Widths of the boxes that are tried: these powers of 1/2, relative to the unknowns."""
 
 
-def derivatives(system: System, box: Sequence[Any]) -> tuple[list[Any], Any]:
+def derivatives(system: System, box: Sequence[Any]) -> tuple[list[arb], arb_mat]:
     """Values of a system on a box and its Jacobian, an ``arb_mat``."""
     columns, values = [], []
     with terms(2):
@@ -31,7 +31,7 @@ def derivatives(system: System, box: Sequence[Any]) -> tuple[list[Any], Any]:
     return values, arb_mat([[column[row] for column in columns] for row in range(len(values))])
 
 
-def newton(system: System, guess: Sequence[Any]) -> list[Any] | None:
+def newton(system: System, guess: Sequence[Any]) -> list[arb] | None:
     """Zero near a guess by Newton's method, not proven; ``None`` if the method fails."""
     place = [arb(x).mid() for x in guess]
     for _ in range(STEPS):
@@ -48,7 +48,7 @@ def newton(system: System, guess: Sequence[Any]) -> list[Any] | None:
     return None
 
 
-def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = None) -> tuple[list[Any], int] | None:
+def enclosed_zero(system: System, centre: Sequence[arb], width: int | None = None) -> tuple[list[arb], int] | None:
     """Balls that contain a zero of a system, which is the only one in a wider box, and the width of that box.
 
     The operator ``K(X) = c − Y f(c) + (1 − Y f'(X))(X − c)`` maps a box into its interior only if the box has exactly one
@@ -62,7 +62,7 @@ def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = Non
         return None
     shift = inverse * arb_mat([[value] for value in values])
 
-    def image(box: list[Any]) -> list[Any] | None:
+    def image(box: list[arb]) -> list[arb] | None:
         try:
             _, slopes = derivatives(system, box)
         except (ValueError, ZeroDivisionError):
@@ -91,7 +91,7 @@ def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = Non
     return None
 
 
-def box_around(centre: Sequence[Any], width: int) -> list[Any]:
+def box_around(centre: Sequence[arb], width: int) -> list[arb]:
     """The box ``2**-width`` wide around a centre, relative to that, in which a zero is unique."""
     return [c + arb(0, (arb(2) ** -width * (abs(c) + 2**-10)).upper()) for c in centre]
 
@@ -111,7 +111,7 @@ def found_zero(system: System, guess: Sequence[Any]) -> tuple[dict[str, Any], li
     return {"centre": [str(exact_ends(x)[0]) for x in centre], "width": found[1]}, found[0]
 
 
-def shown_zero(system: System, evidence: Mapping[str, Any]) -> list[Any] | None:
+def shown_zero(system: System, evidence: Mapping[str, Any]) -> list[arb] | None:
     """Balls that contain the zero of such evidence; ``None`` if it shows none."""
     centre = [rational(rational_of(text)).mid() for text in evidence["centre"]]
     found = enclosed_zero(system, centre, int(evidence["width"]))

@@ -110,7 +110,7 @@ def _clear(held: _Linear, clear: list[int]) -> Claim:
     )
 
 
-def _sizes(kicks: list[Any], steps: list[Any], options: Mapping[str, Any], held: _Linear) -> list[Claim]:
+def _sizes(kicks: list[arb], steps: list[arb], options: Mapping[str, Any], held: _Linear) -> list[Claim]:
     """Claims about kicks and steps that never touch."""
     speed, change, asked = _least(kicks), _least(steps), options["kicks_up_to"]
     below = " nor asks its magnetic bearings for more than a limit" if len(held.rows) > held.bearings else ""
@@ -143,7 +143,7 @@ def _sizes(kicks: list[Any], steps: list[Any], options: Mapping[str, Any], held:
     return claims
 
 
-def _least(sizes: list[Any]) -> Any:
+def _least(sizes: list[arb]) -> arb:
     return arb(reduce(lambda one, other: one.min(other), sizes).lower())
 
 
@@ -195,7 +195,7 @@ def _linear(stated: StatedEquations) -> _Linear:
     )
 
 
-def _state(coordinates: Any, rates: np.ndarray) -> Any:
+def _state(coordinates: acb_mat, rates: np.ndarray) -> acb_mat:
     return acb_mat([[entry] for entry in coordinates.entries()] + [[entry] for entry in rates.tolist()])
 
 
@@ -203,7 +203,7 @@ def _parts(answer: Any, has_mass: np.ndarray, n: int, double: bool) -> tuple[Any
     """States of a whirl at time zero: what turns with ``e^{it}``, and with ``e^{−it}`` where ``(z, z̄)`` are the coordinates."""
     entries, unit = answer.entries(), acb(0, 1)
 
-    def with_rates(values: list[Any], turn: Any) -> Any:
+    def with_rates(values: list[acb], turn: acb) -> acb_mat:
         return acb_mat([[each] for each in values] + [[turn * values[place]] for place in np.flatnonzero(has_mass)])
 
     ahead = with_rates(entries, unit)
@@ -213,7 +213,7 @@ def _parts(answer: Any, has_mass: np.ndarray, n: int, double: bool) -> tuple[Any
     return ahead, with_rates(back, -unit)
 
 
-def _size(matrix: Any) -> Any:
+def _size(matrix: acb_mat) -> arb:
     """Euclidean size of a row or a column."""
     total = arb(0)
     for entry in matrix.entries():
@@ -221,7 +221,7 @@ def _size(matrix: Any) -> Any:
     return total.sqrt()
 
 
-def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, has_mass: np.ndarray) -> Any:
+def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, has_mass: np.ndarray) -> acb_mat:
     """Rates of the states per state."""
     n, count = len(mass), int(has_mass.sum())
     own, others = np.ix_(has_mass, has_mass), np.ix_(~has_mass, ~has_mass)
@@ -240,7 +240,7 @@ def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, has
     return acb_mat(rates + [[-entry for entry in row] for row in pushed.tolist()])
 
 
-def _middles(matrix: Any) -> np.ndarray:
+def _middles(matrix: acb_mat) -> np.ndarray:
     return np.array([[complex(entry.mid()) for entry in row] for row in matrix.tolist()])
 
 
@@ -256,7 +256,7 @@ def _forms(held: _Linear) -> list[np.ndarray]:
     return found
 
 
-def _shown(held: _Linear, form: np.ndarray, place: int) -> tuple[Any, Any] | None:
+def _shown(held: _Linear, form: np.ndarray, place: int) -> tuple[arb, arb] | None:
     """Sizes of kicks and of steps of the unbalance below which a wall is never reached; ``None`` if the form is not shown to decay."""
     count = held.generator.nrows()
     if form.shape != (count, count):
@@ -276,7 +276,7 @@ def _shown(held: _Linear, form: np.ndarray, place: int) -> tuple[Any, Any] | Non
             return None
     gain, room = _size(held.rows[place] * back), held.rooms[place]
 
-    def grown(parts: tuple[Any, ...]) -> Any:
+    def grown(parts: tuple[acb_mat, ...]) -> arb:
         return gain * sum((_size(given * part) for part in parts), arb(0))
 
     moved = sum((_size(held.rows[place] * part) for part in held.steps), arb(0))

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import arb_series
+from flint import acb, acb_series, arb, arb_series
 
 from carom.base.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERM_FIELDS, TERMS, Field
@@ -57,17 +57,17 @@ class LineNumbers(NamedTuple):
         return (1 + self.d) * (1 + self.mu * I)
 
     @property
-    def levitation(self) -> Any:
+    def levitation(self) -> arb:
         """``|U*|``, for balls."""
         return self.rho / abs(self.product)
 
-    def flight(self, time: Any) -> tuple[Any, Any, Any]:
+    def flight(self, time: arb | arb_series) -> tuple[Any, Any, Any]:
         """``e``, ``o`` and ``e^{St/2}`` at a time."""
         even, odd = hyperbolic(self.split, time)
         growth = (self.half * time).exp()
         return even * growth, odd * growth, growth
 
-    def fly(self, away: Any, velocity: Any, time: Any) -> tuple[Any, Any]:
+    def fly(self, away: acb | acb_series, velocity: acb | acb_series, time: arb | arb_series) -> tuple[Any, Any]:
         """Distance from the contact-free equilibrium, and velocity, after a time."""
         even, odd, _ = self.flight(time)
         share = odd * self.half
@@ -157,7 +157,7 @@ class Line:
         return low, stop.high if not stop.turns else exact_ends(ball_of(stop))[1]
 
     @property
-    def ball(self) -> Any:
+    def ball(self) -> arb:
         """Ball of all values."""
         return interval(*self.ends)
 
@@ -166,11 +166,11 @@ class Line:
         """The interval in words."""
         return f"{self.start} <= {self.name} <= {self.stop}"
 
-    def at(self, value: Any) -> LineNumbers:
+    def at(self, value: arb | arb_series) -> LineNumbers:
         """Numbers at a value of the parameter: a ball or a power series."""
         return self._machines.at({self.name: value})
 
-    def table(self, value: Any) -> dict[str, Any]:
+    def table(self, value: arb) -> dict[str, Any]:
         """The machine's table in SI units at a value of the parameter; that of the file for a dimensionless one."""
         return self._machines.table({} if self.name in DIMENSIONLESS_FIELDS else {self.name: value})
 

@@ -72,7 +72,7 @@ class MeanValueForm:
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def through(self, at: Any, every: Any, slope: Any) -> MeanValueForm:
+    def through(self, at: arb, every: arb, slope: arb) -> MeanValueForm:
         """A function of it, by its value at the centre, its values and its slopes."""
         return MeanValueForm(at, [x * slope for x in self.by], every)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from flint import arb
+from flint import acb, arb
 
 if TYPE_CHECKING:
     from carom.proofs.patches import PatchDeparture
@@ -33,7 +33,7 @@ class Moment:
     ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
     """
 
-    def __init__(self, departure: PatchDeparture, time: Any) -> None:
+    def __init__(self, departure: PatchDeparture, time: arb) -> None:
         self.departure, self.time = departure, time
         self.waves = departure.held.waves(time, departure.from_wall)
 
@@ -48,37 +48,37 @@ class Moment:
         held = self.departure.held
         return self.waves if held.middle is held else held.middle.waves(self.time, self.departure.from_wall)
 
-    def centre(self, order: int) -> Any:
+    def centre(self, order: int) -> acb:
         """Place (0) or rate (1) on the flight of the centre."""
         d, wave = self.departure, self._middle[order]
         return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
 
     @cached_property
-    def _p(self) -> list[Any]:
+    def _p(self) -> list[acb]:
         return [wave[0] + self.departure.wide_velocity * wave[1] for wave in self.waves]
 
     @cached_property
-    def _q(self) -> list[Any]:
+    def _q(self) -> list[acb]:
         return [self.departure.wide_levitation * wave[2] for wave in self.waves]
 
     @cached_property
-    def wide(self) -> list[Any]:
+    def wide(self) -> list[acb]:
         """``z``, ``ż`` and ``z̈`` of all flights."""
         return [p + q for p, q in zip(self._p, self._q, strict=True)]
 
-    def _products(self, one: int, other: int) -> Any:
+    def _products(self, one: int, other: int) -> arb:
         """``Re(z̄ w)`` of two of them."""
         (p, q), (u, w) = ((self._p[j], self._q[j]) for j in (one, other))
         turning = dot(self.waves[one][2], self.waves[other][2])
         return dot(p, u) + dot(p, w) + dot(q, u) + self.departure.held.radius_squared * turning
 
     @cached_property
-    def slope(self) -> Any:
+    def slope(self) -> arb:
         """``Re(z̄ż)`` on all flights, as wide as the patch and the times are."""
         return self._products(0, 1)
 
     @cached_property
-    def _moved(self) -> list[tuple[Any, Any, Any]]:
+    def _moved(self) -> list[tuple[acb, acb, arb]]:
         """``z`` and its rate differentiated along the columns, but for the turn of ``Λ`` along them, which comes third."""
         h, dh = self.waves.place[1], self.waves.rate[1]
         found = [(v * h, v * dh, turn) for v, turn in self.departure.columns]
@@ -98,43 +98,43 @@ class Moment:
             )
 
     @cached_property
-    def height_along(self) -> list[Any]:
+    def height_along(self) -> list[arb]:
         """``|z|²/2`` differentiated along the columns."""
         z, turned = self.wide[0], cross(self._p[0], self._q[0])
         return [dot(z, along) - turned * turn for along, _, turn in self._moved]
 
     @cached_property
-    def height(self) -> Any:
+    def height(self) -> arb:
         """``|z|²`` of all flights, a mean value form."""
         z = self.centre(0)
         return dot(z, z) + spread(self.height_along) * 2
 
     @cached_property
-    def rise_along(self) -> list[Any]:
+    def rise_along(self) -> list[arb]:
         """``Re(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
         turned = cross(p, dq) + cross(dp, q)
         return [dot(dz, along) + dot(z, rate) - turned * turn for along, rate, turn in self._moved]
 
     @cached_property
-    def rise(self) -> Any:
+    def rise(self) -> arb:
         """The rate of ``|z|²`` on all flights, a mean value form."""
         centre = dot(self.centre(0), self.centre(1))
         return (centre + spread(self.rise_along)) * 2
 
     @cached_property
-    def curve(self) -> Any:
+    def curve(self) -> arb:
         """The second derivative of ``|z|²`` on all flights."""
         return (self._products(1, 1) + self._products(0, 2)) * 2
 
     @cached_property
-    def twist_along(self) -> list[Any]:
+    def twist_along(self) -> list[arb]:
         """``Im(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
         turned = dot(p, dq) - dot(dp, q)
         return [cross(along, dz) + cross(z, rate) + turned * turn for along, rate, turn in self._moved]
 
-    def angle_along(self, square: Any) -> list[Any]:
+    def angle_along(self, square: arb) -> list[arb]:
         """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
         z, turned = self.wide[0], dot(self.wide[0], self._p[0])
         return [(turned * turn - cross(z, along)) / square for along, _, turn in self._moved]
@@ -150,7 +150,7 @@ def cross(one: Any, other: Any) -> Any:
     return one.real * other.imag - one.imag * other.real
 
 
-def spread(columns: list[Any]) -> Any:
+def spread(columns: list[arb]) -> arb:
     """All sums of numbers of the columns, each with a factor from −1 to 1."""
     total: Any = arb(0)
     for column in columns:

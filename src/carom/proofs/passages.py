@@ -100,7 +100,7 @@ class Brush:
     begin: float
     last: float
     end: float
-    fastest: Any
+    fastest: arb
     touches: bool
     misses: bool
 

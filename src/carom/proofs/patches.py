@@ -22,7 +22,6 @@ import cmath
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from flint import acb, arb
 
@@ -80,7 +79,7 @@ class Held:
         self.plain = PlainRotor.of(numbers.gamma, numbers.omega_squared, self.radius)
         self._ends = [self.plain.ends(side) for side in sides]
 
-    def responses(self, time: Any) -> tuple[Response, Response]:
+    def responses(self, time: arb) -> tuple[Response, Response]:
         """``h₀`` and ``h₁``."""
         n = self.numbers
         even, odd = hyperbolic(self.split, time)
@@ -105,7 +104,7 @@ class Held:
         """The response to the disturbance when motion becomes free."""
         return self.start.last(self)
 
-    def waves(self, time: Any, from_wall: bool) -> Waves:
+    def waves(self, time: arb, from_wall: bool) -> Waves:
         """Waves of flights from the wall or from levitation."""
         sine, cosine = time.sin_cos()
         turn, way = acb(cosine, sine), acb(-sine, cosine)
@@ -115,7 +114,7 @@ class Held:
         (c, dc, d2c), (h, dh, d2h) = self.responses(time)
         return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
 
-    def waves_by(self, time: Any, from_wall: bool) -> list[tuple[Wave, Wave]]:
+    def waves_by(self, time: arb, from_wall: bool) -> list[tuple[Wave, Wave]]:
         """``c``, ``h₁`` and ``k`` and their rates, differentiated by each parameter of the box."""
         found = []
         for c, h, dc, dh in responses_by(self.numbers, self.sides, time) if self.sides else []:
@@ -160,9 +159,9 @@ class Patch:
         Exact half widths of the coordinates.
     """
 
-    centre: list[Any]
-    spans: list[list[Any]]
-    rest: list[Any]
+    centre: list[arb]
+    spans: list[list[arb]]
+    rest: list[arb]
 
     @property
     def from_wall(self) -> bool:
@@ -170,7 +169,7 @@ class Patch:
         return len(self.centre) > 2
 
     @cached_property
-    def box(self) -> list[Any]:
+    def box(self) -> list[arb]:
         """Balls of the coordinates."""
         sizes = list(self.rest)
         for span in self.spans:
@@ -178,7 +177,7 @@ class Patch:
         return [x + UNIT * size for x, size in zip(self.centre, sizes, strict=True)]
 
     @cached_property
-    def directions(self) -> list[list[Any]]:
+    def directions(self) -> list[list[arb]]:
         """The spans, where only the first two are given with those of second order, and one for each coordinate whose rest is not zero."""
         size = len(self.rest)
         straight = [[arb(0)] * size] * (FORM - len(self.spans))
@@ -224,19 +223,19 @@ class PatchDeparture:
     # -------------------------------------------------------------------------------------- balls
 
     @property
-    def busy(self) -> Any:
+    def busy(self) -> arb:
         """Time from which motion is free."""
         return arb(0) if self.from_wall else self.held.start.lasts
 
     @property
-    def deviation(self) -> tuple[Any, Any]:
+    def deviation(self) -> tuple[acb, acb]:
         """Place and velocity from levitation, of all states, when motion becomes free."""
         if self.from_wall:
             return 1 - self.wide_levitation, self.wide_velocity - self.wide_levitation * I
         place, rate, _ = self.held.released
         return self.wide_velocity * place, self.wide_velocity * rate
 
-    def at(self, time: Any) -> Moment:
+    def at(self, time: arb) -> Moment:
         """The flights at a time, as mean value forms."""
         return Moment(self, time)
 
@@ -277,16 +276,16 @@ class PatchDeparture:
         return (*sizes[:2], *sizes[FORM : FORM + len(self.held.sides)])
 
 
-def _speed(coordinates: list[Any]) -> Any:
+def _speed(coordinates: list[arb]) -> acb:
     """Velocity of coordinates, or of changes of them."""
     return acb(coordinates[0], coordinates[1] if len(coordinates) > 2 else 0)
 
 
-def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
+def _parts(held: Held, coordinates: list[arb]) -> tuple[acb, acb]:
     return _speed(coordinates), _turn(coordinates) * held.radius
 
 
-def _turn(coordinates: list[Any]) -> Any:
+def _turn(coordinates: list[arb]) -> acb:
     """Direction of ``Λ``."""
     sine, cosine = coordinates[-1].sin_cos()
     return acb(cosine, sine)

@@ -18,9 +18,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, floor
-from typing import Any
 
-from flint import acb, arb_series
+from flint import acb, arb, arb_series
 
 from carom.proofs.balls import exact_ends, interval
 from carom.proofs.cells import (
@@ -63,7 +62,7 @@ class Root:
     longer: bool
 
     @property
-    def ball(self) -> Any:
+    def ball(self) -> arb:
         """The period as a ball."""
         return interval(self.low, self.high)
 
@@ -102,7 +101,7 @@ def all_periods(rotor: ProvenRotor, evidence: Evidence, longest: Fraction | None
     """
     numbers = rotor.numbers
 
-    def series(time: Any, length: int) -> list[Any]:
+    def series(time: arb, length: int) -> list[arb]:
         with terms(length):
             found = entire_condition(numbers, arb_series([time, 1]))
             return [found[k] for k in range(length)]
@@ -142,7 +141,7 @@ def _text(number: Fraction | None) -> str | None:
 # ------------------------------------------------------------------------------------------------ beyond
 
 
-def slowest_decay(n: LineNumbers) -> Any:
+def slowest_decay(n: LineNumbers) -> arb:
     """Rate at which the slower mode of free motion decays."""
     split, half = n.split, n.gamma / 2
     root = split.nonnegative_part().sqrt()
@@ -150,7 +149,7 @@ def slowest_decay(n: LineNumbers) -> Any:
     return half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
 
 
-def none_beyond(n: LineNumbers, time: Any) -> bool:
+def none_beyond(n: LineNumbers, time: arb) -> bool:
     """Whether the decay keeps ``F₁`` above zero from a period on."""
     split, rate = n.split, slowest_decay(n)
     if not (n.gamma > 0 and rate * time >= 1):

@@ -237,7 +237,7 @@ class ProofPoint:
         return OrbitCourse(back, self.at["radial_speed"] if "radial_speed" in self.at else back.speeds()[faster])
 
     @cached_property
-    def rates(self) -> tuple[Any, Any]:
+    def rates(self) -> tuple[arb, arb]:
         """``T'`` and ``ṙ'`` along the branch; not finite at a fold."""
 
         def closing(period: Any, speed: Any, value: Any) -> tuple[Any, Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 from flint import arb
 
@@ -36,7 +35,7 @@ MOST_BOUNCES = 60
 """Impacts followed for one that ends in the rub."""
 
 
-def disturbed(size: tuple[Any, Any], angle: tuple[Any, Any]) -> Patch:
+def disturbed(size: tuple[arb, arb], angle: tuple[arb, arb]) -> Patch:
     """Patch of disturbances between two sizes and two angles from the direction in which the rotor levitates, as balls."""
     centre, spans = [], []
     for j, (low, high) in enumerate((size, angle)):
@@ -49,7 +48,7 @@ def disturbed(size: tuple[Any, Any], angle: tuple[Any, Any]) -> Patch:
 
 
 def disturbed_in_box(
-    share: tuple[Any, Any], angle: tuple[Any, Any], units: tuple[Any, Any], moves: Sequence[Any]
+    share: tuple[arb, arb], angle: tuple[arb, arb], units: tuple[arb, arb], moves: Sequence[arb]
 ) -> Patch:
     """The same for a box of rotors, the sizes as shares of a largest one.
 

@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import arb, ctx
+from flint import arb, arb_series, ctx
 
 from carom.proofs.balls import ball_of, enclosures_of
 from carom.proofs.claims import Claim, claim_of
@@ -44,12 +44,12 @@ class Invariants(NamedTuple):
         return cls(rows[0][0] + rows[1][1] + rows[2][2], minors, determinant)
 
     @property
-    def at_one(self) -> Any:
+    def at_one(self) -> arb:
         """Characteristic polynomial at 1: zero at a fold."""
         return 1 - self.trace + self.minors - self.determinant
 
     @property
-    def slope_at_one(self) -> Any:
+    def slope_at_one(self) -> arb_series:
         """``3 − 2τ + m``, the derivative of that polynomial at 1: positive if all multipliers are inside the unit circle."""
         return 3 - self.trace * 2 + self.minors
 
@@ -99,7 +99,7 @@ class ProvenRotor:
         given = self.hypotheses.rational("gamma", "omega_squared", "rho")
         return given is not None and given[2] ** 2 == (given[1] - 1) ** 2 + given[0] ** 2
 
-    def pole_in(self, period: Any) -> bool:
+    def pole_in(self, period: arb) -> bool:
         """Whether ``D`` is known to vanish once, inside a ball: at a resonance, without damping."""
         if self.hypotheses.rational("gamma") != (Fraction(0),):
             return False

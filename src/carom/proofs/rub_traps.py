@@ -63,11 +63,11 @@ class Bounces:
     """
 
     rub: Rub
-    reach: Any
+    reach: arb
     speed: Any
 
     @cached_property
-    def level(self) -> Any:
+    def level(self) -> arb:
         """``c``."""
         return self.rub.potential(self.reach).min(self.rub.potential(-self.reach))
 
@@ -87,12 +87,12 @@ class Bounces:
         return TrapBox(off, UNIT * slide, turning, rate, gap, radius, here, there, push)
 
     @property
-    def _least(self) -> Any:
+    def _least(self) -> arb:
         """``n₁``."""
         return arb(self.box.push.lower())
 
     @cached_property
-    def _gain(self) -> Any:
+    def _gain(self) -> arb:
         """By which share a bounce may gain in the square of its speed."""
         n, box = self.rub.numbers, self.box
         around = 1 + box.turning
@@ -103,32 +103,32 @@ class Bounces:
         return 4 * rise * ratio / self._least / 3 + 4 * bend * ratio**3 / 15
 
     @cached_property
-    def _rates(self) -> tuple[Any, Any]:
+    def _rates(self) -> tuple[arb, arb]:
         """``q'`` and ``y'``."""
         slide = self._still - self.box.rate * self._swing
         return slide, slide + self.rub.numbers.mu * self.box.push
 
     @cached_property
-    def _swing(self) -> Any:
+    def _swing(self) -> arb:
         """``E₁``."""
         mu, box = self.rub.numbers.mu, self.box
         return 2 * (1 + box.turning) / box.radius + mu * mu * (2 + box.slide + box.turning)
 
     @cached_property
-    def _pull(self) -> Any:
+    def _pull(self) -> arb:
         """``E₂``."""
         n, box = self.rub.numbers, self.box
         return n.mu * ((1 + box.turning) ** 2 - n.omega_squared) - box.across / box.radius
 
     @cached_property
-    def _still(self) -> Any:
+    def _still(self) -> arb:
         """``q'`` without its term by ``r'``."""
         n, box = self.rub.numbers, self.box
         slides = -(n.gamma + 2 * n.mu) * box.slide - n.mu * box.slide * box.slide - self.rub.torque(box.off)
         return slides + box.gap * self._pull
 
     @cached_property
-    def _growth(self) -> tuple[Any, Any, Any, Any]:
+    def _growth(self) -> tuple[arb, arb, arb, arb]:
         """``Φ``, ``C₀``, ``C₁`` and the rate of ``C₁``."""
         n, box, swing = self.rub.numbers, self.box, self._swing
         mu, radius, turning, slide, around = n.mu, box.radius, box.turning, box.slide, 1 + box.turning
@@ -158,7 +158,7 @@ class Bounces:
         return first, free, fast, fast_rate
 
     @cached_property
-    def rise(self) -> Any:
+    def rise(self) -> arb:
         """By how much ``V`` rises at most, from the first bounce on."""
         first, free, fast, fast_rate = self._growth
         least, v, fall = self._least, self.speed, (self.rub.numbers.d**2 * (1 + self._gain)).sqrt()
@@ -182,7 +182,7 @@ class Bounces:
             and box.turning.upper() < n.radius_ratio + 1
         )
 
-    def takes(self, off: Any, slide: Any) -> bool:
+    def takes(self, off: arb, slide: arb) -> bool:
         """Whether bounces that begin with ``δ`` and ``q`` in these balls stay in the region."""
         ends = [self.rub.potential(arb(end)) for end in (off.lower(), off.upper())]
         start = slide * slide * (2 * self.rub.numbers.mu * off).exp() / 2 + ends[0].max(ends[1])

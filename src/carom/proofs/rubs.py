@@ -11,7 +11,8 @@ Let ``T(A) > 0 > T(−A)`` with ``A ≤ π/2``, and ``c`` be the less of ``Π(±
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+
+from flint import arb
 
 from carom.proofs.lines import LineNumbers
 from carom.proofs.steady import rub_balance, rub_discriminant
@@ -22,8 +23,8 @@ class Rub:
     """The stable rub: numbers of the machine, its normal force ``N*`` and its stiffness ``K`` along the wall."""
 
     numbers: LineNumbers
-    force: Any
-    stiffness: Any
+    force: arb
+    stiffness: arb
 
     @classmethod
     def of(cls, n: LineNumbers) -> Rub:
@@ -36,21 +37,21 @@ class Rub:
         """Whether there is one that presses on the wall."""
         return bool(self.stiffness > 0 and self.force > 0)
 
-    def torque(self, off: Any) -> Any:
+    def torque(self, off: arb) -> arb:
         """``T(δ)``."""
         return self.stiffness * off.sin() - self._push * (off.cos() - 1)
 
-    def torque_slope(self, off: Any) -> Any:
+    def torque_slope(self, off: arb) -> arb:
         """``T'(δ)``."""
         return self.stiffness * off.cos() + self._push * off.sin()
 
     @property
-    def place(self) -> tuple[Any, Any]:
+    def place(self) -> tuple[arb, arb]:
         """``ρ cos x*`` and ``ρ sin x*``."""
         n = self.numbers
         return self.force - 1 + n.omega_squared, -n.gamma - n.mu * self.force
 
-    def potential(self, off: Any) -> Any:
+    def potential(self, off: arb) -> arb:
         """``Π(δ)``."""
         rate = 2 * self.numbers.mu
         growth, below = (rate * off).exp(), 1 + rate * rate
@@ -60,6 +61,6 @@ class Rub:
         return self.stiffness * sine - self._push * (cosine - whole)
 
     @property
-    def _push(self) -> Any:
+    def _push(self) -> arb:
         n = self.numbers
         return n.gamma + n.mu * (1 - n.omega_squared)

@@ -45,7 +45,7 @@ def real(x: Any) -> Any:
     return arb_series([c.real for c in x.coeffs()]) if isinstance(x, acb_series) else x
 
 
-def imaginary(x: Any) -> Any:
+def imaginary(x: acb | acb_series) -> Any:
     """Imaginary part of a complex number."""
     return x.imag if isinstance(x, acb) else arb_series([c.imag for c in x.coeffs()])
 
@@ -55,7 +55,7 @@ def conjugate(x: Any) -> Any:
     return x.conjugate() if isinstance(x, acb) else acb_series([c.conjugate() for c in x.coeffs()])
 
 
-def squared(x: Any) -> Any:
+def squared(x: acb | acb_series) -> Any:
     """``|z|²``."""
     a, b = real(x), imaginary(x)
     return a * a + b * b
@@ -66,7 +66,7 @@ def hull(low: Any, high: Any) -> Any:
     return arb(low).union(arb(high))
 
 
-def narrower(one: Any, other: Any) -> Any:
+def narrower(one: arb, other: arb) -> arb:
     """Intersection of two enclosures of the same numbers."""
     return one.intersection(other) if one.overlaps(other) else one
 
@@ -74,7 +74,7 @@ def narrower(one: Any, other: Any) -> Any:
 # ------------------------------------------------------------------------------------------------ flight
 
 
-def hyperbolic(split: Any, time: Any) -> tuple[Any, Any]:
+def hyperbolic(split: arb | arb_series, time: arb | arb_series) -> tuple[Any, Any]:
     """``cosh(√D t)`` and ``sinh(√D t)/√D`` for real ``D``; both are entire functions of ``D``.
 
     The result is not finite where ``D`` may vanish and ``D t²`` is large.
@@ -95,7 +95,7 @@ def hyperbolic(split: Any, time: Any) -> tuple[Any, Any]:
     return square * arb.nan(), square * arb.nan()
 
 
-def _hyperbolic_sums(square: Any, time: Any) -> tuple[Any, Any]:
+def _hyperbolic_sums(square: arb | arb_series, time: arb | arb_series) -> tuple[Any, Any]:
     """The same as sums of powers of ``z = D t²``, ``|z| < 4``.
 
     The ``j``-th Taylor coefficient of what is left out after ``K`` terms is at most
@@ -166,7 +166,7 @@ def short_return(half: Any, split: Any, period: Any) -> tuple[Any, Any] | None:
     return place + _rest_series(rest / longest, radius, series), turn + _rest_series(rest, radius, series)
 
 
-def _largest(x: Any, radius: Any) -> Any:
+def _largest(x: Any, radius: arb) -> arb:
     """Bound of the modulus for a variable of the series up to a radius."""
     total, power = arb(0), arb(1)
     for c in x.coeffs() if isinstance(x, _SERIES) else [x]:
@@ -175,7 +175,7 @@ def _largest(x: Any, radius: Any) -> Any:
     return total
 
 
-def _rest_series(bound: Any, radius: Any, series: bool) -> Any:
+def _rest_series(bound: arb, radius: arb, series: bool) -> Any:
     """Series of which nothing is known but a bound on a circle."""
     found = []
     for _ in range(ctx.cap if series else 1):
@@ -185,7 +185,7 @@ def _rest_series(bound: Any, radius: Any, series: bool) -> Any:
     return acb_series(found) if series else found[0]
 
 
-def _bernoulli(k: int) -> Any:
+def _bernoulli(k: int) -> arb:
     key = k, ctx.prec
     if key not in _BERNOULLI:
         _BERNOULLI[key] = arb(fmpq.bernoulli(2 * k)) / arb(2 * k).fac()

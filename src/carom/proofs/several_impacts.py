@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
+from flint import arb
+
 from carom.proofs.balls import decided, enclosure_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
@@ -50,7 +52,7 @@ def _searched(rotor: ProvenRotor, impacts: int) -> Iterator[dict[str, Any]]:
         yield found[0]
 
 
-def _orbit_of(numbers: LineNumbers, balls: Sequence[Any]) -> ShootingOrbit:
+def _orbit_of(numbers: LineNumbers, balls: Sequence[arb]) -> ShootingOrbit:
     return ShootingOrbit(numbers, tuple(tuple(balls[k : k + 4]) for k in range(0, len(balls), 4)))
 
 

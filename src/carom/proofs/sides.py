@@ -59,7 +59,7 @@ class Responses(NamedTuple):
     push_rate: Any
 
 
-def responses_by(numbers: LineNumbers, sides: Sequence[Side], time: Any) -> list[Responses]:
+def responses_by(numbers: LineNumbers, sides: Sequence[Side], time: arb) -> list[Responses]:
     """The derivatives by each parameter at a time, or on an interval of times."""
     half, split, gamma, stiff = numbers.gamma / 2, numbers.split, numbers.gamma, numbers.omega_squared
     even, odd = hyperbolic(split, time)
@@ -79,7 +79,7 @@ def responses_by(numbers: LineNumbers, sides: Sequence[Side], time: Any) -> list
     return found
 
 
-def _odd_by_split(split: Any, time: Any, even: Any, odd: Any) -> Any:
+def _odd_by_split(split: arb, time: arb, even: arb, odd: arb) -> arb:
     """``∂o/∂D``; where ``t e − o`` would cancel as ``t³ Σ k z^{k−1}/(2k + 1)!``, ``z = D t²``."""
     square = split * time * time
     if not abs(square) < _NEAR:

@@ -26,7 +26,7 @@ def read_size(field: Field, text: str, hypotheses: Hypotheses, whole: str = "") 
     return number
 
 
-def unit_of(hypotheses: Hypotheses, *names: str) -> Any:
+def unit_of(hypotheses: Hypotheses, *names: str) -> arb:
     """Product of numbers of a machine; 1 for a dimensionless one."""
     product: Any = arb(1)
     if hypotheses.table == "machine":
@@ -64,11 +64,11 @@ class LargestSpeed:
         self.text, self.exact, self.physical = text, (number.low, number.turns), hypotheses.table == "machine"
         self._hypotheses = hypotheses
 
-    def share(self, share: Fraction) -> Any:
+    def share(self, share: Fraction) -> arb:
         """Ball of a share of it, in ``c_r Ω``."""
         return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] / self.unit
 
     @property
-    def unit(self) -> Any:
+    def unit(self) -> arb:
         """``c_r Ω`` in m/s as a ball, or 1 for a dimensionless machine."""
         return unit_of(self._hypotheses, "clearance", "speed")

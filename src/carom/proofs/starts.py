@@ -39,7 +39,7 @@ class DisturbedStart:
     """A disturbance of the unit size; by default one that changes the state at once."""
 
     @property
-    def lasts(self) -> Any:
+    def lasts(self) -> arb:
         """Ball of the time from which motion is free."""
         return arb(0)
 
@@ -59,7 +59,7 @@ class DisturbedStart:
 class KickStart(DisturbedStart):
     """A kick, which changes the velocity at once."""
 
-    def response(self, held: Held, time: Any) -> Response:
+    def response(self, held: Held, time: arb) -> Response:
         """``h₁``."""
         return held.responses(time)[1]
 
@@ -71,7 +71,7 @@ class KickStart(DisturbedStart):
 class Step(DisturbedStart):
     """A step of the unbalance, which changes the levitation about which the rotor moves."""
 
-    def response(self, held: Held, time: Any) -> Response:
+    def response(self, held: Held, time: arb) -> Response:
         """``h₀ + i h₁``."""
         c, h = held.responses(time)
         return acb(c[0], h[0]), acb(c[1], h[1]), acb(c[2], h[2])
@@ -91,16 +91,16 @@ class Pulse(DisturbedStart):
         ``T``, in ``1/Ω``.
     """
 
-    def __init__(self, duration: Any) -> None:
+    def __init__(self, duration: arb) -> None:
         self._duration, self._nu = duration, arb.pi() / duration
         self._plain = float(duration.mid()), math.pi / float(duration.mid())
 
     @property
-    def lasts(self) -> Any:
+    def lasts(self) -> arb:
         """``T``."""
         return self._duration
 
-    def response(self, held: Held, time: Any) -> Response:
+    def response(self, held: Held, time: arb) -> Response:
         """That of the pulse, of free motion after it, or both together on an interval that holds its end."""
         begin, end = arb(time.lower()), arb(time.upper())
         if end <= self.lasts:
@@ -115,7 +115,7 @@ class Pulse(DisturbedStart):
         """``H(T)``."""
         return self._during(held, self.lasts)
 
-    def _during(self, held: Held, time: Any) -> Response:
+    def _during(self, held: Held, time: arb) -> Response:
         n, nu = held.numbers, self._nu
         gain = nu / 2 / (n.omega_squared - nu * nu + n.gamma * nu * I)
         (c, dc, _), (h, dh, _) = held.responses(time)
@@ -140,7 +140,7 @@ class Pulse(DisturbedStart):
         return after[0], after[1], after[2]
 
 
-def _freely(held: Held, state: Response, time: Any) -> Response:
+def _freely(held: Held, state: Response, time: arb) -> Response:
     """Free motion from a place and a rate."""
     c, h = held.responses(time)
     place, rate, _ = state

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
+from flint import arb
+
 from carom.parameters import Field
 from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
 from carom.proofs.claims import Claim, claim_of
@@ -111,7 +113,7 @@ def _all_claim(rotor: ProvenRotor, limit: LargestSpeed, share: Fraction | None, 
     )
 
 
-def _slowest_below(lost: list[Lost], speed: Any) -> Lost | None:
+def _slowest_below(lost: list[Lost], speed: arb) -> Lost | None:
     """The slowest motion that does not return and has states slower than a speed."""
     slower = [entry for entry in lost if entry.speed < speed]
     return min(slower, key=lambda entry: float(entry.speed.upper()), default=None)

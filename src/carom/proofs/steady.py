@@ -121,7 +121,7 @@ def rub_balance(n: LineNumbers) -> Any:
     return 1 - n.omega_squared - n.mu * n.gamma
 
 
-def _sign_of_square(rotor: ProvenRotor, square: Any) -> int:
+def _sign_of_square(rotor: ProvenRotor, square: arb) -> int:
     """Sign of the discriminant; not positive where it is exactly zero."""
     given = rotor.hypotheses.rational("gamma", "omega_squared", "rho", "mu")
     if given is not None:
@@ -147,7 +147,7 @@ def _kick_claim(rotor: ProvenRotor) -> Claim:
     return claim(1, speed=speed)
 
 
-def contact_free_speed(n: LineNumbers) -> Any | None:
+def contact_free_speed(n: LineNumbers) -> arb | None:
     """Speed below which kicks are harmless; ``None`` where none is shown."""
     room = 1 - n.levitation
     if not (room > 0 and n.gamma >= 0):
@@ -156,7 +156,7 @@ def contact_free_speed(n: LineNumbers) -> Any | None:
     return speed if speed.is_finite() and speed > 0 else None
 
 
-def _largest_response(n: LineNumbers) -> Any:
+def _largest_response(n: LineNumbers) -> arb:
     """``h(τ)``, the largest value of the response."""
     half, split = n.gamma / 2, n.split
     if split < 0:

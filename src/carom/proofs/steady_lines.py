@@ -12,6 +12,8 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple
 
+from flint import arb
+
 from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure, decided, enclosure_of, interval
 from carom.proofs.claims import Claim, claim_of
@@ -113,7 +115,7 @@ def _speeds(line: Line, runs: Sequence[tuple[Fraction, Fraction]]) -> dict[str, 
     return found
 
 
-def _least(line: Line, runs: Sequence[tuple[Fraction, Fraction]], *, scaled: bool) -> Any:
+def _least(line: Line, runs: Sequence[tuple[Fraction, Fraction]], *, scaled: bool) -> arb:
     """Ball of the least harmless speed on intervals on each of which one is shown.
 
     It is at most the upper end of that of any part, and at least the least of all lower ends; the part with that is halved next.

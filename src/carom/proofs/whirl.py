@@ -22,6 +22,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from flint import arb
+
 from carom.parameters import MACHINE_FIELDS
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of, decided, enclosures_of
@@ -54,7 +56,7 @@ def exact_numbers(rotor: ProvenRotor) -> LineNumbers:
     return LineNumbers(gamma, stiffness, rho, mu, Fraction(0), ratio)
 
 
-def sign_of(value: Any) -> int | None:
+def sign_of(value: arb | Fraction) -> int | None:
     """Sign of a fraction or of all numbers of a ball; ``None`` if it is not decided."""
     if isinstance(value, Fraction):
         return (value > 0) - (value < 0)
@@ -66,12 +68,12 @@ def rolling_force(n: LineNumbers) -> Any:
     return n.radius_ratio * n.radius_ratio - n.omega_squared
 
 
-def excitation_of(n: LineNumbers) -> Any:
+def excitation_of(n: LineNumbers) -> arb:
     """``p = ρ√(1 + μ²)`` as a ball."""
     return n.rho * (1 + n.mu * n.mu).sqrt()
 
 
-def _against_pull(value: Any, n: LineNumbers) -> int | None:
+def _against_pull(value: arb | Fraction, n: LineNumbers) -> int | None:
     """Sign of a value less ``p``, exactly for fractions."""
     if isinstance(value, Fraction):
         return -1 if value < 0 else sign_of(value * value - n.rho * n.rho * (1 + n.mu * n.mu))
@@ -142,14 +144,14 @@ def _attraction_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     )
 
 
-def attracting_speed(n: LineNumbers) -> Any:
+def attracting_speed(n: LineNumbers) -> arb:
     """Speed of backward whirl from which on slides gain speed and contact is kept, as a ball."""
     speed = sustaining_speed(n, excitation_of(n))
     # With damping that is not negative contact asks for no more.
     return speed if n.gamma >= 0 else speed.max((n.omega_squared + n.rho).sqrt())
 
 
-def sustaining_speed(n: LineNumbers, excitation: Any) -> Any:
+def sustaining_speed(n: LineNumbers, excitation: Any) -> arb:
     """Larger root ``w`` of ``μ(w² − ω²) − γw = excitation``, as a ball."""
     return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + excitation)).sqrt()) / (2 * n.mu)
 

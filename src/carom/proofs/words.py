@@ -59,7 +59,7 @@ class ShootingOrbit:
     impacts: tuple[tuple[Any, ...], ...]
 
     @property
-    def period(self) -> Any:
+    def period(self) -> arb:
         """Sum of the durations."""
         return sum((impact[3] for impact in self.impacts), arb(0))
 
@@ -69,7 +69,7 @@ class ShootingOrbit:
             return 1
         return -1 if any(impact[1] < 0 or impact[3] < 0 for impact in self.impacts) else 0
 
-    def slip_after(self) -> list[Any]:
+    def slip_after(self) -> list[arb]:
         """Slip velocity after each impact."""
         n = self.numbers
         return [n.radius_ratio + 1 + a - n.mu * (1 + n.d) * r for _, r, a, _ in self.impacts]
@@ -90,14 +90,14 @@ class ShootingOrbit:
 
         return stays_inside(height, height, here[3], (2 * n.d * here[1], 2 * there[1]))
 
-    def jacobian(self) -> Any:
+    def jacobian(self) -> arb_mat:
         """Derivative of the map over one period on the section before the first impact, over ``(θ, ṙ, θ̇)``; arb_mat."""
         product = arb_mat(3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1])
         for here, there in zip(self.impacts, [*self.impacts[1:], self.impacts[0]], strict=True):
             product = self._step(here, there) * product
         return product
 
-    def _step(self, here: Sequence[Any], there: Sequence[Any]) -> Any:
+    def _step(self, here: tuple[arb, arb, arb, arb], there: tuple[arb, arb, arb, arb]) -> arb_mat:
         """Derivative of the impact map, with the change of the time of impact."""
         n, place, target = self.numbers, (here[0] * I).exp(), (there[0] * I).exp()
         local = there[1] + there[2] * I
