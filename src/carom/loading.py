@@ -60,7 +60,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     return read_case(name, tables, texts, problems, _read_rotor)
 
 
-def _read_rotor(*given: Any) -> dict[str, Any]:
+def _read_rotor(*given: Any) -> dict[str, object]:
     """Read a rotor of parts; who reads a planar one does not wait for models and kernels to load."""
     from carom.rotors.machine_file import read_rotor_tables
 

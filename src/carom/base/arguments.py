@@ -124,7 +124,7 @@ class _Door(NamedTuple):
                 places.append(name)
         return cls(tuple(places), others, further, kinds)
 
-    def check(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> None:
+    def check(self, args: tuple[object, ...], kwargs: Mapping[str, object]) -> None:
         """Refuse the first argument that is not of its kind; Python itself refuses too many and too few."""
         for name, value in chain(zip(chain(self.places, repeat(self.others)), args, strict=False), kwargs.items()):
             kind = self.kinds.get(name) or self.kinds[self.further]
@@ -151,12 +151,12 @@ class _Names(dict[str, Any]):
         return getattr(builtins, name) if hasattr(builtins, name) else _ByName(name, (), {})
 
 
-def _is_whole(value: Any) -> bool:
+def _is_whole(value: object) -> bool:
     """Whether a value is a whole number that a processor can hold."""
     return not isinstance(value, bool) and isinstance(value, Integral) and abs(int(value)) < 2**64
 
 
-def _is_real(value: Any) -> bool:
+def _is_real(value: object) -> bool:
     """Whether a value is a finite real number that a double can hold."""
     try:
         return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value)
@@ -164,12 +164,12 @@ def _is_real(value: Any) -> bool:
         return False
 
 
-def is_number(value: Any) -> bool:
+def is_number(value: object) -> bool:
     """Whether a value is a finite number, real or complex."""
     return _is_real(value) or (isinstance(value, Complex) and not isinstance(value, Real) and cmath.isfinite(value))
 
 
-def kind_of_numbers(value: Any) -> str:
+def kind_of_numbers(value: object) -> str:
     """Code of NumPy for the kind of a number or of an array of numbers, all finite and none masked; ``-`` for anything else."""
     import numpy as np
 
@@ -243,7 +243,7 @@ def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
     return ArgumentKind(holds, f"{len(kinds)} values in brackets, {which}")
 
 
-def _several(one: ArgumentKind, container: Any) -> ArgumentKind:
+def _several(one: ArgumentKind, container: object) -> ArgumentKind:
     def holds(value: Any) -> bool:
         several = _is_sequence(value)
         if container is Iterable:
@@ -253,7 +253,7 @@ def _several(one: ArgumentKind, container: Any) -> ArgumentKind:
     return ArgumentKind(holds, f"a sequence, each entry {one.words}")
 
 
-def _is_sequence(value: Any) -> bool:
+def _is_sequence(value: object) -> bool:
     """Whether a value is a sequence of several, as carom's sets of results are too, or an array that can be read as one."""
     several = isinstance(value, Sequence) or hasattr(value, "__array__")
     several |= hasattr(value, "__getitem__") and hasattr(value, "__len__") and not isinstance(value, Mapping | set)
@@ -261,7 +261,7 @@ def _is_sequence(value: Any) -> bool:
 
 
 def _mapping(key: ArgumentKind, entry: ArgumentKind) -> ArgumentKind:
-    def holds(value: Any) -> bool:
+    def holds(value: object) -> bool:
         return isinstance(value, Mapping) and all(key.holds(name) and entry.holds(one) for name, one in value.items())
 
     return ArgumentKind(holds, f"a mapping from {key.words} to {entry.words}")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from types import MappingProxyType
-from typing import Any, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 _LONGEST_VALUE, _LONGEST_WORDS = 160, 600
 _MOST_LINES = 20
@@ -239,7 +239,7 @@ def printable(text: str) -> str:
     return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode("ascii") for sign in text)
 
 
-def shown(given: Any) -> str:
+def shown(given: object) -> str:
     """Return a value as an error message prints it: printable, not too long, never empty; of a table what stands above it."""
     if isinstance(given, bool):
         return str(given).lower()

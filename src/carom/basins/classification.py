@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -107,7 +107,7 @@ class Basin(Mapped):
         return self.outcomes >= Outcome.LEVITATED
 
     @property
-    def irregular(self) -> dict[str, Any] | None:
+    def irregular(self) -> dict[str, object] | None:
         """How long irregular bouncing lasts, as plain data; ``None`` if no start led to it."""
         return json.loads(self.dataset.attrs["irregular"])
 

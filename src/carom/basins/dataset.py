@@ -173,7 +173,7 @@ def dataset_of(
     )
 
 
-def outcome_flags() -> dict[str, Any]:
+def outcome_flags() -> dict[str, object]:
     """Attributes of outcomes of motions."""
     seen = [outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING]
     codes, meanings = np.array([NO_START, *seen], np.int8), ["no_start", *(outcome.label for outcome in seen)]
@@ -186,7 +186,7 @@ def _touched(starts: Starts, endings: Endings) -> np.ndarray:
     return starts.exists & (starts.touched | (endings.impacts > 0) | stays)
 
 
-def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
+def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, object], tuple[str, ...]]:
     """Coordinates of a dataset, including those in SI units, and its dimensions."""
     coordinates = plan.model.coordinates
     grid = isinstance(plan, Grid)

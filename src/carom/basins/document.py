@@ -81,7 +81,7 @@ def basin_document(
     contact_free: float,
     gains: GainMap | None = None,
     in_terms_of: Case | None = None,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Document of all results about a basin.
 
     The smallest unrecovered one is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
@@ -124,7 +124,7 @@ def basin_document(
     return document
 
 
-def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict[str, Any]:
+def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict[str, object]:
     """Entries of the smallest unrecovered size of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
     key = kind.replace("-", "_")
@@ -145,12 +145,12 @@ def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict
     return document | in_si(document, basin.scales, **{name: quantity, f"{name}_bracket": quantity})
 
 
-def _share(share: Share) -> dict[str, Any]:
+def _share(share: Share) -> dict[str, object]:
     method = "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area"
     return fields_of(share, "fraction", "count", "low", "high") | {"method": method}
 
 
-def _terms(gains: GainMap, case: Case) -> list[dict[str, Any]]:
+def _terms(gains: GainMap, case: Case) -> list[dict[str, object]]:
     """Both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
     shown = []
     for varied in gains.axes:
@@ -159,7 +159,7 @@ def _terms(gains: GainMap, case: Case) -> list[dict[str, Any]]:
     return shown
 
 
-def _gains(gains: GainMap) -> dict[str, Any]:
+def _gains(gains: GainMap) -> dict[str, object]:
     first, second = gains.axes
     return {
         "parameters": [first.name, second.name],
@@ -174,7 +174,7 @@ def _gains(gains: GainMap) -> dict[str, Any]:
     }
 
 
-def drop_map_document(found: DropMap) -> dict[str, Any]:
+def drop_map_document(found: DropMap) -> dict[str, object]:
     """Document of a map of drops: how many end in which motion, what exceeds limits, and all numbers in SI units, by rows of the first."""
     dataset, first = found.dataset, found.dataset["outcome"]
     labels = ["no-start" if code < 0 else Outcome(int(code)).label for code in first.values.ravel()]

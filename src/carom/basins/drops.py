@@ -320,7 +320,7 @@ def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     }
 
 
-def _ends(rows: Sequence[Entry], dataset: xarray.Dataset) -> dict[str, Any]:
+def _ends(rows: Sequence[Entry], dataset: xarray.Dataset) -> dict[str, object]:
     """Outcomes, and indices of the names of motions, over the nodes of a dataset."""
     (dimensions, shape), first = (tuple(zip(*dataset.sizes.items(), strict=True)), [row.get("name") for row in rows])
     names = sorted({name for name in first if name is not None}, key=lambda name: (name.outcome, str(name)))

@@ -130,7 +130,7 @@ MOTIONS = (
 )
 
 
-def diagram_document(diagram: Diagram) -> dict[str, Any]:
+def diagram_document(diagram: Diagram) -> dict[str, object]:
     """Special points and branches along a parameter.
 
     Values of a physical parameter are in the SI unit given under ``"unit"``; periods are in ``1/Ω``, radial speeds in
@@ -154,7 +154,7 @@ def diagram_document(diagram: Diagram) -> dict[str, Any]:
     }
 
 
-def search_document(searched: Searched) -> dict[str, Any]:
+def search_document(searched: Searched) -> dict[str, object]:
     """How much a search for orbits has tried, and the share of fresh motions that end on the orbits listed, with its interval of 95 %."""
     return {
         **asdict(searched),
@@ -162,7 +162,7 @@ def search_document(searched: Searched) -> dict[str, Any]:
     }
 
 
-def regions_document(found: RegionMap) -> dict[str, Any]:
+def regions_document(found: RegionMap) -> dict[str, object]:
     """Curves, points where two bifurcations meet, and regions of a plane of two parameters.
 
     Regions are numbered as in the figure and the table.
@@ -191,10 +191,10 @@ def regions_document(found: RegionMap) -> dict[str, Any]:
     }
 
 
-def _word(orbit: Orbit | OrbitBranch | SimulatedBranch | None) -> dict[str, Any]:
+def _word(orbit: Orbit | OrbitBranch | SimulatedBranch | None) -> dict[str, object]:
     """Word and number of impacts of an orbit, without those of a chatter; ``None`` for other motions."""
     return {"word": str(orbit.word) if orbit else None, "impacts": orbit.impacts if orbit else None}
 
 
-def _axis(axis: Axis) -> dict[str, Any]:
+def _axis(axis: Axis) -> dict[str, object]:
     return {"parameter": axis.name, "unit": axis.field.unit}

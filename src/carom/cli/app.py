@@ -140,7 +140,7 @@ class CommandFailure:
         return self.code
 
 
-def _entry(error: InputError) -> dict[str, Any]:
+def _entry(error: InputError) -> dict[str, object]:
     """An error of the input as plain data."""
     value = error.value
     if not isinstance(value, bool | int | None) and not (isinstance(value, float) and math.isfinite(value)):

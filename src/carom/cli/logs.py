@@ -12,7 +12,7 @@ from importlib.metadata import version
 from io import StringIO
 from operator import itemgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -40,7 +40,7 @@ def check_file(option: str, path: str) -> None:
         try_place(target)
 
 
-def contact_rows(parts: Sequence[Trajectory]) -> tuple[dict[str, str], list[dict[str, Any]]]:
+def contact_rows(parts: Sequence[Trajectory]) -> tuple[dict[str, str], list[dict[str, object]]]:
     """Units of the columns of a log by their names, and a row for each contact, impacts among them, of some stages in order of time.
 
     Numbers are in SI units if the machine is known.  A stretch of lasting contact at a rigid touchdown bearing fills only ``kind``, ``phase``,

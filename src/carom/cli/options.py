@@ -18,7 +18,7 @@ class Purpose(StrEnum):
     SLIDE = "slide"
 
 
-def option(metavar: str | None, words: str, *names: str, default: Any = None, **limits: Any) -> Any:
+def option(metavar: str | None, words: str, *names: str, default: object = None, **limits: Any) -> Any:
     """An option as the default of an argument of a command; its value is text, a number or a list as that argument is annotated."""
     return typer.Option(default, *names, metavar=metavar, help=words, **limits)
 

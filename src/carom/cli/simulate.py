@@ -92,7 +92,7 @@ def simulate(
     hand_over(lambda: document, as_json, show, out)
 
 
-def _document(case: Case, motion: Trajectory) -> dict[str, Any]:
+def _document(case: Case, motion: Trajectory) -> dict[str, object]:
     """The document of a motion: of all its stages if it has several, with times from its beginning."""
     from carom.models import rotor_of
     from carom.studies import trajectory_document

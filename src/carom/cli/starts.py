@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from carom.base.outcome import InputError, together
 from carom.disturbances.single import Single, read_single, split_text
@@ -155,7 +155,7 @@ def _ascending(option: str, text: str, allowed: str, ends: list[float]) -> tuple
     return min(ends), max(ends)
 
 
-def refuse_without(needed: str, given: Mapping[str, Any]) -> None:
+def refuse_without(needed: str, given: Mapping[str, object]) -> None:
     """Refuse options that belong to one that is not given."""
     for option, value in given.items():
         if value is not None:

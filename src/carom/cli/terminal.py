@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from carom.base.progress import Reporter, bar
 
@@ -42,7 +42,7 @@ def check_output(out: str | None, option: str = "--out") -> None:
         check_directory(out, option)
 
 
-def print_document(document: dict[str, Any]) -> None:
+def print_document(document: dict[str, object]) -> None:
     """Print one JSON object."""
     from carom.base.files import as_json
 

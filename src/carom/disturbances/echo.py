@@ -29,7 +29,7 @@ class Echo:
     words: str
     sizes: Mapping[str, tuple[float, str]]
 
-    def document(self, scales: Scales | None) -> dict[str, Any]:
+    def document(self, scales: Scales | None) -> dict[str, object]:
         """Return it as plain data, with sizes in SI units too where the scales are known."""
         document: dict[str, Any] = {"kind": self.kind, "words": self.words}
         for name, (value, scale) in self.sizes.items():

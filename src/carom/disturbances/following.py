@@ -66,7 +66,7 @@ def follow_machines(machines: Iterable[tuple[Rotor, Starts]], chunk: int, **limi
         yield from _together(waiting, limits)
 
 
-def _together(machines: list[tuple[Rotor, Starts]], limits: dict[str, Any]) -> Iterator[Endings]:
+def _together(machines: list[tuple[Rotor, Starts]], limits: dict[str, object]) -> Iterator[Endings]:
     rotors, sets = zip(*machines, strict=True)
     sizes = [starts.exists.size for starts in sets]
     found = follow(rotors, Starts.joined(sets), which=np.repeat(np.arange(len(sets)), sizes), **limits)

@@ -123,6 +123,6 @@ class Worker:
         except Exception as problem:  # noqa: BLE001  (handed to the caller)
             return problem
 
-    def _finish(self, job: Job, result: Any) -> None:
+    def _finish(self, job: Job, result: object) -> None:
         if not self._stale.is_set():
             job.done(result)

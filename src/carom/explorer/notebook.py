@@ -78,7 +78,7 @@ def _figure_class(planes: int, frame: str) -> type:
             self._asked = {"machine": self._session.show, "kick": self._session.kick}
             self.on_msg(lambda _, content, buffers: self._asked[content["name"]](content["value"]))
 
-        def _answer(self, name: str, value: Any) -> None:
+        def _answer(self, name: str, value: object) -> None:
             buffers: list[bytes] = []
             self.send({"name": name, "value": encoded(value, buffers)}, buffers)
 
@@ -90,7 +90,7 @@ def _figure_class(planes: int, frame: str) -> type:
     return KickFigure
 
 
-def encoded(value: Any, buffers: list[bytes]) -> Any:
+def encoded(value: object, buffers: list[bytes]) -> Any:
     """A message as JSON; arrays become buffers, in the place of which their number and type stand."""
     if isinstance(value, dict):
         return {name: encoded(entry, buffers) for name, entry in value.items()}

@@ -41,7 +41,7 @@ def document_of(part: Any) -> Any:
     return document_of(import_module("carom.rotors.controllers").state_space_of(part))
 
 
-def part_from(given: Any) -> Any:
+def part_from(given: object) -> Any:
     """The rotor, or the part of one, of which :func:`document_of` has made these data."""
     if isinstance(given, list):
         return tuple(map(part_from, given))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -21,7 +20,7 @@ ISOTROPIC_ALONE = (
 """What is asked for where forces that change with time, and anisotropic bearings, are refused."""
 
 
-def checked_forces(given: Any, shape: tuple[int, ...]) -> tuple[Force, ...]:
+def checked_forces(given: object, shape: tuple[int, ...]) -> tuple[Force, ...]:
     """Forces on a rotor with coordinates of this shape; refuse what is none."""
     listed = tuple(given) if isinstance(given, Sequence) and not isinstance(given, Force) else ()
     if not listed or not all(isinstance(each, Force) for each in listed):
@@ -39,7 +38,7 @@ def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
     return Force(complex(exponent), accelerations)
 
 
-def complex_numbers(given: Any) -> np.ndarray | None:
+def complex_numbers(given: object) -> np.ndarray | None:
     """Array of finite numbers, a copy; ``None`` if they are no such numbers."""
     return None if kind_of_numbers(given) == "-" else np.array(given, complex)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -74,7 +74,7 @@ class Limit:
         )
 
 
-def checked_limits(given: Any, definition: Definition) -> ControlLimit | tuple[Limit, ...]:
+def checked_limits(given: object, definition: Definition) -> ControlLimit | tuple[Limit, ...]:
     """Limits of the rotor of a definition: of a force in SI units, or in units of its equations; refuse what is none."""
     if isinstance(given, ControlLimit):
         if definition.planar is None or definition.scales is None:

@@ -362,7 +362,7 @@ class Rotor(Result):
         numbers = self.planar if self.has_closed_forms else None
         return {"rotor": json.dumps(document_of(self))} if numbers is None else numbers.attributes()
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """What describes it in a document: the parameters of the planar rotor, the attributes of any other."""
         return {"parameters": self.numbers} if self.numbers else {"rotor": self.attributes()}
 

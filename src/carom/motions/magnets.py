@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -60,7 +59,7 @@ class MagnetReach(Result):
             f"While the magnets act the rotor comes up to {number(100.0 * self.share, 2)} % of an air gap from the centre; {pull_words(self.share)}."
         )
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         wrong = excess_pull(self.share) if self.share < 1.0 else None
         return {"share_of_air_gap": self.share, "reached": self.reached, "excess_pull": wrong}

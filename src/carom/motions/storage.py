@@ -74,7 +74,7 @@ def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
     )
 
 
-def provenance(motion: Trajectory) -> dict[str, Any]:
+def provenance(motion: Trajectory) -> dict[str, object]:
     """Where a dataset of a motion comes from, and how it ended."""
     return {
         "Conventions": "CF-1.11",

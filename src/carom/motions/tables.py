@@ -88,7 +88,7 @@ def _units(quantity: str) -> tuple[str, str]:
     return UNITS.get(quantity, (quantity, quantity))
 
 
-def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:
+def phase_flags(phases: Iterable[Phase]) -> dict[str, object]:
     """Attributes that give the meaning of phase numbers, by the CF conventions."""
     kinds = list(phases)
     return flags(np.array(kinds, np.int8), (phase.label for phase in kinds))

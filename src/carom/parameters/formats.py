@@ -132,7 +132,7 @@ def format_range(parameter: str | Field, values: Iterable[float]) -> str:
     return format_interval(format_entry(parameter, min(ends)), format_entry(parameter, max(ends)))
 
 
-def own_entry(name: str, value: Any, scales: Scales | None) -> tuple[str, Any]:
+def own_entry(name: str, value: object, scales: Scales | None) -> tuple[str, Any]:
     """A parameter with a value; with scales what a machine has in place of a dimensionless one, in SI units."""
     if scales is None or name not in PHYSICAL_PARTNER:
         return name, value

@@ -127,7 +127,7 @@ class Machine(Tabular, pydantic.BaseModel):
     def __init__(self, /, **entries: Any) -> None:
         self._fill(resolve(entries), entries)
 
-    def _fill(self, resolved: Resolved, entries: Mapping[str, Any]) -> None:
+    def _fill(self, resolved: Resolved, entries: Mapping[str, object]) -> None:
         super().__init__(**resolved.values)
         self._resolved = resolved
         if self.air_gap is not None and self.air_gap <= self.clearance:
@@ -138,7 +138,7 @@ class Machine(Tabular, pydantic.BaseModel):
         except InputError as problem:
             raise self._out_of_proportion(problem, entries) from None
 
-    def _out_of_proportion(self, problem: InputError, entries: Mapping[str, Any]) -> InputError:
+    def _out_of_proportion(self, problem: InputError, entries: Mapping[str, object]) -> InputError:
         """The error of a dimensionless parameter, as one of the entry that it follows from."""
         field = PHYSICAL_PARTNER[problem.field]
         value = getattr(self, field)

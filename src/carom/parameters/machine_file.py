@@ -314,7 +314,7 @@ def split_settings(settings: Iterable[str], problems: Problems) -> dict[str, str
     return texts
 
 
-def _changed(table: _Table, changes: Mapping[str, Any], entry: str = "") -> _Table:
+def _changed(table: _Table, changes: Mapping[str, object], entry: str = "") -> _Table:
     """A table with other entries; errors name them as settings, with the prefix of a touchdown bearing or as one ``entry``."""
     try:
         return table.replace(**changes)
@@ -323,7 +323,7 @@ def _changed(table: _Table, changes: Mapping[str, Any], entry: str = "") -> _Tab
 
 
 def _with_restitution(
-    values: Mapping[str, Any], touchdown: Mapping[str, Any]
+    values: Mapping[str, object], touchdown: Mapping[str, object]
 ) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Entries of a machine and its touchdown bearing: the restitution of a rigid wall, wherever it is stated, is that of the machine.
 
@@ -339,7 +339,7 @@ def _with_restitution(
     return {**values, "restitution": UNUSED}, touchdown
 
 
-def _unused_restitution(given: Any) -> InputError:
+def _unused_restitution(given: object) -> InputError:
     allowed = "must be left out: the touchdown bearing is compliant, and its law has entries of its own in [touchdown]"
     return InputError("restitution", shown(given), allowed)
 

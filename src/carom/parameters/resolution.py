@@ -46,7 +46,7 @@ class Resolved:
         return next(iter(self.given.get(name, ())), None)
 
 
-def resolve(entries: Mapping[str, Any], base: Resolved | None = None) -> Resolved:
+def resolve(entries: Mapping[str, object], base: Resolved | None = None) -> Resolved:
     """Numbers of a machine from entries; all errors of names and numbers are reported at once, or else all errors of formulas.
 
     An entry of the magnetic bearings that is None counts as left out.  With a ``base``, the machine to change, what is not set
@@ -72,7 +72,7 @@ def resolve(entries: Mapping[str, Any], base: Resolved | None = None) -> Resolve
 class _Work:
     """One resolution: entries, the numbers they hold, and the machine that they change."""
 
-    def __init__(self, entries: Mapping[str, Any], numbers: Mapping[str, Decimal], base: Resolved | None) -> None:
+    def __init__(self, entries: Mapping[str, object], numbers: Mapping[str, Decimal], base: Resolved | None) -> None:
         self.entries, self.numbers, self.base = entries, numbers, base
         self.ways = {set_by(name): name for name in entries}
         self.values: dict[str, float] = {}
@@ -87,7 +87,7 @@ class _Work:
         ordered = [*MACHINE_FIELDS, *(name for name in BEARING_FIELDS if name in self.values)]
         return Resolved({name: self.values[name] for name in ordered}, self.given)
 
-    def _take(self, name: str, value: float, given: Mapping[str, Any]) -> None:
+    def _take(self, name: str, value: float, given: Mapping[str, object]) -> None:
         self.values[name] = value
         if given:
             self.given[name] = dict(given)
@@ -111,7 +111,7 @@ class _Work:
         value = self._solved(name, way) if way in DIMENSIONLESS_FIELDS else float(number)
         return self._take(name, value, {way: written})
 
-    def _derive(self, name: str, way: str, number: Decimal, written: Any) -> None:
+    def _derive(self, name: str, way: str, number: Decimal, written: object) -> None:
         term, needed, given = TERMS[way], list[Decimal](), {way: written}
         for need in term.needs:
             found, source = self._needed(need, way, written)
@@ -125,7 +125,7 @@ class _Work:
             raise InputError(way, shown(written), f"{words}, which {target.allowed}{self._remedy(way)}")
         self._take(name, value + 0.0, given)
 
-    def _needed(self, need: str, way: str, written: Any) -> tuple[Decimal, dict[str, Any]]:
+    def _needed(self, need: str, way: str, written: object) -> tuple[Decimal, dict[str, object]]:
         """Value of what a formula needs, and the entries that gave it."""
         if need == "rated_speed":
             before = self.base.given.get("eccentricity", {}) if self.base is not None else {}

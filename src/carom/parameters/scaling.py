@@ -135,7 +135,7 @@ class Conversion(NamedTuple):
     """The unit in SI units, from :class:`~carom.parameters.numbers.Units` or :class:`~carom.parameters.Scales`."""
     power: int = 1
 
-    def number(self, value: float, scales: Any) -> float:
+    def number(self, value: float, scales: object) -> float:
         """Dimensionless number of a value in SI units; an analytic function of both."""
         ratio = value / self.unit(scales)
         return root(ratio) if self.power == 2 else ratio

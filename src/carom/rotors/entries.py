@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 
 
-def read_node(name: str, given: Any) -> int:
+def read_node(name: str, given: object) -> int:
     """The number of a node; whether the shaft has it is seen where both meet."""
     if isinstance(given, bool) or not hasattr(given, "__index__") or given.__index__() < 0:
         raise InputError(name, shown(given), "the number of a node: a whole number of at least 0")

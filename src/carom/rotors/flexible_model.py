@@ -108,7 +108,7 @@ class FlexibleDefinition(LinearEquations):
         made: FlexibleDefinition = self.reduced.of(self.reduced.machine.replace(**changes)).definition
         return made
 
-    def _with_number(self, name: str, given: Any) -> FlexibleDefinition:
+    def _with_number(self, name: str, given: object) -> FlexibleDefinition:
         """Copy with one dimensionless parameter changed; the SI values follow."""
         reduced: ReducedMachine = self.reduced
         if name in reduced.machine.varied:

@@ -119,10 +119,10 @@ def _read_machine(
     rotor = _read_rotor(tables, whole, stations if is_rigid else None, problems)
     everywhere = whole.get("clearance")
 
-    def completed(entry: dict[str, Any]) -> dict[str, Any]:
+    def completed(entry: dict[str, object]) -> dict[str, object]:
         return _numbered(entry, rotor, not is_rigid)
 
-    def with_clearance(entry: dict[str, Any]) -> dict[str, Any]:
+    def with_clearance(entry: dict[str, object]) -> dict[str, object]:
         return completed(entry if everywhere is None else {"clearance": None, **entry})
 
     parts = {
@@ -171,7 +171,7 @@ def _read_rotor(
     )
 
 
-def _of_source(tables: MachineTables, whole: Mapping[str, Any], discs: list[Disc]) -> MatrixRotor:
+def _of_source(tables: MachineTables, whole: Mapping[str, object], discs: list[Disc]) -> MatrixRotor:
     """The rotor of a file of matrices, beside which there are no sections."""
     given = whole["source"]
     if not isinstance(given, str) or not given:
@@ -185,7 +185,7 @@ def _of_source(tables: MachineTables, whole: Mapping[str, Any], discs: list[Disc
     return read_rotor(tables.folder / given, damping_of(whole) if stated else None, discs)
 
 
-def _check_rigid(tables: MachineTables, whole: Mapping[str, Any]) -> None:
+def _check_rigid(tables: MachineTables, whole: Mapping[str, object]) -> None:
     """Refuse what bends beside a rigid rotor."""
     found = [f"[[{kind}]]" for kind in ("section", "disc") if tables.parts.get(kind)]
     found += [name for name in whole if name not in OF_RIGID]
@@ -215,7 +215,7 @@ def _at_stations(tables: MachineTables, problems: Problems) -> tuple[MachineTabl
     return replace(tables, parts=parts), stations
 
 
-def _placed(entry: Mapping[str, Any]) -> dict[str, Any]:
+def _placed(entry: Mapping[str, object]) -> dict[str, object]:
     """Where a part of a rigid rotor is, and its sensors, m."""
     for name, node in PLACED.items():
         if node in entry:
@@ -229,7 +229,7 @@ def _placed(entry: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _numbered(entry: Mapping[str, Any], rotor: FreeRotor | None, bends: bool) -> dict[str, Any]:
+def _numbered(entry: Mapping[str, object], rotor: FreeRotor | None, bends: bool) -> dict[str, object]:
     """The table of a part with numbers in place of the names of nodes, which a rotor of matrices may have."""
     for name in PLACED:
         if name in entry:
@@ -241,7 +241,7 @@ def _numbered(entry: Mapping[str, Any], rotor: FreeRotor | None, bends: bool) ->
     if not isinstance(rotor, MatrixRotor):
         return dict(entry)
 
-    def number(given: Any) -> Any:
+    def number(given: object) -> Any:
         return rotor.node_of(given) if isinstance(given, str) else given
 
     sensors = entry.get("sensor_nodes")

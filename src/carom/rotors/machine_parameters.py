@@ -56,7 +56,7 @@ _KINDS: Mapping[str, tuple[str, _Paths]] = {
 """By the attribute of a machine, what its parts are called, and their entries."""
 
 
-def _read(part: Any, path: Sequence[str]) -> Any:
+def _read(part: object, path: Sequence[str]) -> Any:
     """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth."""
     for name in path:
         part = getattr(part, name, None)
@@ -175,7 +175,7 @@ class NamedParameters:
             machine = replace(machine, **machine._changes(name, changes[name]))
         return machine
 
-    def _changes(self, name: str, given: Any) -> dict[str, Any]:
+    def _changes(self, name: str, given: object) -> dict[str, object]:
         if name == "clearance":
             return {"clearance": given, "touchdowns": [replace(each, clearance=None) for each in self.touchdowns]}
         if name in self._of_rotor:
@@ -195,12 +195,12 @@ class NamedParameters:
                 raise InputError(name, shown(given), f"{problem.field}: {problem.allowed}") from None
         return {entry.attribute: parts}
 
-    def _entry(self, name: str, given: Any) -> Entry:
+    def _entry(self, name: str, given: object) -> Entry:
         if name not in self.entries:
             raise self.unknown(name, given)
         return self.entries[name]
 
-    def unknown(self, name: str, given: Any, besides: Mapping[str, Any] | None = None) -> InputError:
+    def unknown(self, name: str, given: object, besides: Mapping[str, object] | None = None) -> InputError:
         """Error for a name that does not exist: allowed are listed without those of single parts; ``besides`` has names of other things."""
         known = {**self.varied, **(besides or {})}
         nearest = nearest_name(name, known)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from carom.base.outcome import InputError
@@ -19,7 +17,7 @@ APART = 10.0
 """Times that bending is stiffer than what resists these motions, which is rounding."""
 
 
-def checked_matrix(name: str, given: Any, size: int) -> np.ndarray:
+def checked_matrix(name: str, given: object, size: int) -> np.ndarray:
     """A symmetric matrix of this size, made so to the last digit; read-only."""
     matrix = real_numbers(name, given)
     if matrix.shape != (size, size):

@@ -95,7 +95,14 @@ class MatrixRotor(BendingRotor):
 
     @classmethod
     def of_planes(
-        cls, M: Any, K: Any, G: Any, nodes: Any, damping: Any, coordinates: Sequence[str] | None = None, **others: Any
+        cls,
+        M: object,
+        K: object,
+        G: object,
+        nodes: Any,
+        damping: Any,
+        coordinates: Sequence[str] | None = None,
+        **others: Any,
     ) -> MatrixRotor:
         """Rotor by real matrices, with four or more coordinates at each node, in ``M q̈ + (D + ΩG) q̇ + K q = f``.
 
@@ -153,14 +160,14 @@ class MatrixRotor(BendingRotor):
         raise InputError("node", shown(name), allowed)
 
 
-def _nodes(given: Any) -> np.ndarray:
+def _nodes(given: object) -> np.ndarray:
     found = real_numbers("nodes", given).ravel()
     if not 2 <= len(found) <= MOST_NODES or not (np.diff(found) > 0.0).all():
         raise InputError("nodes", shown(given), f"increasing numbers in m, 2 to {MOST_NODES}, one for each node")
     return found
 
 
-def _names(given: Any, count: int) -> tuple[str, ...]:
+def _names(given: object, count: int) -> tuple[str, ...]:
     listed = tuple(given) if isinstance(given, Iterable) and not isinstance(given, str) else (given,)
     named = [each for each in listed if each]
     if (

@@ -52,12 +52,12 @@ _CONTROLLERS: tuple[tuple[Callable[..., Any], Iterable[str], tuple[str, ...]], .
 """Each with its entries, and those that it needs."""
 
 
-def entries_in(entry: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
+def entries_in(entry: Mapping[str, object], names: Iterable[str]) -> dict[str, Any]:
     """The entries of these names that a table holds."""
     return {name: entry[name] for name in names if name in entry}
 
 
-def require(entry: Mapping[str, Any], names: Iterable[str]) -> None:
+def require(entry: Mapping[str, object], names: Iterable[str]) -> None:
     """Refuse a table without one of these entries."""
     for name in names:
         if name not in entry:

@@ -56,7 +56,7 @@ class ReductionError(Result):
             f"estimated error of these forces: {number(100.0 * self.error, 2)} %. Later contacts may differ by more; a smaller accuracy takes more vectors."
         )
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         changes = list(self.changes)
         return {"vectors": self.vectors, "finer": self.finer, "first_peak_changes": changes, "error": self.error}

@@ -35,7 +35,7 @@ def main(source: str, name: str, folder: str) -> None:
     (Path(folder) / "rotor.json").write_text(json.dumps(shown), encoding="utf-8")
 
 
-def read(source: str, name: str, folder: Path) -> dict[str, Any]:
+def read(source: str, name: str, folder: Path) -> dict[str, object]:
     """Write the matrices of a rotor, and return what else is known of it."""
     try:
         import ross
@@ -96,7 +96,7 @@ def names_of(rotor: Any) -> list[str]:
     return names
 
 
-def bearing_of(element: Any, speed: float | None) -> dict[str, Any]:
+def bearing_of(element: Any, speed: float | None) -> dict[str, object]:
     """Node, kind and numbers of a bearing, at a speed, rad/s, if they depend on it."""
     kind = type(element).__name__
     shown: dict[str, Any] = {"node": int(element.n), "tag": element.tag, "kind": kind}

@@ -69,7 +69,7 @@ def _is_support(bearing: Mapping[str, Any]) -> bool:
     return "coefficients" in bearing and ("Seal" in bearing["kind"] or not bearing["alike"])
 
 
-def _not_taken(bearing: Mapping[str, Any]) -> str:
+def _not_taken(bearing: Mapping[str, object]) -> str:
     """What is said of a bearing that is a spring."""
     numbers = f"kxx = {bearing['stiffness']:.4g} N/m, cxx = {bearing['damping']:.4g} N s/m"
     return f"{bearing['tag']}, a {bearing['kind']} at node {bearing['node']} ({numbers}): not taken over."

@@ -96,7 +96,7 @@ class StateSpace:
         return StateSpace(self.A * sizes / sizes[:, None], self.B / sizes, self.C * sizes, self.D)
 
 
-def of_polynomials(numerator: Any, denominator: Any) -> StateSpace:
+def of_polynomials(numerator: object, denominator: object) -> StateSpace:
     """System of a transfer function, with coefficients from the highest power of ``s`` on; one whose numerator has the higher degree is refused."""
     above, below = (
         np.trim_zeros(real_numbers(f"controller {name}", given).ravel(), "f")

@@ -116,7 +116,7 @@ class BearingDemand:
             )
         return words.rstrip()
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         return {
             "control": self.control and record(self.control, "force_si=force pull_si=pull"),

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from carom.base.results import Result, record
 from carom.basins.shares import percent
@@ -67,7 +67,7 @@ class Margin:
     edge: Edge
     share: float
 
-    def document(self, say: Wording) -> dict[str, Any]:
+    def document(self, say: Wording) -> dict[str, object]:
         """As plain data for JSON."""
         return _end_document(say, self.parameter, self.edge) | {"share": self.share}
 
@@ -125,7 +125,7 @@ class Change:
         """Whether the magnetic bearings can give what it asks for, as far as limits are stated."""
         return self.demand is None or self.demand <= 1.0
 
-    def document(self, say: Wording) -> dict[str, Any]:
+    def document(self, say: Wording) -> dict[str, object]:
         """As plain data for JSON."""
         largest, whirl, name = self.check.largest, self.whirl, self.parameter
         return {
@@ -163,7 +163,7 @@ class Recommendation(Result):
         """The least change; ``None`` where none helps, is needed or can be built."""
         return self.changes[0] if self.kind == "change" else None
 
-    def document(self, say: Wording) -> dict[str, Any]:
+    def document(self, say: Wording) -> dict[str, object]:
         """As plain data for JSON."""
         return {"kind": self.kind, "changes": [change.document(say) for change in self.changes]}
 
@@ -202,7 +202,7 @@ def evidence_of(edge: Edge) -> Evidence:
     return "closed form" if edge.kind in _CLOSED_FORMS else "searched"
 
 
-def _end_document(say: Wording, name: str, edge: Edge) -> dict[str, Any]:
+def _end_document(say: Wording, name: str, edge: Edge) -> dict[str, object]:
     return say.in_both(name, end=edge.value) | {"at_end": edge.motion or edge.kind, "evidence": evidence_of(edge)}
 
 

@@ -96,7 +96,7 @@ class Study(StudyData):
         """The verdict, in words."""
         return verdict(self, self.facts)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the study as it is written to ``study.json``."""
         return study_document(self, self.verdict, self.facts)
 

@@ -280,7 +280,7 @@ class DropStudy(Result):
         """For each plane a title, empty if there is one plane alone, and labels with what they say."""
         return load_tables(self.loads, "the release")
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The drop as JSON."""
         case, loads = self.case, self.loads
         gravity, scales = case.gravity or ASSUMED, loads.scales

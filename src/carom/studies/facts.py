@@ -63,7 +63,7 @@ class Fact:
         """The text with the evidence behind it."""
         return f"{self.text} ({self.evidence})" if self.evidence else self.text
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         return record(self, "topic label text evidence values detail")
 

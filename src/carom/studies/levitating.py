@@ -107,7 +107,7 @@ class Levitating(Result):
         """Whether every separation that API 617 requires is kept."""
         return all(each.separation.met for each in self.criticals)
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON, in SI units; planes and bearings count from 1."""
         known, now = self.campbell, self.at_speed
         speeds = zip(known.speeds.tolist(), known.levitates.tolist(), strict=True) if known else ()

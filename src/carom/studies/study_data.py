@@ -131,7 +131,7 @@ class StudyData(Result):
         """What the machine must survive, in units of the equations."""
         return self.case.requirement.own(self.rotor.scales)
 
-    def requirement_document(self) -> dict[str, Any]:
+    def requirement_document(self) -> dict[str, object]:
         """What must be survived, as plain data for JSON."""
         requirement, scales = self.case.requirement, self.rotor.scales
         document: dict[str, Any] = {

@@ -271,7 +271,7 @@ class Survives(Result):
         """The kinds that were searched, by name."""
         return tuple((kind, found) for kind in LABELS if (found := getattr(self, kind)) is not None)
 
-    def document(self) -> dict[Kind, dict[str, Any]]:
+    def document(self) -> dict[Kind, dict[str, object]]:
         """What of each kind is survived, as plain data for JSON."""
         return {
             kind: record(found, SURVIVED.format(kind=SIZES_OF[kind]), found.scales)

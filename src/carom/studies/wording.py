@@ -196,14 +196,14 @@ class Wording:
         entry = own_entry(name, 1.0, self.of_machine)[0]
         return self.fields[entry].words if entry in self.fields else entry_words(entry)
 
-    def in_si(self, name: str, **values: float) -> dict[str, Any]:
+    def in_si(self, name: str, **values: float) -> dict[str, object]:
         """Values of a parameter in SI units, as plain data for JSON; nothing if the machine is not known."""
         if self.of_machine is None and not (self.scales and name in self.fields and self.fields[name].unit):
             return {}
         own = {f"{key}_si": own_entry(name, value, self.of_machine)[1] for key, value in values.items()}
         return {"quantity": self.name(name), **own}
 
-    def in_both(self, name: str, **values: float) -> dict[str, Any]:
+    def in_both(self, name: str, **values: float) -> dict[str, object]:
         """Values of a parameter, with those in SI units if the machine is known."""
         return {"parameter": name, **values, **self.in_si(name, **values)}
 

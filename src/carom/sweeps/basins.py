@@ -96,7 +96,7 @@ class BasinsTask:
         own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, 0))
         return Sample(model, self.starts, int(own.generate_state(1, np.uint64)[0]))
 
-    def evaluate(self, case: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, case: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, object]:
         """Compute the values of one machine by variable name; a variable without a value is left out."""
         from carom.basins.gains import recovery
         from carom.disturbances.following import follow

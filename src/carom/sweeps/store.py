@@ -16,7 +16,7 @@ from contextlib import ExitStack
 from functools import partial, reduce
 from itertools import chain, islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from filelock import FileLock, Timeout
@@ -121,7 +121,7 @@ class SweepStore:
         again = np.flatnonzero(self._failed).tolist() if retry_failed else []
         yield from (*np.flatnonzero(~self._finished).tolist(), *again)
 
-    def failures(self) -> list[dict[str, Any]]:
+    def failures(self) -> list[dict[str, object]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
         records = (self._record(number) for number in np.flatnonzero(self._failed).tolist())
         return list(islice(chain.from_iterable(each.failures for each in records if each), MOST_FAILURES))

@@ -95,7 +95,7 @@ class StudyTask:
         """Return what identifies the task, as plain data for JSON."""
         return fields_of(self, "kind", "disturbances", "zone_limits")
 
-    def evaluate(self, machine: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, machine: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, object]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
 
         Parameters
@@ -140,7 +140,7 @@ class StudyTask:
             found["zone"] = zones.labels.index(zones.zone(min(levitation.radius, 1.0)))
         return found
 
-    def _simulated(self, rotor: Rotor, fastest: float, seed: int) -> dict[str, Any]:
+    def _simulated(self, rotor: Rotor, fastest: float, seed: int) -> dict[str, object]:
         from carom.attractors import find_attractors
         from carom.basins import share_of_kicks
         from carom.motions.budget import Budget

@@ -246,7 +246,7 @@ def _basins(given: object, scales: Scales | None) -> BasinsTask:
     return BasinsTask(Sample(model, basins.starts), in_si, scales)
 
 
-def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[Disturbance, tuple[str, ...]]:
+def _disturbance(table: Mapping[str, object], scales: Scales | None) -> tuple[Disturbance, tuple[str, ...]]:
     """Read a disturbance; return the names of its sizes that are in SI units too."""
     where = "basins.disturbance"
     kind = table.get("kind")

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 
-def as_json(document: dict[str, Any]) -> str:
+def as_json(document: dict[str, object]) -> str:
     """Return a document as the text of one JSON object; characters that are not printable are escaped."""
     text = json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False)
     if text.replace("\n", "").isprintable():
@@ -21,12 +21,12 @@ def as_json(document: dict[str, Any]) -> str:
     return "".join(sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1] for sign in text)
 
 
-def write_json(target: Path, document: dict[str, Any]) -> None:
+def write_json(target: Path, document: dict[str, object]) -> None:
     """Write a document to a file."""
     target.write_text(as_json(document) + "\n", encoding="utf-8")
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> Any:
     """Convert a value to the types of JSON."""
     if isinstance(value, dict):
         return {key: _plain(entry) for key, entry in value.items()}

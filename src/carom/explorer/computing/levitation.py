@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress
@@ -32,7 +31,7 @@ GROWS = -1e-9
 """Damping ratio below which a whirl grows, beyond rounding."""
 
 
-def levitation_of(case: Case) -> dict[str, Any]:
+def levitation_of(case: Case) -> dict[str, object]:
     """How a machine levitates, in words and rows: whether it does (``lead``), its whirls, and its whirl by unbalance with its zone (``more``).
 
     It ``holds`` where every free motion fades and the rotor stays clear of its touchdown bearings.

@@ -36,7 +36,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     """Fill a new document with the page of a machine, and return its session."""
     requests, answers = Requests(name="requests"), Answers(name="answers")
 
-    def hand_over(name: str, value: Any) -> None:
+    def hand_over(name: str, value: object) -> None:
         try:
             document.add_next_tick_callback(partial(setattr, answers, name, value))
         except AttributeError:

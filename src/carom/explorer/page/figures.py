@@ -47,7 +47,7 @@ def make_figures(names: Sequence[str]) -> Figures:
     return Figures(plots, parts)
 
 
-def _source(parts: dict[str, Any], name: str, *columns: str) -> ColumnDataSource:
+def _source(parts: dict[str, object], name: str, *columns: str) -> ColumnDataSource:
     source = ColumnDataSource({column: [] for column in columns})
     parts[name] = source
     return source
@@ -83,7 +83,7 @@ def _moving_line(**look: Any) -> Span:
     return Span(location=0.0, dimension="height", level="overlay", **look)
 
 
-def _distances(parts: dict[str, Any]) -> Any:
+def _distances(parts: dict[str, object]) -> Any:
     """Distance from the centre over time at each touchdown bearing, with its lasting contact shaded and impacts as marks on the wall, which is at one."""
     plot = _plot("distances", _range(parts, "distances_x", 0, 1), _range(parts, "distances_y", 0, 1.06))
     plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
@@ -97,7 +97,7 @@ def _distances(parts: dict[str, Any]) -> Any:
     return plot
 
 
-def _section(parts: dict[str, Any]) -> Any:
+def _section(parts: dict[str, object]) -> Any:
     """Section at the impacts: angle and radial speed just before each."""
     plot = _plot("section", _range(parts, "section_x", -180, 180), _range(parts, "section_y", 0, 1))
     plot.xaxis.ticker = [-180, -90, 0, 90, 180]
@@ -106,7 +106,7 @@ def _section(parts: dict[str, Any]) -> Any:
     return plot
 
 
-def _diagram(parts: dict[str, Any]) -> Any:
+def _diagram(parts: dict[str, object]) -> Any:
     """Impact speeds of all single-impact orbits along the slider moved last."""
     plot = _plot("diagram", _range(parts, "diagram_x", 0, 1), _range(parts, "diagram_y", -0.1, 1))
     bars = _source(parts, "bars", "left", "right", "bottom", "top", "colour", "words")
@@ -132,13 +132,13 @@ def _diagram(parts: dict[str, Any]) -> Any:
     return plot
 
 
-def _curves(plot: Any, parts: dict[str, Any], name: str, **look: Any) -> None:
+def _curves(plot: Any, parts: dict[str, object], name: str, **look: Any) -> None:
     """Several lines, each with a colour of its own."""
     source = _source(parts, name, "xs", "ys", "colour")
     plot.multi_line("xs", "ys", source=source, line_color="colour", line_width=1.6, name=name, **look)
 
 
-def _response(parts: dict[str, Any]) -> Any:
+def _response(parts: dict[str, object]) -> Any:
     """Radius of the whirl by unbalance over the speed: at the touchdown bearings, dashed at the sensors; clearances, and the present speed."""
     plot = _plot("response", _range(parts, "response_x", 0, 1), _range(parts, "response_y", 0, 1))
     _curves(plot, parts, "sensors", line_dash="dashed")
@@ -150,7 +150,7 @@ def _response(parts: dict[str, Any]) -> Any:
     return plot
 
 
-def _forces(parts: dict[str, Any]) -> Any:
+def _forces(parts: dict[str, object]) -> Any:
     """Normal force over time in each touchdown bearing."""
     plot = _plot("forces", _range(parts, "forces_x", 0, 1), _range(parts, "forces_y", 0, 1))
     _curves(plot, parts, "forces", line_alpha=0.85)

@@ -117,7 +117,7 @@ class Session:
         self._left = {name: task.work for name, task in self.questions.long.items() if task.answer in self._wanted}
         self.resume()
 
-    def kick(self, request: Mapping[str, Any]) -> None:
+    def kick(self, request: Mapping[str, object]) -> None:
         """Show the motion after another disturbance; see :class:`carom.explorer.page.models.Requests`."""
         kick, slot = read_kick(request.get("first"), request.get("second")), request.get("slot")
         if kick is None or not isinstance(slot, int) or slot not in range(len(SLOTS)):
@@ -130,7 +130,7 @@ class Session:
         if request.get("chosen"):
             self._answer("exports", self.questions.exports(self._shown))
 
-    def wish(self, request: Mapping[str, Any]) -> None:
+    def wish(self, request: Mapping[str, object]) -> None:
         """Begin what takes long and is done only where it is asked for, by its ``name``."""
         name = str(request.get("name"))
         if name in self.questions.on_request:

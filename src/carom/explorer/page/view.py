@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 SLOTS = ("motion", "beside")
 """Answers with the motions after both disturbances: the first is meant to come back, the second to be lost."""
@@ -34,7 +33,7 @@ class View:
     active: int = 0
 
 
-def read_view(given: Any) -> View:
+def read_view(given: object) -> View:
     """Read what the page sends; what cannot be read counts as not given."""
     given = given if isinstance(given, Mapping) else {}
     largest = _number(given.get("largest"))
@@ -48,13 +47,13 @@ def read_view(given: Any) -> View:
     )
 
 
-def read_kick(first: Any, second: Any) -> tuple[float, float] | None:
+def read_kick(first: object, second: object) -> tuple[float, float] | None:
     """Read two components; ``None`` where they are no numbers."""
     one, other = _number(first), _number(second)
     return None if one is None or other is None else (one, other)
 
 
-def _number(given: Any) -> float | None:
+def _number(given: object) -> float | None:
     if isinstance(given, bool) or not isinstance(given, int | float) or not math.isfinite(given):
         return None
     return float(given) if abs(given) < _LARGEST else None
