@@ -193,7 +193,10 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
             and plane.force_at > AT_THE_END * loads.time
             and plane.in_contact_since is not None
         ):
-            rows.insert(1, ("still growing", "the peak force came at the very end: follow the motion longer"))
+            rows.insert(
+                1,
+                ("still growing", "the peak force came at the very end: follow the motion longer, also for the limits"),
+            )
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
