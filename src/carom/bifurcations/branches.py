@@ -13,7 +13,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import CaromError
 from carom.base.results import Result
 from carom.bifurcations.conditions import Solution, is_admissible, jacobian_at, name_of, with_slip
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.points import Bifurcation, kinds_in_a_line
 from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName, OrbitName
@@ -80,6 +80,8 @@ class OrbitBranch(Result):
         """Values are stated in the unit of the parameter."""
         if name == "values" and len(self):
             return f"{len(self)} from {format_range(self.axis.field, self.values)}"
+        if name == "special":
+            return kinds_in_a_line(self.special)
         return super().line_of(name, value)
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Literal
@@ -159,3 +160,8 @@ class Bifurcation(Result):
             unnamed = self.name or "a motion without a name"
             raise InputError("bifurcation", f"{self.kind} of {unnamed}", "one of an orbit")
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
+
+
+def kinds_in_a_line(special: Iterable[Bifurcation]) -> str:
+    """Kinds of the special points of a branch, in its order."""
+    return ", ".join(point.kind for point in special) or "none"

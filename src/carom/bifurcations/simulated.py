@@ -16,7 +16,7 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import CaromError, InputError, Phase
 from carom.base.results import Result
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.points import Bifurcation, kinds_in_a_line
 from carom.bifurcations.simulated_family import SimulatedFamily
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -64,7 +64,7 @@ class SimulatedBranch(Result):
         See :class:`~carom.continuation.Branch`.
     """
 
-    shown: ClassVar[tuple[str, ...]] = ("axis", "name", "word", "values", "period", "special", "stops")
+    shown: ClassVar[tuple[str, ...]] = ("parameter", "name", "word", "values", "period", "special", "stops")
 
     axis: Axis
     name: Any
@@ -76,6 +76,10 @@ class SimulatedBranch(Result):
 
     def __len__(self) -> int:
         return len(self.values)
+
+    def line_of(self, name: str, value: object) -> str:
+        """Special points are stated by their kinds."""
+        return kinds_in_a_line(self.special) if name == "special" else super().line_of(name, value)
 
     @property
     def parameter(self) -> str:
