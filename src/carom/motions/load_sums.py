@@ -27,6 +27,8 @@ from carom.motions.wall_works import ContactWorks, contact_works
 
 RECENT = 10
 """Impacts over which the power of bouncing is averaged, at least."""
+AT_THE_END = 0.98
+"""Share of the time of a motion after which its largest force came at its end, in contact: a slow whirl may still speed up."""
 LAST_TURNS = 8.0
 """Turns of the shaft at the end over which the whirl is averaged."""
 PER_RADIAN = 2.0
@@ -208,6 +210,9 @@ class _AtPlane:
             impulse_at=None if hardest is None else float(contacts.peak_time[hardest]),
             force=force,
             force_at=None if strongest is None else float(contacts.peak_time[strongest]),
+            still_growing=strongest is not None
+            and self.since is not None
+            and bool(contacts.peak_time[strongest] > AT_THE_END * (last.begins + last.time)),
             depth=float(self.largest[DEPTH]),
             power=float(self.largest[POWER]),
             heat=self.heat,

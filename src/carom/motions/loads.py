@@ -93,6 +93,8 @@ class TouchdownLoads(Result):
         whole turn.
     force_at : float or None
         When it came, ``1/Ω``; ``None`` on a rigid wall.
+    still_growing : bool
+        Whether the largest force of a compliant bearing came at the very end, in contact: a slow whirl may still speed up, and force, depth and pressure with it.
     depth : float
         Largest depth in the wall, ``c_r``; 0 if the wall is rigid.
     power : float
@@ -131,6 +133,7 @@ class TouchdownLoads(Result):
     impulse_at: float | None
     force: float
     force_at: float | None
+    still_growing: bool
     depth: float
     power: float
     heat: float

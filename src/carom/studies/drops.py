@@ -24,7 +24,7 @@ from carom.rotors.reduction_errors import ReductionError, reduction_error
 from carom.studies.wording import Wording
 
 PLANE = "is_compliant contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
-LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on"
+LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on still_growing"
 _IN_BOTH = (
     ("restitution seen", "{restitution} in the fastest impact (with unbalance, weight)"),
     ("slip energy (heat)", "{heat}"),
@@ -49,8 +49,6 @@ RIGID = (
     *_IN_BOTH,
 )
 """What people see of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
-AT_THE_END = 0.98
-"""Share of the time of a motion after which its largest force came at its end, in contact: a slow whirl may still speed up."""
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
@@ -73,6 +71,8 @@ class LoadCheck:
     limit : float
     endless : bool
         Whether the load goes on growing, because the motion has settled in contact.
+    still_growing : bool
+        Whether the load grew up to the end of the motion, whose further course it may exceed.
     after : float
         Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
     touchdown_bearing : int or None
@@ -83,6 +83,7 @@ class LoadCheck:
     value: float
     limit: float
     endless: bool
+    still_growing: bool
     after: float
     touchdown_bearing: int | None = None
 
@@ -100,13 +101,13 @@ class LoadCheck:
         if self.value > self.limit:
             return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
         if not self.endless:
-            return f"{text}: kept"
+            return f"{text}: kept{', but still growing at the end' if self.still_growing else ''}"
         when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
         return f"{text}: exceeded{when}, as the motion goes on in contact"
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON; values in the SI unit of the limit."""
-        return record(self, "name exceeded endless value_si=value limit_si=limit reached_after_si=after")
+        return record(self, "name exceeded endless still_growing value_si=value limit_si=limit reached_after_si=after")
 
 
 @checked
@@ -135,7 +136,8 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
             after = 0.0
         elif endless and name == "heat":
             after = (limit - value) / si["lasting_power"]
-        found.append(LoadCheck(name, value, limit, endless, after))
+        growing = loads.still_growing and name in ("force", "depth", "pressure")
+        found.append(LoadCheck(name, value, limit, endless, growing, after))
     return tuple(found)
 
 
@@ -188,15 +190,9 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
         rows = [("peak force", "none: it did not touch")]
     else:
         rows = Wording(plane.scales).rows(COMPLIANT if plane.is_compliant else RIGID, plane, since=since)
-        if (
-            plane.force_at is not None
-            and plane.force_at > AT_THE_END * loads.time
-            and plane.in_contact_since is not None
-        ):
-            rows.insert(
-                1,
-                ("still growing", "the peak force came at the very end: follow the motion longer, also for the limits"),
-            )
+        if plane.still_growing:
+            label, words = rows[0]
+            rows[0] = (label, f"{words}, still growing: follow the motion longer")
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
