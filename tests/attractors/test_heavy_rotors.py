@@ -65,7 +65,7 @@ def test_rest_on_the_bearing_is_sliding_that_repeats_every_turn():
     lying = HEAVY.replace(gravity=30)
     (rest,) = touched(find_attractors(lying, count=12))
     assert rest.name.outcome is Outcome.AT_REST
-    assert rest.orbit.segments == "contact that never changes"
+    assert rest.orbit.segments == "slides forward throughout"
     assert rest.orbit.turns == 1
     assert rest.orbit.stable
     rotor, scales = rotor_of(lying), lying.parameters.scales

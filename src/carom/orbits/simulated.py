@@ -26,6 +26,8 @@ from carom.parameters import Scales
 
 SAME_ORBIT_RTOL = 1e-5
 """Distance of two orbits, relative to one plus their size, below which they are the same."""
+THROUGHOUT = {Phase.FORWARD_SLIP: "slides forward", Phase.BACKWARD_SLIP: "slides backward", Phase.ROLLING: "rolls"}
+"""What an orbit does in which no event happens."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,7 +111,10 @@ class SimulatedOrbit(Result):
     @property
     def segments(self) -> str:
         """The same as text."""
-        return word_of(self.happenings) or "contact that never changes"
+        if word := word_of(self.happenings):
+            return word
+        lasting = sorted(set(self.motion.segment_phases.ravel().tolist()) & set(THROUGHOUT))
+        return f"{' and '.join(THROUGHOUT[phase] for phase in lasting)} throughout" if lasting else "no event"
 
     @property
     def word(self) -> str:
