@@ -192,7 +192,7 @@ def size_cells(wording: Wording, found: SmallestUnrecovered, *remarks: str) -> d
     if found.size is not None:
         cells["lost"] = f"{size(found.size)} ({shown})"
     elif not found.complete:
-        cells["lost"] = shown
+        cells["lost"] = "none yet; the search was cut short"
     return cells
 
 
