@@ -155,7 +155,7 @@ def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has
         return InputError(name, shown(given), f"stands for {field} = {formula}; use {field} here")
     if some := [each for each in varied if re.fullmatch(rf"{re.escape(name)}_\d+", each)]:
         return InputError(name, shown(given), f"stated for some parts only: use {', '.join(some)}, or state it for all")
-    if name in HELPER_FIELDS:
+    if name in HELPER_FIELDS and has_scales:
         return InputError(name, shown(given), "not varied here; set it in the machine file or, for one run, by --set")
     if has_scales or name not in SETTABLE:
         return unknown_name(name, given, varied, "the parameters that the machine file states")
