@@ -81,5 +81,7 @@ def test_options_are_handed_on():
 
 
 def test_a_result_without_a_figure_says_so():
-    with pytest.raises(InputError, match=r"^plot = PeriodRoots: a result with a figure; draw its arrays with matplotlib$"):
+    with pytest.raises(
+        InputError, match=r"^plot = PeriodRoots: a result with a figure; draw its arrays with matplotlib$"
+    ):
         carom.closed_forms.periods.PeriodRoots.plot(object.__new__(carom.closed_forms.periods.PeriodRoots))
