@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from carom.models import from_matrices
-from carom.models.touchdown import Touchdown
+from carom.models import Touchdown, from_matrices
 
 SURFACE_SPEED = 40.0
 

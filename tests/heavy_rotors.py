@@ -7,8 +7,7 @@ from compliant_reference import Plane
 from compliant_reference import Rotor as ReferenceRotor
 
 import carom as cm
-from carom.models import Force, HuntCrossley, KelvinVoigt, Rigid, from_matrices, jeffcott
-from carom.models.touchdown import Touchdown
+from carom.models import Force, HuntCrossley, KelvinVoigt, Rigid, Touchdown, from_matrices, jeffcott
 from carom.orbits import orbit_of_motion
 from carom.parameters import Parameters
 

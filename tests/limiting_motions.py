@@ -9,8 +9,7 @@ import math
 import numpy as np
 from compilation import sized
 
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
+from carom.motions import State, Trajectory
 from carom.parameters import Parameters
 
 EPSILON = 2.0**-52

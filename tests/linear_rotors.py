@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from carom.models import Rigid, Rotor, from_matrices
-from carom.models.touchdown import Touchdown
+from carom.models import Rigid, Rotor, Touchdown, from_matrices
 
 TOLERANCE = 1e-12
 

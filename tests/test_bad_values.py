@@ -12,8 +12,7 @@ import carom as cm
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
-from carom.models import LinearEquations, Rigid
-from carom.models.touchdown import Touchdown
+from carom.models import LinearEquations, Rigid, Touchdown
 from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
 from carom.sweeps import plan_sweep
 

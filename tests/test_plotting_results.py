@@ -9,11 +9,10 @@ from machines import PAPER
 from studies import study_once
 
 import carom
-from carom import plots
+from carom import Grid, map_basins, map_gains, plots
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.basins import map_basins, map_gains
-from carom.disturbances import Grid, VelocityKick
+from carom.disturbances import VelocityKick
 from carom.motions import energy_ledger
 from carom.proofs import ProvenKicks, prove_kicks
 

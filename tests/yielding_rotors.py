@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.models import HuntCrossley, KelvinVoigt, Rotor, from_matrices
-from carom.models.touchdown import Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, Rotor, Touchdown, from_matrices
 
 SURFACE_SPEED = 57.14
 

@@ -14,8 +14,7 @@ from machines import PAPER, random_parameters
 
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Parameters
 
 from .bouncing import HeyokaFlights, bounces, error_bounds

@@ -11,8 +11,7 @@ from machines import PAPER
 from carom.base.outcome import Phase
 from carom.core.advance import CHATTER_HEIGHT
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Parameters
 
 from .exact_chatter import DIGITS, ExactRotor, Rebound

@@ -5,11 +5,8 @@ import pytest
 from compilation import sized
 from linear_rotors import bending, single, tilting, to_fixed
 
+from carom import State, kick, settle, simulate
 from carom.base.outcome import Outcome, Phase
-from carom.disturbances import kick
-from carom.motions.ensembles import settle
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
 
 pytestmark = pytest.mark.jit_only
 

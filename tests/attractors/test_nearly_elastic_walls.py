@@ -8,8 +8,7 @@ from carom.attractors import exponents_of, find_attractors
 from carom.base.outcome import Outcome
 from carom.basins import share_of_kicks
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Parameters
 from carom.studies.endings import ending_phrase, ending_words
 

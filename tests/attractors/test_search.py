@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 
-from carom.attractors import find_attractors
+from carom import State, find_attractors, find_equilibria, find_orbits, kick
 from carom.base.outcome import Outcome
-from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import kick
 from carom.models import jeffcott
 from carom.motions import settling
-from carom.motions.starts import State
-from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

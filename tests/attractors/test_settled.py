@@ -4,13 +4,10 @@ import dataclasses
 
 import pytest
 
+from carom import State, find_equilibria, find_orbits, simulate
 from carom.attractors.settled import forces_on, same_motion, settled_motion, whirl_of
 from carom.base.outcome import Outcome
-from carom.closed_forms.equilibria import find_equilibria
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

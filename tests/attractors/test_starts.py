@@ -5,12 +5,11 @@ import pytest
 from linear_rotors import bending, single, tilting
 from scipy.stats import chi2_contingency, chisquare, ks_2samp
 
+from carom import find_orbits, settle
 from carom.attractors import DisturbanceSet, known_starts
 from carom.attractors.starts import disturbances_of
-from carom.closed_forms.whirl import runaway_speed
+from carom.closed_forms import runaway_speed
 from carom.models import jeffcott
-from carom.motions.ensembles import settle
-from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

@@ -6,16 +6,12 @@ import numpy as np
 import pytest
 from machines import PAPER
 
+from carom.attractors import Survival, follow_until_settled
 from carom.attractors import survival as module
-from carom.attractors.survival import (
-    Survival,
-    follow_until_settled,
-    measure_survival,
-    still_irregular,
-)
+from carom.attractors.survival import measure_survival, still_irregular
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
-from carom.motions.ensembles import Endings, settle
+from carom.motions import Endings, settle
 
 
 def ensemble(multiplicities, outcomes, impacts=0):

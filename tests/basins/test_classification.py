@@ -10,16 +10,7 @@ from machines import PAPER
 import carom
 from carom.base.outcome import InputError, Outcome
 from carom.basins import Basin, map_basins
-from carom.disturbances import (
-    AnyState,
-    BaseShock,
-    BladeLoss,
-    ContactRelease,
-    Grid,
-    Sample,
-    StateSlice,
-    VelocityKick,
-)
+from carom.disturbances import AnyState, BaseShock, BladeLoss, ContactRelease, Grid, Sample, StateSlice, VelocityKick
 
 pytestmark = pytest.mark.jit_only
 

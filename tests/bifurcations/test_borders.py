@@ -10,8 +10,7 @@ from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.neighbours import BORDERS
 from carom.models import jeffcott
 from carom.motions import State, simulate
-from carom.orbits import find_orbits, impact_map
-from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits import Orbit, find_orbits, impact_map, orbit_near
 from carom.orbits.shooting import ShootingStart
 from tests.bifurcations.test_words import doubled, located
 from tests.machines import PAPER

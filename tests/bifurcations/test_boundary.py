@@ -4,14 +4,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from carom import State, find_equilibria, find_orbits, simulate
 from carom.base.outcome import Outcome
-from carom.bifurcations.boundary import boundary_equilibria
-from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.periods import PeriodCondition
+from carom.bifurcations import boundary_equilibria
+from carom.closed_forms import PeriodCondition
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

@@ -6,8 +6,7 @@ from machines import PAPER
 
 from carom import find_orbits
 from carom.bifurcations import KINDS, Bifurcation, Curve, Plane, continue_curve, continue_orbit
-from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.periods import PeriodCondition
+from carom.closed_forms import PeriodCondition, find_equilibria
 from carom.models import jeffcott
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))

@@ -7,16 +7,13 @@ import numpy as np
 import pytest
 from machines import PAPER, ExactMotion
 
-from carom import find_equilibria, find_orbits, simulate
+from carom import State, find_bifurcations, find_equilibria, find_orbits, map_regions, simulate
 from carom.base.outcome import Phase
-from carom.bifurcations import Bifurcation, Diagram, Plane, find_bifurcations, map_regions
-from carom.bifurcations.boundary import boundary_equilibria
+from carom.bifurcations import Bifurcation, Diagram, Plane, boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
-from carom.closed_forms.periods import PeriodCondition
+from carom.closed_forms import PeriodCondition
 from carom.models import jeffcott
-from carom.motions.starts import State
-from carom.orbits.maps import Section, impact_map
-from carom.orbits.orbit import Orbit
+from carom.orbits import Orbit, Section, impact_map
 from carom.parameters import Numbers, Parameters
 
 pytestmark = pytest.mark.jit_only

@@ -9,8 +9,7 @@ from carom.bifurcations import Diagram, find_bifurcations
 from carom.bifurcations.documents import diagram_document
 from carom.models import jeffcott
 from carom.motions import simulate
-from carom.orbits import find_orbits
-from carom.orbits.orbit import orbit_near
+from carom.orbits import find_orbits, orbit_near
 from tests.machines import PAPER
 
 pytestmark = pytest.mark.jit_only

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import find_orbits, simulate
-from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
+from carom import State, continue_curve, continue_orbit, find_orbits, simulate
+from carom.bifurcations import Bifurcation, Curve, Plane
 from carom.models import jeffcott
-from carom.motions.starts import State
-from carom.orbits.orbit import Orbit
+from carom.orbits import Orbit
 
 SOFT = PAPER.replace(omega=0.35, rho=0.2)
 """The source paper's rotor on a softer bearing and better balanced: B1,d loses stability through a pair at 80 degrees."""

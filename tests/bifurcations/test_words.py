@@ -9,9 +9,8 @@ from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.models import jeffcott
 from carom.motions import State, simulate
-from carom.orbits import find_orbits, impact_map
-from carom.orbits.orbit import orbit_near, same_orbit
-from carom.orbits.recognising import orbit_of_motion
+from carom.orbits import find_orbits, impact_map, orbit_near, orbit_of_motion
+from carom.orbits.orbit import same_orbit
 from carom.orbits.shooting import ShootingStart
 from tests.machines import PAPER
 

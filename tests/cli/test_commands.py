@@ -5,11 +5,8 @@ import json
 import pytest
 from studies import ORBIT_KEYS
 
-from carom import __version__
-from carom.closed_forms.equilibria import find_equilibria
-from carom.loading import load
+from carom import __version__, find_equilibria, find_orbits, load
 from carom.models import jeffcott
-from carom.orbits.single_impact import find_orbits
 
 pytestmark = pytest.mark.jit_only
 

@@ -8,13 +8,10 @@ import xarray
 from linear_rotors import single
 from yielding_walls import with_walls
 
+from carom import State, kick, load, simulate
 from carom.base.outcome import Phase
 from carom.cli.logs import write_csv, write_netcdf
-from carom.disturbances import kick
-from carom.loading import load
 from carom.models import KelvinVoigt, jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only

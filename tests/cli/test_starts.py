@@ -5,22 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from carom import State, kick, load
 from carom.base.outcome import InputError
 from carom.cli import main
-from carom.cli.starts import (
-    check_exact,
-    read_one,
-    read_positive,
-    read_range,
-    read_time,
-    read_value,
-    with_requirement,
-)
-from carom.disturbances import BladeLoss, kick
-from carom.disturbances.single import Single, read_single
-from carom.loading import load
+from carom.cli.starts import check_exact, read_one, read_positive, read_range, read_time, read_value, with_requirement
+from carom.disturbances import BladeLoss, Single
+from carom.disturbances.single import read_single
 from carom.models import axis, jeffcott
-from carom.motions.starts import State
 from carom.parameters import Parameters, Requirement, Scales, Shock
 
 

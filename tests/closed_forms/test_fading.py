@@ -9,8 +9,7 @@ from machines import PAPER
 
 from carom.closed_forms import fading_speed, rolling
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Parameters
 
 NEARLY_ELASTIC = Parameters(

@@ -9,9 +9,8 @@ from compilation import sized
 from linear_rotors import random_rotor
 from scipy.optimize import root
 
-from carom import find_equilibria
+from carom import find_equilibria, settle
 from carom.base.outcome import Outcome
-from carom.motions.ensembles import settle
 
 
 def misses(model, at):

@@ -11,8 +11,7 @@ from machines import PAPER, path, rest_position
 from scipy.integrate import solve_ivp
 
 from carom.base.outcome import InputError
-from carom.closed_forms.contact_free import contact_free_kick, contact_free_shock
-from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms import contact_free_kick, contact_free_shock, find_equilibria, rolling, runaway_speed
 from carom.closed_forms.thresholds import (
     happens_to_rubs,
     has_stable_rub,
@@ -22,7 +21,6 @@ from carom.closed_forms.thresholds import (
     sustaining_speed,
     wall_condition,
 )
-from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import jeffcott
 from carom.parameters import Numbers, Parameters
 

@@ -8,12 +8,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from carom.base.outcome import Outcome, Phase
-from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
+from carom.closed_forms import find_equilibria, rolling, runaway_speed
+from carom.closed_forms.whirl import hastening_speed
 from carom.models import jeffcott
-from carom.motions.ensembles import settle
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, settle, simulate
 from carom.parameters import Parameters
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

@@ -16,8 +16,7 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.core.settling import memory
 from carom.core.table import flight_table
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Parameters
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

@@ -6,16 +6,12 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom.attractors import find_attractors
+from carom import State, find_attractors, find_orbits, settle, simulate
 from carom.base.outcome import Outcome
 from carom.core.closing import ATTRACTS, OPEN, REPELS, close, least_period
 from carom.core.settling import memory
 from carom.models import jeffcott
-from carom.motions.ensembles import settle
 from carom.motions.settling import _tools
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
 
 SPIRALLING = Parameters(

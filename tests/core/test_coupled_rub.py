@@ -10,9 +10,7 @@ from sliding import BACKWARD, FORWARD, ROLLING, SIGN
 from carom.core.contact_series import rub_series
 from carom.core.flow import displacement, velocity
 from carom.core.layout import ORDER, rotor_record, rub_workspace
-from carom.core.rub import (
-    rest_on_wall,
-)
+from carom.core.rub import rest_on_wall
 from carom.core.taylor import series_step, sum_series
 
 

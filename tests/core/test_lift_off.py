@@ -14,11 +14,7 @@ from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, fly_all, velocity
 from carom.core.layout import rub_workspace
 from carom.core.rounding import push_rounding, speed_rounding
-from carom.core.rub import (
-    lift_off,
-    rest_on_wall,
-    wall_push,
-)
+from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.models import jeffcott
 from carom.parameters import Parameters
 

@@ -8,9 +8,7 @@ from machines import PAPER
 from carom.base.outcome import Outcome
 from carom.core.planar_proofs import _farthest, stays_inside
 from carom.models import jeffcott
-from carom.motions.ensembles import settle
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, settle, simulate
 
 
 def drawn_weakly_damped(random):

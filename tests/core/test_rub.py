@@ -30,11 +30,7 @@ from carom.core.contact_series import rub_series
 from carom.core.flow import displacement, velocity
 from carom.core.layout import ORDER, rub_workspace
 from carom.core.rounding import push_rounding, speed_rounding
-from carom.core.rub import (
-    first_transition,
-    next_phase,
-    turn_ahead,
-)
+from carom.core.rub import first_transition, next_phase, turn_ahead
 from carom.core.taylor import STEP_FRACTION, first_fall, series_step, sum_series
 from carom.models import jeffcott
 

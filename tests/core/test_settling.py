@@ -10,18 +10,9 @@ from machines import PAPER, random_parameters
 
 from carom.base.outcome import Outcome
 from carom.core.layout import RECURRENCE_RTOL, rotor_record, workspace
-from carom.core.settling import (
-    approaches_turn,
-    levitates,
-    memory,
-    near_rub,
-    recurs,
-    reset_rub,
-    same_state,
-)
+from carom.core.settling import approaches_turn, levitates, memory, near_rub, recurs, reset_rub, same_state
 from carom.models import Rotor, jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Parameters
 
 MANY = sized(100, 20, 300)

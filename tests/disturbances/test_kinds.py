@@ -8,16 +8,7 @@ from machines import PAPER, rest_position
 
 import carom
 from carom.base.outcome import InputError
-from carom.disturbances import (
-    AnyState,
-    BaseShock,
-    ContactRelease,
-    Grid,
-    KickPlane,
-    Sample,
-    StateSlice,
-    VelocityKick,
-)
+from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, KickPlane, Sample, StateSlice, VelocityKick
 
 SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(scales=SCALES)

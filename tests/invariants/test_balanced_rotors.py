@@ -14,9 +14,7 @@ from machines import PAPER
 
 from carom.base.outcome import Outcome, Phase
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
+from carom.motions import State, Trajectory, simulate
 from carom.parameters import Parameters
 
 

@@ -9,8 +9,7 @@ from hypothesis import example, given
 from machines import PAPER
 
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 
 ROUNDING = 64 * 2.0**-52
 """Rounding errors of a speed are some tens of spacings of the speeds and displacements it is summed from."""

@@ -24,8 +24,7 @@ from limiting_motions import (
 from machines import PAPER
 
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 
 # ------------------------------------------------------------------------------------------------ d → 1: elastic
 

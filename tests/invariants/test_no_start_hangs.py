@@ -16,9 +16,7 @@ from compilation import sized
 
 from carom.base.outcome import Outcome, Phase
 from carom.models import Rotor, jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
+from carom.motions import State, Trajectory, simulate
 from carom.parameters import Parameters
 
 MACHINES = 50

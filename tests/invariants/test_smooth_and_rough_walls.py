@@ -16,8 +16,7 @@ from scipy.special import ellipj, ellipk
 
 from carom.base.outcome import Outcome, Phase
 from carom.models import jeffcott
-from carom.motions.ledger import energy_ledger
-from carom.motions.simulation import simulate
+from carom.motions import energy_ledger, simulate
 
 # ------------------------------------------------------------------------------------------------ μ = 0: smooth wall
 

@@ -10,8 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 from carom.parameters import Machine, Scales
 
 EPSILON = 2.0**-52

@@ -13,9 +13,7 @@ from machines import PAPER
 
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
+from carom.motions import State, Trajectory, simulate
 
 # ------------------------------------------------------------------------------------------------ γ → 0: undamped
 

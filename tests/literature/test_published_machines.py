@@ -8,11 +8,9 @@ from flexible_machines import munich, munich_rotor
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from carom import State, find_equilibria, load, simulate
 from carom.base.outcome import Outcome
-from carom.closed_forms.equilibria import find_equilibria
-from carom.loading import load
 from carom.models import jeffcott
-from carom.motions import State, simulate
 from carom.parameters import ENTRIES, Machine, read_quantity
 from carom.rotors import Material, find_whirls
 

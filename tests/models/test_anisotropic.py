@@ -7,13 +7,7 @@ from scipy.linalg import expm
 
 import carom as cm
 from carom.base.outcome import InputError, Phase
-from carom.models import (
-    Force,
-    KelvinVoigt,
-    Rigid,
-    Touchdown,
-    from_matrices,
-)
+from carom.models import Force, KelvinVoigt, Rigid, Touchdown, from_matrices
 from carom.motions import State, energy_ledger
 
 MASS = np.diag([1.0, 0.3])

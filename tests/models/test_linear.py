@@ -11,8 +11,7 @@ from scipy.linalg import expm
 from carom.base.outcome import InputError
 from carom.models import from_matrices
 from carom.models.modes import modes_of
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, simulate
 
 
 def planar(parameters, beside=None):

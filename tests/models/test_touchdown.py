@@ -5,17 +5,8 @@ import pytest
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.models import (
-    FallingRestitution,
-    HuntCrossley,
-    KelvinVoigt,
-    Rigid,
-    Rotor,
-    Touchdown,
-    from_matrices,
-    jeffcott,
-)
-from carom.motions.starts import State
+from carom.models import FallingRestitution, HuntCrossley, KelvinVoigt, Rigid, Rotor, Touchdown, from_matrices, jeffcott
+from carom.motions import State
 from carom.parameters import Parameters, Scales
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=50.0)

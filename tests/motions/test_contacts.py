@@ -14,14 +14,10 @@ from linear_rotors import single
 from machines import PAPER
 from yielding_walls import with_walls
 
+from carom import State, find_equilibria, kick, simulate
 from carom.base.outcome import Phase
-from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import kick
 from carom.models import HuntCrossley, KelvinVoigt, jeffcott
-from carom.motions.ledger import energy_ledger
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
+from carom.motions import Trajectory, energy_ledger
 from carom.parameters import Parameters, Scales
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)

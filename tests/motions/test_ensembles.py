@@ -7,8 +7,7 @@ from machines import PAPER
 
 import carom
 from carom.base.outcome import InputError, Outcome
-from carom.motions import portions
-from carom.motions.ensembles import Endings, settle
+from carom.motions import Endings, portions, settle
 
 SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
 

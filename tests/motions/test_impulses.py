@@ -6,13 +6,9 @@ from compilation import sized
 from linear_rotors import random_rotor, tilting, to_fixed, touchdowns
 
 from carom.base.outcome import Phase
-from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms import find_equilibria
 from carom.models import from_matrices
-from carom.motions import drop_loads
-from carom.motions.ledger import energy_ledger
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
+from carom.motions import State, Trajectory, drop_loads, energy_ledger, simulate
 from carom.parameters import Scales
 
 pytestmark = pytest.mark.jit_only

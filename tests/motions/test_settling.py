@@ -11,17 +11,14 @@ from sliding_motions import ahead_of, assert_slides_to_the_rub
 import carom
 from carom.attractors.naming import name_motions
 from carom.base.outcome import Outcome, Phase
-from carom.closed_forms.absorbing import rub_neighbourhood
-from carom.closed_forms.whirl import runaway_speed
+from carom.closed_forms import rub_neighbourhood, runaway_speed
 from carom.core.closing import PASSES
 from carom.core.planar_proofs import absorbed
 from carom.core.settling import memory
 from carom.models import from_matrices
-from carom.motions.ensembles import settle
+from carom.motions import State, settle, simulate
 from carom.motions.recurrence import least_recurrence
 from carom.motions.settling import fresh_memory, settled
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
 
 pytestmark = pytest.mark.jit_only
 

@@ -10,11 +10,9 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
+from carom import State, kick, simulate
 from carom.base.outcome import InputError
-from carom.disturbances import kick
 from carom.models import jeffcott, rotor_of
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
 
 
 @pytest.fixture

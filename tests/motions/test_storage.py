@@ -7,10 +7,9 @@ import pytest
 import xarray
 from machines import PAPER
 
+from carom import State, drop, load, simulate
 from carom.base.outcome import InputError
-from carom.disturbances import drop
-from carom.loading import load
-from carom.motions import State, Trajectory, simulate
+from carom.motions import Trajectory
 from carom.parameters import Scales
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)

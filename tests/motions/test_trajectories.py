@@ -6,10 +6,7 @@ from machines import PAPER, fly, strike
 
 from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import jeffcott
-from carom.motions import simulation
-from carom.motions.ensembles import settle
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
+from carom.motions import State, settle, simulate, simulation
 from carom.parameters import Scales
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from carom.motions import State, simulate
-from carom.orbits import find_orbits
-from carom.orbits.orbit import Orbit
+from carom.orbits import Orbit, find_orbits
 from carom.parameters import Parameters
 from tests.machines import PAPER
 

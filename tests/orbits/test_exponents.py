@@ -8,9 +8,7 @@ import pytest
 from carom.base.outcome import CaromError, Outcome
 from carom.models import Rotor, jeffcott
 from carom.motions import State, settle, simulate
-from carom.orbits import find_orbits
-from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
-from carom.orbits.recognising import orbit_of_motion
+from carom.orbits import find_orbits, lyapunov_exponents, orbit_exponents, orbit_of_motion
 from carom.parameters import Parameters
 from tests.compilation import sized
 from tests.machines import PAPER, random_parameters

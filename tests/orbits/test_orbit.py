@@ -6,12 +6,11 @@ import pytest
 
 from carom.models import Rotor, jeffcott
 from carom.motions import State, simulate
-from carom.orbits import find_orbits, impact_map
+from carom.orbits import Kind, Orbit, Word, find_orbits, impact_map, orbit_near, orbit_of_motion
 from carom.orbits.admissibility import why_virtual
-from carom.orbits.orbit import Orbit, margins_of, orbit_near
-from carom.orbits.recognising import impacts_between, orbit_of_motion
+from carom.orbits.orbit import margins_of
+from carom.orbits.recognising import impacts_between
 from carom.orbits.shooting import ShootingStart, closed_flights, converged, links_of, pack, unpack
-from carom.orbits.word import Kind, Word
 from tests.compilation import sized
 from tests.machines import PAPER, exact_matrix, random_parameters
 

@@ -3,14 +3,12 @@
 import numpy as np
 import pytest
 
+from carom import State, find_bifurcations, find_orbits, settle, simulate
 from carom.base.outcome import InputError, Outcome, Phase
 from carom.base.progress import Reporter
-from carom.bifurcations import find_bifurcations
 from carom.models import rotor_of
-from carom.motions import State, settle, simulate
-from carom.orbits import find_orbits
-from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import orbit_of_motion
+from carom.orbits import Orbit, orbit_of_motion
+from carom.orbits.orbit import same_orbit
 from carom.orbits.search import OrbitSearch
 from carom.orbits.searched import random_starts
 from carom.parameters import Parameters

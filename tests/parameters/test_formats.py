@@ -3,13 +3,12 @@
 import pytest
 
 from carom.attractors import DisturbanceSet
-from carom.basins.shares import Population
-from carom.disturbances import VelocityKick
-from carom.disturbances.single import Single
+from carom.basins import Population
+from carom.disturbances import Single, VelocityKick
 from carom.models import jeffcott
 from carom.parameters import Parameters, Scales
 from carom.parameters.formats import format_quantity, number, rounded_down
-from carom.studies.wording import Wording
+from carom.studies import Wording
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 NUMBERS = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

@@ -8,13 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from refusals import ALLOWED, error_of
 
-from carom.parameters import (
-    DIMENSIONLESS_FIELDS,
-    PHYSICAL_PARTNER,
-    Machine,
-    Parameters,
-    Scales,
-)
+from carom.parameters import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, Machine, Parameters, Scales
 
 SI = {
     "mass": 50,

@@ -8,15 +8,8 @@ import numpy as np
 import pytest
 from refusals import error_of
 
-from carom.parameters import (
-    ENTRIES,
-    HELPER_FIELDS,
-    MACHINE_FIELDS,
-    TERM_FIELDS,
-    Machine,
-)
+from carom.parameters import ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, TERM_FIELDS, Machine, field_to_vary
 from carom.parameters.quantities import read_decimal
-from carom.parameters.terms import field_to_vary
 
 PLAIN = {
     "mass": "50 kg",

@@ -10,12 +10,7 @@ import carom
 from carom import plots
 from carom.base.outcome import InputError, Outcome
 from carom.basins import map_basins, map_gains, smallest_unrecovered
-from carom.disturbances import (
-    AnyState,
-    Grid,
-    KickPlane,
-    VelocityKick,
-)
+from carom.disturbances import AnyState, Grid, KickPlane, VelocityKick
 
 pytestmark = pytest.mark.jit_only
 

@@ -7,9 +7,8 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
 
 import carom
-from carom import plots
-from carom.basins import map_basins
-from carom.disturbances import Grid, KickPlane
+from carom import Grid, map_basins, plots
+from carom.disturbances import KickPlane
 
 pytestmark = pytest.mark.jit_only
 

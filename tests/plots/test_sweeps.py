@@ -12,9 +12,7 @@ from sweep_tasks import Failing, basins_plan
 from carom import plots
 from carom.base.outcome import InputError
 from carom.parameters import Case, Machine, Zones
-from carom.sweeps import GridAxis, open_sweep, run_sweep
-from carom.sweeps.plan import SweepPlan
-from carom.sweeps.studies import StudyTask
+from carom.sweeps import GridAxis, StudyTask, SweepPlan, open_sweep, run_sweep
 
 MACHINE = Machine(
     mass=50.0, damping=1400.0, stiffness=9.8e5, eccentricity=0.3e-3, clearance=0.7e-3, rotor_radius=0.04,

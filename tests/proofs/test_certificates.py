@@ -12,8 +12,7 @@ from compilation import sized
 from machines import PAPER
 
 from carom.base.outcome import InputError
-from carom.proofs import check, prove
-from carom.proofs.balls import Enclosure
+from carom.proofs import Enclosure, check, prove
 
 DECIMAL = {**machines.DECIMAL, "radius_ratio": "57"}
 

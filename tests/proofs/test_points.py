@@ -14,10 +14,9 @@ from carom.base.outcome import InputError
 from carom.bifurcations.conditions import jacobian_at, profile_at
 from carom.orbits import find_orbits
 from carom.parameters import Numbers as Doubles
-from carom.proofs import check, prove
+from carom.proofs import check, hypotheses_of, prove
 from carom.proofs.balls import at_precision, exact_ends
 from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import line_of
 from carom.proofs.points import _searched, _system, point_claims

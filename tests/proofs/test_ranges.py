@@ -9,9 +9,8 @@ from machines import DECIMAL, PAPER
 
 from carom.base.outcome import InputError
 from carom.orbits import find_orbits
-from carom.proofs import Claim, Proof, check, prove
+from carom.proofs import Claim, Proof, check, hypotheses_of, prove
 from carom.proofs.evidence import Evidence
-from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.proving import proof_of
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import ProvenRotor

@@ -13,10 +13,9 @@ import carom as cm
 from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.orbits import Section, impact_map
-from carom.proofs import check, prove
+from carom.proofs import check, hypotheses_of, prove
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.several_impacts import several_impact_claims

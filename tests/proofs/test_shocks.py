@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom import BaseShock, settle
 from carom.base.outcome import InputError
-from carom.disturbances import BaseShock
 from carom.models import jeffcott
-from carom.motions import settle
 from carom.proofs import check, prove_kicks, prove_shocks, prove_unbalance_steps
 from carom.proofs.kick_cells import IMPACTS, OPEN, leaves, read
 from carom.proofs.seeds import doubles_of

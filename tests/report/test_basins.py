@@ -5,9 +5,8 @@ from pathlib import Path
 import pytest
 from studies import study_once
 
-from carom.basins import map_basins
+from carom import load, map_basins
 from carom.disturbances import KickPlane
-from carom.loading import load
 from carom.report import basins
 
 KEOGH_COLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"

@@ -13,9 +13,8 @@ from carom.models import Rigid, Touchdown, from_matrices
 from carom.orbits import find_orbits
 from carom.parameters import Scales, TouchdownBearing
 from carom.plots.plane import orbit_path
-from carom.rotors import TouchdownPlane, load_machine
-from carom.rotors.synchronous import synchronous_response
-from carom.studies.document import found_orbits_document
+from carom.rotors import TouchdownPlane, load_machine, synchronous_response
+from carom.studies import found_orbits_document
 
 RACE = {"race_inertia": 1e-5, "race_drag": 1e-6, "mount_mass": 0.3, "mount_stiffness": 2e6, "mount_damping": 50.0}
 WALLS = {

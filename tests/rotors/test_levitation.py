@@ -5,13 +5,7 @@ import pytest
 from flexible_machines import munich, symmetric
 
 from carom.base.outcome import InputError
-from carom.rotors import (
-    Unbalance,
-    campbell,
-    find_whirls,
-    sensitivity,
-)
-from carom.rotors.synchronous import synchronous_response
+from carom.rotors import Unbalance, campbell, find_whirls, sensitivity, synchronous_response
 
 MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm", "90 deg")])
 

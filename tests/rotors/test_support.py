@@ -8,13 +8,7 @@ from flexible_machines import munich, replaced
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.rotors import (
-    Support,
-    Unbalance,
-    find_whirls,
-    sensitivity,
-)
-from carom.rotors.synchronous import synchronous_response
+from carom.rotors import Support, Unbalance, find_whirls, sensitivity, synchronous_response
 
 SEAL = Support(7, kxx="2e5 N/m", kyy=5e4, kxy=3e4, kyx=-1e4, cxx=20.0, cyy=50.0, cxy=5.0)
 MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm", "90 deg")], supports=[SEAL])

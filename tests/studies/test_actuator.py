@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from carom.attractors import find_attractors
+from carom import State, find_attractors, load, simulate
 from carom.base.files import as_json
 from carom.base.outcome import Phase
 from carom.disturbances import KickPlane, Sample
-from carom.loading import load
 from carom.models import jeffcott
-from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
 from carom.parameters import Case, Machine, Parameters, Scales, Zones
 from carom.studies.actuator import bearing_demand, centre_along, largest_along, slew_limit_of

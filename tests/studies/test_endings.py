@@ -2,9 +2,8 @@
 
 import pytest
 
-from carom.attractors import find_attractors
+from carom import find_attractors, simulate
 from carom.models import jeffcott
-from carom.motions.simulation import simulate
 from carom.parameters import Parameters
 from carom.studies.endings import hardest_impulse, shown_example, touching
 

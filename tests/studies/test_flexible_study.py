@@ -8,8 +8,7 @@ import pytest
 
 import carom as cm
 from carom.base.outcome import Outcome
-from carom.rotors import find_whirls, load_machine
-from carom.rotors.synchronous import synchronous_response
+from carom.rotors import find_whirls, load_machine, synchronous_response
 from carom.studies.facts import about
 from carom.studies.findings import facts_of
 from carom.studies.levitating import levitating

@@ -8,17 +8,15 @@ import pytest
 from machines import PAPER
 from studies import study_once
 
+from carom import find_orbits, load, prove, study
 from carom.base.files import as_json
 from carom.closed_forms import contact_free_kick
-from carom.loading import load
-from carom.orbits import find_orbits
 from carom.parameters import Case, Requirement, Shock, Zones
-from carom.proofs import ProvenKicks, check, hypotheses_of, prove
+from carom.proofs import ProvenKicks, check, hypotheses_of
 from carom.proofs.evidence import Evidence
 from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
-from carom.studies import study
 from carom.studies.verdict import is_proven, proven_words
 
 

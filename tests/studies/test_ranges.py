@@ -8,17 +8,15 @@ from compilation import sized
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from carom import State, find_equilibria, load, simulate
 from carom.base.outcome import Outcome
-from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms import rolling
 from carom.closed_forms.thresholds import ranges_of
-from carom.closed_forms.whirl import rolling
-from carom.loading import load
 from carom.models import Edge, Span, axis, jeffcott
-from carom.motions.simulation import simulate
-from carom.motions.starts import State
-from carom.orbits.single_impact import orbits_within_reach
+from carom.orbits import orbits_within_reach
 from carom.parameters import Parameters
-from carom.studies.ranges import MotionRange, motion_ranges
+from carom.studies import MotionRange
+from carom.studies.ranges import motion_ranges
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
