@@ -53,7 +53,6 @@ UNITS = {
     "magnetic_bearings": ({"": "1"}, (1, 4)),
     "force_limit": ({"N": "1", "kN": "1e3"}, (10, 1e4)),
     "current_limit": ({"A": "1", "mA": "1e-3"}, (1, 50)),
-    "slew_rate_limit": ({"A/s": "1", "A/ms": "1e3", "kA/s": "1e3", "": "1"}, (1e3, 1e5)),
 }
 WAYS = {
     "mass": ("mass",),
@@ -74,7 +73,6 @@ HELPERS = (
     "negative_stiffness",
     "force_limit",
     "current_limit",
-    "slew_rate_limit",
 )
 ODD = (
     "",
@@ -192,7 +190,7 @@ def chosen(rng):
     gains = {"proportional_gain", "derivative_gain"} & set(names)
     if gains or rng.random() < 0.2:
         names += ["force_current_factor", "negative_stiffness"]
-        names += [name for name in ("current_limit", "slew_rate_limit") if rng.random() < 0.3]
+        names += [name for name in ("current_limit",) if rng.random() < 0.3]
     if rng.random() < 0.2:
         names.append("force_limit")
     if {"force_current_factor", "force_limit"} & set(names) and rng.random() < 0.5:

@@ -9,12 +9,10 @@ from machines import REAL
 
 import carom as cm
 from carom.models import jeffcott
-from carom.motions import settle, simulate
-from carom.parameters import Case, Machine, Zones, in_terms_of
-from carom.studies.actuator import asked_by, largest_along, slew_limit_of
+from carom.motions import settle
+from carom.parameters import Case, Machine, Zones
 from carom.studies.advice import with_setting
 from carom.studies.facts import about
-from carom.studies.questions import required_disturbances
 
 pytestmark = pytest.mark.jit_only
 
@@ -79,38 +77,3 @@ def test_gains_are_advised_where_the_file_has_gains():
         assert change.check.recovers
     beyond = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Tried"]
     assert all(re.search(r"values? (up|down) to [\d,.]+ A( s)?/m$", text) for text in beyond)
-
-
-def test_no_advice_beyond_the_limits_of_the_bearings():
-    """Rates of the current that every change keeps, and rates that every change that helps exceeds."""
-    free = cm.study(case_of(machine_of()))
-    assert all(change.demand is None and change.buildable for change in free.recommendation.changes)
-    ample = cm.study(case_of(machine_of(slew_rate_limit="5000 kA/s")))
-    assert ample.recommendation.kind == "change"
-    assert all(change.demand <= 1.0 for change in ample.recommendation.changes)
-    asked = [fact.text for fact in about(ample.facts, "Recommendation") if fact.label == "Bearings"]
-    assert asked
-    assert all("asked at this value" in text and "values beyond it may ask for more" in text for text in asked)
-    scarce = cm.study(case_of(machine_of(slew_rate_limit="1 A/s")))
-    assert scarce.recommendation.kind == "nothing-buildable"
-    assert all(change.demand > 1.0 for change in scarce.recommendation.changes)
-    shown = [fact.text for fact in about(scarce.facts, "Recommendation") if fact.label == "Change"]
-    assert shown[0].startswith("nothing that the magnetic bearings can give helps")
-
-
-def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():
-    case = case_of(machine_of(slew_rate_limit="10 kA/s"))
-    case = with_setting(case, in_terms_of(case, "gamma", 0.6))
-    required = case.requirement.own(case.parameters.scales)
-    asked = asked_by(case, required_disturbances(required, 100))
-    rotor, limit = jeffcott(case.parameters), slew_limit_of(case)
-    radius = abs(rotor.equilibrium)
-    whirl = limit.asked(1j * radius, -radius) / limit.most
-    assert asked >= whirl
-    largest = 0.0
-    for angle in np.linspace(0.1, 6.2, 12):
-        kick = required.kick * np.exp(1j * angle)
-        motion = simulate(rotor, cm.State(rotor.equilibrium, kick), settle=True)
-        largest = max(largest, largest_along(motion, limit) / limit.most)
-    # Both samples have the largest kicks, in other directions.
-    assert asked > 0.99 * largest

@@ -86,8 +86,8 @@ class Machine(Tabular, pydantic.BaseModel):
         Number n of equal magnetic bearings; 1 by default.
     force_current_factor, negative_stiffness : float or str, optional
         Force a current ki (N/A) and size ks of the negative stiffness (N/m, not negative) of one of them.
-    force_limit, current_limit, slew_rate_limit : float or str, optional
-        Largest force (N), control current (A) and rate of this current (A/s) of one of them.
+    force_limit, current_limit : float or str, optional
+        Largest force (N) and control current (A) of one of them.
     air_gap : float or str, optional
         Radial air gap s0 of their magnets (m), larger than the clearance: a rotor that is there reaches them.
 
@@ -120,7 +120,6 @@ class Machine(Tabular, pydantic.BaseModel):
     negative_stiffness: float | None = None
     force_limit: float | None = None
     current_limit: float | None = None
-    slew_rate_limit: float | None = None
     air_gap: float | None = None
     _resolved: Resolved = pydantic.PrivateAttr()
 

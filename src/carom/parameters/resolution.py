@@ -161,11 +161,10 @@ class _Work:
             if name in self.entries and not default and present.isdisjoint(users):
                 allowed = f"has no effect without {' or '.join(users)}"
                 errors.append(InputError(name, shown(self.entries[name]), allowed))
-        for limit in [limit for limit in _LIMITS_OF_CURRENT if limit in self.values]:
-            for name in _OF_CURRENT:
-                if name not in self.values:
-                    allowed = f"needs {name} too, which {HELPER_FIELDS[name].allowed}"
-                    errors.append(InputError(limit, shown(self.given[limit][limit]), allowed))
+        if (limit := "current_limit") in self.values:
+            for name in [name for name in _OF_CURRENT if name not in self.values]:
+                allowed = f"needs {name} too, which {HELPER_FIELDS[name].allowed}"
+                errors.append(InputError(limit, shown(self.given[limit][limit]), allowed))
         return errors
 
 
@@ -174,7 +173,6 @@ _USERS = {
     "magnetic_bearings": ("force_current_factor", "force_limit"),
     "negative_stiffness": ("force_current_factor",),
 }
-_LIMITS_OF_CURRENT = ("current_limit", "slew_rate_limit")
 _OF_CURRENT = ("force_current_factor", "negative_stiffness")
 
 

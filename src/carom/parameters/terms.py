@@ -71,7 +71,6 @@ HELPER_FIELDS: Mapping[str, Field] = by_name(
     Field("negative_stiffness", "k_s", "size of the negative stiffness of a bearing", "a stiffness without its sign", "N/m", 1e-30, 1e30, '"4e5 N/m"', zero=True),
     Field("force_limit", "F_max", "largest force of a bearing", "a force", "N", 1e-12, 1e15, '"500 N"'),
     Field("current_limit", "i_max", "largest control current of a bearing", "a current", "A", 1e-12, 1e9, '"3 A"'),
-    Field("slew_rate_limit", "(di/dt)_max", "largest rate of the control current of a bearing: voltage over inductance", "a rate of current", "A/s", 1e-12, 1e15, '"5000 A/s"'),
     length_field("air_gap", "s_0", "radial air gap of a bearing's magnets", 1e-9, 1e3, '"0.5 mm"'),
 )  # fmt: skip
 """Entries that set nothing themselves: those that formulas need, and limits."""

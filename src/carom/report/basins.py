@@ -25,7 +25,6 @@ _MISSING = {
     "no-change-needed": "No change is needed: all that was tried of what it must survive came back.",
     "no-change-found": "No change is advised: no damping or stiffness tried brings all back.",
     "not-decided": "No change is advised: too few of the disturbances that it must survive could be followed.",
-    "nothing-buildable": "No change is advised: those that help ask for more than the magnetic bearings can give.",
 }
 _SEEN: dict[Kind, str] = {
     "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends.",

@@ -17,7 +17,7 @@ from carom.report.figure_files import draw_figures
 from carom.report.figures import pictures
 from carom.report.html import InlineFigure, page_template, versions
 from carom.studies import Study
-from carom.studies.advice_facts import BEYOND, CHANGES
+from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Fact, about, paragraphs
 from carom.studies.findings import not_covered
 from carom.studies.levitating import Levitating, frequency_words
@@ -107,11 +107,10 @@ def _whirls(found: Levitating) -> list[tuple[str, str, str]]:
 
 
 def _mark(study: Study) -> str:
-    """Colour of the headline: that of levitation only where everything comes back and nothing is asked that cannot be given."""
+    """Colour of the headline: that of levitation only where everything comes back."""
     if study.verdict.level == "no-contact-free-motion":
         return "var(--bad)"
-    doubtful = study.bearing_demand is not None and study.bearing_demand.is_exceeded
-    good = study.recommendation.kind == "no-change-needed" and not doubtful
+    good = study.recommendation.kind == "no-change-needed"
     return plots.OUTCOMES["levitated"].colour if good else "var(--warn)"
 
 
@@ -131,5 +130,5 @@ def _advice(study: Study) -> tuple[list[Advice], dict[str, str]]:
             lines[-1] = Advice(lines[-1].fact, (*lines[-1].details, fact))
         else:
             lines.append(Advice(fact, ()))
-    changes = [line for line in lines if line.fact.label in (*CHANGES, BEYOND)]
+    changes = [line for line in lines if line.fact.label in CHANGES]
     return changes, {line.fact.label: line.fact.sentence for line in lines if line not in changes}

@@ -30,7 +30,8 @@ BEARING_FIELDS: Mapping[str, Field] = by_name(
     Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
     Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True, usual="ms", usual_size=1e-3),
     Field("amplifier_bandwidth", "", "bandwidth of the amplifier", "an angular frequency", "rad/s", 1e-3, 1e9, '"1 kHz"'),
-    *(HELPER_FIELDS[name] for name in ("force_limit", "current_limit", "slew_rate_limit", "air_gap")),
+    Field("slew_rate_limit", "(di/dt)_max", "largest rate of the control current of a bearing: voltage over inductance", "a rate of current", "A/s", 1e-12, 1e15, '"5000 A/s"'),
+    *(HELPER_FIELDS[name] for name in ("force_limit", "current_limit", "air_gap")),
     Field("axis_angle", "", "angle of one of its two axes in the fixed frame, for its limits", "an angle", "rad", -10.0, 10.0, '"45 deg"', True),
 )  # fmt: skip
 

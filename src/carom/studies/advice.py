@@ -1,8 +1,8 @@
 """The least change of a gain that leaves only recovery, as the user can set it and within what the machine can give.
 
 The ranges of recovery (:mod:`carom.studies.recovery`) say where to look.  A value is tried a little beyond the near end of a
-range, in the terms and digits in which the machine file states the gain, by fresh disturbances; if one of them is lost, or the
-current of magnetic bearings would have to change faster than it can, the next value farther inside is tried.
+range, in the terms and digits in which the machine file states the gain, by fresh disturbances; if one of them is lost, the
+next value farther inside is tried.
 """
 
 from __future__ import annotations
@@ -22,20 +22,17 @@ from carom.disturbances import Sample
 from carom.models import Edge, Span, rotor_of
 from carom.motions.budget import BudgetSpentError
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.studies.actuator import asked_by
 from carom.studies.facts import Evidence
 from carom.studies.questions import FEWEST
 from carom.studies.recovery import Recovery, power_of
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.wording import Wording
 
-Kind = Literal["change", "no-change-needed", "nothing-buildable", "no-change-found", "not-decided"]
+Kind = Literal["change", "no-change-needed", "no-change-found", "not-decided"]
 Bound = Literal["at least", "at most", "about"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
 """Relative distances of the advised damping or stiffness from the end of a range, tried until a check passes."""
-FARTHER = (1.0, 2.0, 4.0)
-"""Still farther ones, tried for the sake of the magnetic bearings."""
 GAIN_FACTOR = 4.0
 """Greatest factor by which damping or stiffness is advised to change: noise and the current that a controller asks for grow as much, and bearings that
 levitate a machine today seldom have more in reserve."""
@@ -45,7 +42,7 @@ SEED = 2
 """Seed of these disturbances.  No search uses it, so the check is a fresh sample."""
 CHANGE = (
     "entry=terms.entry set=terms.setting bound ratio disturbances=check.drawn.total recovered=check.drawn.count "
-    "share_low=check.drawn.low share_high=check.drawn.high radius: zone buildable demand"
+    "share_low=check.drawn.low share_high=check.drawn.high radius: zone"
 )
 _CLOSED_FORMS = (WALL, FOLD, ROLLING)
 
@@ -100,9 +97,6 @@ class Change:
     whirl : Runaway or None
         Speeds from which backward whirl runs away to rolling at the value; ``None`` if rolling does not sustain itself, or no closed
         form says.
-    demand : float or None
-        Largest multiple of the largest rate of their current that a disturbance asked of the magnetic bearings; ``None`` if none is stated.
-        Limits of force and current act in the motions themselves.
     """
 
     parameter: str
@@ -118,12 +112,6 @@ class Change:
     radius: float
     zone: str
     whirl: Runaway | None
-    demand: float | None
-
-    @property
-    def buildable(self) -> bool:
-        """Whether the magnetic bearings can give what it asks for, as far as limits are stated."""
-        return self.demand is None or self.demand <= 1.0
 
     def document(self, say: Wording) -> dict[str, object]:
         """As plain data for JSON."""
@@ -146,10 +134,9 @@ class Recommendation(Result):
 
     Attributes
     ----------
-    kind : {"change", "no-change-needed", "nothing-buildable", "no-change-found", "not-decided"}
+    kind : {"change", "no-change-needed", "no-change-found", "not-decided"}
     changes : tuple of Change
-        Alternatives, the least change first; with ``"nothing-buildable"`` those that ask for more than the magnetic bearings can
-        give.
+        Alternatives, the least change first.
     margins : tuple of Margin
         If no change is needed: how far the present values lie from where a disturbance was lost.
     """
@@ -160,8 +147,8 @@ class Recommendation(Result):
 
     @property
     def advised(self) -> Change | None:
-        """The least change; ``None`` where none helps, is needed or can be built."""
-        return self.changes[0] if self.kind == "change" else None
+        """The least change; ``None`` where none helps or is needed."""
+        return self.changes[0] if self.changes else None
 
     def document(self, say: Wording) -> dict[str, object]:
         """As plain data for JSON."""
@@ -188,11 +175,8 @@ def recommend(
     found: list[Change] = []
     with suppress(BudgetSpentError):
         found.extend(change for adviser in advisers if (change := adviser.least()))  # what is found before stays
-    if not found:
-        return Recommendation("no-change-found", (), ())
-    buildable = [change for change in found if change.buildable]
-    ordered = sorted(buildable or found, key=lambda change: abs(math.log(change.ratio)))
-    return Recommendation("change" if buildable else "nothing-buildable", tuple(ordered), ())
+    ordered = sorted(found, key=lambda change: abs(math.log(change.ratio)))
+    return Recommendation("change" if found else "no-change-found", tuple(ordered), ())
 
 
 def evidence_of(edge: Edge) -> Evidence:
@@ -245,21 +229,14 @@ class _Adviser:
         return self.recovery.along.value(self.recovery.rotor)
 
     def least(self) -> Change | None:
-        """The nearest value in a range of recovery whose check passes; the first that the bearings can give, if one can."""
-        best: Change | None = None
+        """The nearest value in a range of recovery whose check passes."""
         for span in sorted(self.recovery.spans, key=lambda span: self._away(self._ends(span).low.value)):
-            for value, farther in self._values(span):
-                if farther and best is None:
-                    break
+            for value in self._values(span):
                 terms = self._terms(value)
                 check = self._checked(terms)
-                if not check.recovers:
-                    continue
-                change = self._change(terms, check, span)
-                best = best or change
-                if change.buildable:
-                    return change
-        return best
+                if check.recovers:
+                    return self._change(terms, check, span)
+        return None
 
     def _away(self, value: float) -> float:
         return abs(math.log(value / self.present)) if self.present > 0.0 else value
@@ -268,17 +245,17 @@ class _Adviser:
         """The near and the far end of a span, seen from the present value; of a span that holds it the low and the high one."""
         return span if self.present < span.high.value else Span(span.high, span.low)
 
-    def _values(self, span: Span) -> Iterator[tuple[float, bool]]:
-        """Values inside a span, the nearest first, and whether they are only for the sake of the bearings."""
+    def _values(self, span: Span) -> Iterator[float]:
+        """Values inside a span, the nearest first."""
         near, far = (edge.value for edge in self._ends(span))
         inward = math.copysign(1.0, far - near) / power_of(self.recovery.along)
         middle = math.sqrt(near * far)
-        for margin in MARGINS + FARTHER:
+        for margin in MARGINS:
             value = near * (1.0 + margin) ** inward
             if (middle - value) * inward <= 0.0:
-                yield middle, margin in FARTHER
+                yield middle
                 return
-            yield value, margin in FARTHER
+            yield value
 
     def _terms(self, value: float) -> InTerms:
         """The new value as the file would state it, rounded away from the present one."""
@@ -315,5 +292,4 @@ class _Adviser:
             radius,
             case.zones.zone(min(radius, 1.0)),
             known.whirl if known.rolls and known.rolls.holds else None,
-            asked_by(case, self.disturbances),
         )

@@ -19,14 +19,10 @@ from carom.studies.wording import Wording, counted, entry_words, present_values
 
 CHANGES = ("Change", "Or")
 """Labels of the changes that help."""
-BEYOND = "Beyond the limits"
-"""Label of the changes that ask for more than the magnetic bearings can give."""
 _NO_CHANGE = {
     "no-change-needed": "none needed for what the machine must survive",
     "not-decided": "not decided: too few of the disturbances that the machine must survive could be followed",
     "no-change-found": f"none found that brings all back that must be survived and changes no gain by more than {number(GAIN_FACTOR)} times",
-    "nothing-buildable": "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
-    "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed",
 }
 _HOW_SURE = (
     "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
@@ -51,8 +47,7 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
             f"{_NO_CHANGE[kind]}{', but the search was not finished' if unfinished else ''}", "Change", "sampled"
         )
     for place, change in enumerate(recommended.changes):
-        label = BEYOND if kind == "nothing-buildable" else "Or" if place else "Change"
-        yield _fact(_change(study, change), label, values=change.document(say))
+        yield _fact(_change(study, change), CHANGES[min(place, 1)], values=change.document(say))
         for label, text, sure in _details(study, change):
             yield _fact(text, label, sure, detail=True)
     for margin in recommended.margins:
@@ -96,7 +91,7 @@ def _stated(study: StudyData, name: str, value: float) -> str:
 
 def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evidence | None]]:
     """Label, text and evidence of the lines under a change: how to try it, margin, levitation there, what was tried, what remains."""
-    say, margin, zone, demand = study.wording, change.margin, f"zone {change.zone}", change.demand
+    say, margin, zone = study.wording, change.margin, f"zone {change.zone}"
     yield "Set", f'--set "{change.terms.setting}"', None
     text = f"{number(100.0 * margin.share, 2)} % beyond {_end(say, margin.parameter, margin.edge)}"
     text += "" if change.far is None else f"; stay on this side of {_end(say, change.parameter, change.far)}"
@@ -105,10 +100,6 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
         zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: less unbalance is needed too"
     yield "Then", f"levitates at {_place(say, change.radius)}, {zone}", "closed form"
     yield "Tried", _tried(study, change), "sampled"
-    if demand is not None:
-        beyond = "; values beyond it may ask for more" if change.beyond else ""
-        text = f"asked at this value for at most {number(demand, 3)} times the largest rate of the current of the magnetic bearings{beyond}"
-        yield "Bearings", text, "sampled"
     if change.whirl is not None:
         fast = say.velocity(change.whirl.certain)
         text = f"{Outcome.ROLLING.words}: it surely begins if, in lasting contact, the centre moves backward faster than {fast}"

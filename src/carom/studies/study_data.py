@@ -21,7 +21,7 @@ from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
 from carom.studies.drops import DropStudy
 from carom.studies.levitating import Levitating
-from carom.studies.questions import Kind, required_disturbances
+from carom.studies.questions import Kind
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.survives import FullSize, Survives, unrecovered_kinds
@@ -176,6 +176,5 @@ class StudyData(Result):
 
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
-        """What the motions have to do with the limits of the magnetic bearings; ``None`` if the machine has none of these."""
-        tried = required_disturbances(self.required, 1) if self.levitates else ()
-        return bearing_demand(self.case, self.attractors, tried)
+        """What the limit of the magnetic bearings of a ``[machine]`` does in the motions; ``None`` without one."""
+        return bearing_demand(self.case, self.attractors)

@@ -236,11 +236,6 @@ def _coordinates(
     return np.array([each.at(share) for each, share in zip(along, shares, strict=True)])
 
 
-def coordinates_at_largest(rotor: Rotor, sample: Sample, count: int) -> np.ndarray:
-    """Coordinates (k, count) on a machine of disturbances of a kind at their largest size, in random directions."""
-    return _coordinates(sample.model.coordinates_on(rotor), np.random.default_rng(sample.seed), count, largest=True)
-
-
 def in_all(disturbances: Sequence[Sample], count: int) -> tuple[Sample, ...]:
     """The same kinds of disturbances with about so many in all, in the same proportions."""
     total = sum(sample.count for sample in disturbances)

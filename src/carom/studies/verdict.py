@@ -273,8 +273,6 @@ def _reservations(study: StudyData) -> str:
     parts = ["no guarantee, as disturbances are samples"]
     if kicks_surely_return(study):
         parts = ["proven for these kicks; no guarantee for other disturbances, which are samples"]
-    if study.bearing_demand is not None and study.bearing_demand.is_exceeded:
-        parts.append("it asks for a faster current than its magnetic bearings have")
     zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
     parts += [f"sensitivity of its loops in zone {max(zones)} (ISO 14839-3)"] if zones else []
     parts += [] if study.levitating.met else ["a critical speed is nearer than API 617 allows"]

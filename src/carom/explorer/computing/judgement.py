@@ -18,7 +18,7 @@ from carom.motions import simulate
 from carom.parameters import Case, LoadLimits
 from carom.parameters.formats import format_quantity
 from carom.studies import study
-from carom.studies.advice_facts import BEYOND, CHANGES
+from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import about
 
 SIZES, DIRECTIONS = 6, 24
@@ -102,6 +102,6 @@ def find_hardest(
 def judge(case: Case, progress: ShowProgress = None) -> Judgement:
     """Verdict and advice of a full study."""
     found = study(case, progress=progress)
-    first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in (*CHANGES, BEYOND)), None)
+    first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in CHANGES), None)
     advice = f"{first.label}: {first.text}." if first else ""
     return Judgement(found.verdict.lead, advice, found.verdict.survived)
