@@ -47,6 +47,9 @@ class ArgumentKind(NamedTuple):
     holds: Callable[[Any], bool]
     words: str
 
+    def __repr__(self) -> str:  # in signatures of the documentation
+        return repr(self.words)
+
 
 def whole(least: int, most: int = _MOST) -> ArgumentKind:
     """Whole numbers of a range."""
