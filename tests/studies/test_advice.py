@@ -73,7 +73,5 @@ def test_gains_are_advised_where_the_file_has_gains():
     for change in result.recommendation.changes:
         text = next(fact.text for fact in about(result.facts, "Recommendation") if change.terms.text in fact.text)
         unit = "A s/m" if change.parameter == "gamma" else "A/m"
-        assert re.search(rf"tried (up|down) to [\d,.]+ {unit}$", text)
+        assert re.search(rf"at least .*, searched to [\d,.]+ {unit}$", text)
         assert change.check.recovers
-    beyond = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Tried"]
-    assert all(re.search(r"values? (up|down) to [\d,.]+ A( s)?/m$", text) for text in beyond)

@@ -48,6 +48,10 @@ class Span:
     def __contains__(self, value: float) -> bool:
         return self.low.value <= value <= self.high.value
 
+    def document(self) -> list[float]:
+        """Its ends, as plain data for JSON."""
+        return [self.low.value, self.high.value]
+
 
 def spans_where(edges: Iterable[Edge], there: Callable[[float], bool]) -> tuple[Span, ...]:
     """The spans between edges in which something holds, by whether it does in the middle between neighbours.

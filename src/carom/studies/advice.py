@@ -82,16 +82,12 @@ class Change:
         The new value in the terms of the machine file.
     ratio : float
         Ratio of the new damping or stiffness to the present one; infinite if there is none now.
-    bound : {"at least", "at most", "about"}
-        Whether larger or smaller values were tried too, up to the end of the search, and nothing was lost there.
     margin : Margin
         Distance from the near end of the range.
-    far : Edge or None
-        The other end of the range, if something is lost beyond it.
+    far : Edge
+        The other end of the range: without a kind the search ended there, and nothing was lost up to it.
     check : Check
         The fresh disturbances followed at the value.
-    beyond : tuple of Check
-        Values beyond it, up to the end of the range, at which all disturbances of the search came back.
     radius, zone : float, str
         Radius of levitation at the value, and its zone.
     whirl : Runaway or None
@@ -104,14 +100,17 @@ class Change:
     value: float
     terms: InTerms
     ratio: float
-    bound: Bound
     margin: Margin
-    far: Edge | None
+    far: Edge
     check: Check
-    beyond: tuple[Check, ...]
     radius: float
     zone: str
     whirl: Runaway | None
+
+    @property
+    def bound(self) -> Bound:
+        """Whether nothing was lost farther away from the present value, up to the end of the search."""
+        return "about" if _happens(self.far) else "at least" if self.value < self.far.value else "at most"
 
     def document(self, say: Wording) -> dict[str, object]:
         """As plain data for JSON."""
@@ -120,10 +119,9 @@ class Change:
             **say.in_both(name, present=self.present, value=self.value),
             **record(self, CHANGE, say.scales),
             "margin": self.margin.document(say),
-            "other_end": self.far and _end_document(say, name, self.far),
+            "other_end": _end_document(say, name, self.far) if _happens(self.far) else None,
             "at_their_largest": sum(share.total for share in largest),
             "recovered_at_their_largest": sum(share.count for share in largest),
-            "beyond": [record(each, "value disturbances=tried") | {"lost": 0} for each in self.beyond],
             **(record(whirl, "rolling_from=certain:velocity", say.scales) if whirl else {"rolling_from": None}),
         }
 
@@ -232,7 +230,8 @@ class _Adviser:
         """The nearest value in a range of recovery whose check passes."""
         for span in sorted(self.recovery.spans, key=lambda span: self._away(self._ends(span).low.value)):
             for value in self._values(span):
-                terms = self._terms(value)
+                # As the file would state it, rounded away from the present value.
+                terms = in_terms_of(self.case, self.name, value, "up" if self.present < value else "down")
                 check = self._checked(terms)
                 if check.recovers:
                     return self._change(terms, check, span)
@@ -257,10 +256,6 @@ class _Adviser:
                 return
             yield value
 
-    def _terms(self, value: float) -> InTerms:
-        """The new value as the file would state it, rounded away from the present one."""
-        return in_terms_of(self.case, self.name, value, "up" if self.present < value else "down")
-
     def _checked(self, terms: InTerms) -> Check:
         value = with_setting(self.case, terms).parameters.value(self.name)
         planar = self.recovery.rotor.system.is_planar
@@ -274,21 +269,16 @@ class _Adviser:
         value, present, case = check.value, self.present, with_setting(self.case, terms)
         rotor = rotor_of(case)
         known, radius = exact_results(rotor), rotor.system.rest_radius
-        near, end = self._ends(span)
-        far = end if _happens(end) else None
-        low, high = sorted((value, end.value))
-        beyond = tuple(each for each in self.recovery.clear if low < each.value < high)
+        near, far = self._ends(span)
         return Change(
             self.name,
             present,
             value,
             terms,
             (value / present) ** power_of(self.recovery.along) if present > 0.0 else math.inf,
-            "about" if far or not beyond else "at least" if present < value else "at most",
             _margin(self.recovery, value, near),
             far,
             check,
-            beyond,
             radius,
             case.zones.zone(min(radius, 1.0)),
             known.whirl if known.rolls and known.rolls.holds else None,

@@ -15,7 +15,7 @@ from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import event_words
 from carom.studies.study_data import StudyData
-from carom.studies.wording import Wording, counted, entry_words, present_values
+from carom.studies.wording import Wording, entry_words, present_values
 
 CHANGES = ("Change", "Or")
 """Labels of the changes that help."""
@@ -68,25 +68,14 @@ def _place(say: Wording, radius: float) -> str:
 
 
 def _change(study: StudyData, change: Change) -> str:
-    """The change in the terms of the machine file, what it is in others, and how far beyond it was tried."""
+    """The change in the terms of the machine file, what it is in others, and how far beyond it was searched."""
     name, terms = change.parameter, change.terms
     # ω varies with the square root of the stiffness.
     what = "stiffness" if name == "omega" and not study.wording.of_machine else study.wording.name(name)
     times = "there is none now" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
-    now = _stated(study, name, change.present)
-    bound, tried = ("", "") if change.bound == "about" else (f"{change.bound} ", f", tried {_farthest(study, change)}")
-    return f"{entry_words(terms.entry)} {now} → {bound}{terms.text} ({', '.join([*terms.beside, times])}){tried}"
-
-
-def _farthest(study: StudyData, change: Change) -> str:
-    """How far beyond a change was tried: ``up to 60 N s/m``."""
-    farthest = max((check.value for check in change.beyond), key=lambda at: abs(at - change.value))
-    return f"{'up' if farthest > change.value else 'down'} to {_stated(study, change.parameter, farthest)}"
-
-
-def _stated(study: StudyData, name: str, value: float) -> str:
-    """A value as the file of the machine would state it."""
-    return in_terms_of(study.case, name, value).text
+    now, far = (in_terms_of(study.case, name, value).text for value in (change.present, change.far.value))
+    bound, searched = ("", "") if change.bound == "about" else (f"{change.bound} ", f", searched to {far}")
+    return f"{entry_words(terms.entry)} {now} → {bound}{terms.text} ({', '.join([*terms.beside, times])}){searched}"
 
 
 def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evidence | None]]:
@@ -94,7 +83,7 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
     say, margin, zone = study.wording, change.margin, f"zone {change.zone}"
     yield "Set", f'--set "{change.terms.setting}"', None
     text = f"{number(100.0 * margin.share, 2)} % beyond {_end(say, margin.parameter, margin.edge)}"
-    text += "" if change.far is None else f"; stay on this side of {_end(say, change.parameter, change.far)}"
+    text += f"; stay on this side of {_end(say, change.parameter, change.far)}" if change.bound == "about" else ""
     yield "Margin", text, None
     if change.zone == _LAST_ZONE:
         zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: less unbalance is needed too"
@@ -107,16 +96,12 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
 
 
 def _tried(study: StudyData, change: Change) -> str:
-    """Say how many fresh disturbances were followed at the value and beyond it, and that all came back."""
+    """Say how many fresh disturbances were followed at the value, and that all came back."""
     drawn, largest = change.check.drawn, sum(share.total for share in change.check.largest)
-    text = (
+    return (
         f"all of {drawn.total:,} fresh disturbances of up to {study.wording.velocity(study.required.kick)}, and {largest:,} at their largest, "
         f"came back (so at least {number(100.0 * drawn.low, 4)} % do, with 95 % confidence)"
     )
-    if not change.beyond:
-        return f"{text}; no value beyond it was tried"
-    each = min(check.tried for check in change.beyond)
-    return f"{text}; beyond it so did all of {each:,} at each of {counted(len(change.beyond), 'value')} {_farthest(study, change)}"
 
 
 def _end(say: Wording, name: str, edge: Edge) -> str:

@@ -29,22 +29,13 @@ from carom.models import Rotor, Subject, axis, case_of, rotor_of
 from carom.motions.budget import Budget, Question
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.parameters import Case, Field, Required, Requirement, read_quantity
+from carom.studies import questions
 from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
 from carom.studies.document import study_document
 from carom.studies.drops import drop_of
 from carom.studies.facts import Fact
 from carom.studies.findings import facts_of
 from carom.studies.levitating import levitating
-from carom.studies.questions import (
-    ALONG,
-    CHANGE,
-    DESCRIBED,
-    DROP,
-    FULL_SIZE,
-    PRESENT,
-    events_for,
-    required_disturbances,
-)
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.study_data import StudyData
 from carom.studies.survives import FullSize, Survives, at_full_size, comes_to_rest, decides, survives, unrecovered_kinds
@@ -194,7 +185,7 @@ class Asked:
     @property
     def tried(self) -> tuple[Sample, ...]:
         """What must be survived, as it is tried at one value of a parameter."""
-        return required_disturbances(self.required, TRIED if self.rotor.system.is_planar else TRIED_SINGLY)
+        return questions.required_disturbances(self.required, TRIED if self.rotor.system.is_planar else TRIED_SINGLY)
 
     @property
     def needed(self) -> bool | None:
@@ -209,7 +200,7 @@ class Asked:
 
     def question(self, words: str) -> AbstractContextManager[Question]:
         """Ask a question within its events."""
-        return self.budget.question(words, events_for(self.rotor, words))
+        return self.budget.question(words, questions.events_for(self.rotor, words))
 
 
 class Contributor(NamedTuple):
@@ -232,10 +223,6 @@ def _returns(asked: Asked) -> bool:
 
 def _is_known(asked: Asked) -> bool:
     return exact_results(asked.rotor).orbits
-
-
-def _prove(asked: Asked, tell: Reporter) -> Any:
-    return box("proofs").prove(asked.rotor, progress=tell)
 
 
 def _prove_kicks(asked: Asked, tell: Reporter) -> Any:
@@ -262,9 +249,9 @@ def _attractors(asked: Asked, tell: Reporter) -> AttractorSet:
 
 def _present(asked: Asked, tell: Reporter) -> Check:
     """Fresh disturbances at the machine's own gains, of planar rotors more if all came back."""
-    rotor, checks, events = asked.rotor, [], events_for(asked.rotor, PRESENT) // len(asked.tried)
+    rotor, checks, events = asked.rotor, [], questions.events_for(asked.rotor, questions.PRESENT) // len(asked.tried)
     for sample, more in zip(in_all(asked.tried, FIRST), in_all(asked.tried, FRESH), strict=True):
-        with asked.budget.question(PRESENT.format(sample.model.noun), events):
+        with asked.budget.question(questions.PRESENT.format(sample.model.noun), events):
             check = check_recovery(rotor, [sample], seed=SEED)
             wanted = check.recovers and rotor.system.is_planar
             checks.append(check_recovery(rotor, [more], seed=SEED) if wanted else check)
@@ -296,7 +283,9 @@ def _recoveries(asked: Asked, tell: Reporter) -> tuple[Recovery, ...]:
     names, found = _parameters(asked), []
     say = Wording(asked.rotor.scales)
     for place, name in enumerate(names):
-        with asked.budget.question(ALONG.format(say.name(name)), events_for(asked.rotor, ALONG)):
+        with asked.budget.question(
+            questions.ALONG.format(say.name(name)), questions.events_for(asked.rotor, questions.ALONG)
+        ):
             part = tell.part(place / len(names), (place + 1) / len(names))
             found.append(find_recovery(asked.rotor, name, asked.tried, factor=GAIN_FACTOR, progress=part))
     return tuple(found)
@@ -314,23 +303,19 @@ def _full_size(asked: Asked, tell: Reporter) -> tuple[FullSize, ...]:
     return at_full_size(asked.rotor, asked.required, asked.case.limits)
 
 
-def _is_proven(asked: Asked) -> bool:
-    return _is_known(asked) and _returns(asked)
-
-
 OF_PROOFS = ("proof", "kicks")
 CONTRIBUTORS = (
-    Contributor("proof", "proofs", 0.1, _prove),
-    Contributor("kicks", "proof of kicks", 0.3, _prove_kicks, _is_proven),
+    Contributor("proof", "proofs", 0.1, lambda asked, tell: box("proofs").prove(asked.rotor, progress=tell)),
+    Contributor("kicks", "proof of kicks", 0.3, _prove_kicks, lambda asked: _is_known(asked) and _returns(asked)),
     Contributor("levitating", "whirls", 0.02, lambda asked, _: levitating(asked.case, asked.rotor)),
     Contributor("equilibria", "equilibria", 0.02, lambda asked, _: steady_motions(asked.rotor)),
     Contributor("orbits", "periodic orbits (the kernels are compiled on first use)", 0.06, _orbits),
-    Contributor("attractors", "disturbances", 0.1, _attractors, question=DESCRIBED),
+    Contributor("attractors", "disturbances", 0.1, _attractors, question=questions.DESCRIBED),
     Contributor("present", "what must be survived", 0.05, _present, _returns),
     Contributor("survives", "the smallest disturbances that do not come back", 0.2, _survives, _returns),
-    Contributor("full_size", "loads of the touchdown bearings", 0.05, _full_size, _returns, FULL_SIZE),
+    Contributor("full_size", "loads of the touchdown bearings", 0.05, _full_size, _returns, questions.FULL_SIZE),
     Contributor("recoveries", "recovery along parameters", 0.4, _recoveries),
-    Contributor("recommendation", "the least change", 0.05, _recommendation, question=CHANGE),
-    Contributor("drop", "the drop", 0.02, lambda asked, _: drop_of(asked.case), _returns, DROP),
+    Contributor("recommendation", "the least change", 0.05, _recommendation, question=questions.CHANGE),
+    Contributor("drop", "the drop", 0.02, lambda asked, _: drop_of(asked.case), _returns, questions.DROP),
 )
 """The parts of a study, in the order in which they are asked; later ones use what earlier ones have found."""

@@ -18,7 +18,7 @@ from carom.basins import share_of_kicks
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
-from carom.models import Rotor, Span, rotor_of
+from carom.models import Rotor, rotor_of
 from carom.orbits.exponents import LyapunovExponents
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
@@ -264,11 +264,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "thresholds": [
             record(each, THRESHOLD) | say.in_si(each.parameter, value=each.edge.value) for each in study.thresholds
         ],
-        "ranges": [
-            record(entry, "motion parameter step")
-            | {"spans": _spans(entry.spans), "searched": entry.searched and _spans((entry.searched,))[0]}
-            for entry in study.ranges
-        ],
+        "ranges": [record(entry, "motion parameter step spans searched") for entry in study.ranges],
         "present": study.present and _check(study.present),
         "recovery": [_recovery(entry, say) for entry in study.recoveries],
         "recommendation": study.recommendation.document(say),
@@ -292,19 +288,11 @@ def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
     return document | _wall(entry.rotor, impulse=entry.impulse)
 
 
-def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
-    return [[edge.value for edge in span] for span in spans]
-
-
 def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
-    name = entry.along.name
     return {
-        "parameter": name,
-        "searched": _spans(entry.searched),
-        "spans": _spans(entry.spans),
+        **record(entry, "parameter=along.name searched spans complete"),
         "ends": [[edge.motion or edge.kind for edge in span] for span in entry.spans],
-        "complete": entry.complete,
-        "values": [_check(check) | say.in_si(name, value=check.value) for check in entry.checks],
+        "values": [_check(check) | say.in_si(entry.along.name, value=check.value) for check in entry.checks],
     }
 
 

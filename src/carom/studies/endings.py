@@ -54,10 +54,5 @@ def hardest_impulse(found: AttractorSet) -> float:
 def shown_example(found: AttractorSet, attractor: Attractor) -> Ending:
     """Choose the example of an attractor: the first to settle, among disturbances with contact if there are any."""
     endings = found.ending_on(attractor.name)
-    for choice in (
-        [ending for ending in endings if ending.start.disturbance and ending.impacts > 0],
-        [ending for ending in endings if ending.start.disturbance],
-    ):
-        if choice:
-            return min(choice, key=lambda ending: ending.time)
-    return endings[0]
+    disturbed = [ending for ending in endings if ending.start.disturbance]
+    return min(disturbed, key=lambda ending: (not ending.impacts, ending.time), default=endings[0])

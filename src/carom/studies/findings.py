@@ -34,17 +34,10 @@ REDUCTION = (
 DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
 ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
 BORNE = {
-    True: (
-        ("orbit", "orbit up to {radius} from the centre"),
-        ("contacts", "{contacts:contact}, {force}, {contact_time} in contact"),
-    ),
-    False: (
-        ("orbit", "orbit up to {radius} from the centre"),
-        ("impacts", "{contacts:impact}, impulse {impulse}"),
-        ("lasting", "{force} in {contact_time} of lasting contact"),
-    ),
+    True: ("{contacts:contact}, {force}, {contact_time} in contact",),
+    False: ("{contacts:impact}, impulse {impulse}", "{force} in {contact_time} of lasting contact"),
 }
-"""What is stated of a compliant touchdown bearing, and of a rigid one."""
+"""What is stated of a compliant touchdown bearing, and of a rigid one, beside the orbit; what is zero is left out."""
 HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
 NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
 SAMPLED = "Disturbances other than those simulated{but}. They are samples: one between them, or a larger one, may end elsewhere."
@@ -262,11 +255,12 @@ def load_facts(study: StudyData) -> Iterator[Fact]:
         label = LABELS[each.kind]
         size = study.wording.size_of(each.kind)(each.size)
         lines = [f"{label} of {size}, the worst of {each.back.total} all around, of which {each.back.count} came back:"]
-        several = len(each.bearings) > 1
         for bearing in each.bearings:
-            borne = Wording(bearing.scales).rows(BORNE[bearing.is_compliant], bearing)
-            at = f"touchdown bearing {bearing.touchdown_bearing}: " if several else ""
-            lines.append(f"{at}{', '.join(text for _, text in borne)}{'' if bearing.contacts else ', no contact'}")
+            say = Wording(bearing.scales)
+            borne = filter(None, (say.fill(text, bearing) for text in BORNE[bearing.is_compliant]))
+            at = f"touchdown bearing {bearing.touchdown_bearing}: " if len(each.bearings) > 1 else ""
+            orbit = f"orbit up to {say.length(bearing.radius)} from the centre"
+            lines.append(f"{at}{', '.join([orbit, *(borne if bearing.contacts else ['no contact'])])}")
         if each.whirls:
             lines.append(f"those that do not come back go round {listed(list(each.whirls))}")
         yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", label, values=each.document())

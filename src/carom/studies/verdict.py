@@ -21,7 +21,7 @@ from carom.parameters import Scales
 from carom.parameters.formats import number, rounded_down, shown_in
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact, about
-from carom.studies.questions import LABELS, Kind
+from carom.studies.questions import LABELS, Kind, required_kinds
 from carom.studies.study_data import StudyData
 from carom.studies.survives import decides
 from carom.studies.wording import Wording, counted, listed
@@ -283,12 +283,9 @@ def _reservations(study: StudyData) -> str:
 
 def _lost_words(study: StudyData, kind: Kind, back: Share | None) -> str:
     """How many of a kind do not come back, in words."""
-    say, required = study.wording, study.required
     lost = 1.0 - back.fraction if back else 0.0
     many = "nearly all" if lost > NEARLY_ALL else "most" if lost > 0.5 else "some"
     if kind == "blade_loss":
         return f"{many} losses of a blade are not survived"
-    size = say.velocity(required.kick)
-    if kind == "shock" and required.shock:
-        size = say.acceleration(required.shock.peak)
-    return f"{many} {kind}s of up to {size} do not come back"
+    sizes = {kind: size for kind, size, _ in required_kinds(study.required)}
+    return f"{many} {kind}s of up to {study.wording.size_of(kind)(sizes[kind])} do not come back"
