@@ -17,7 +17,7 @@ from carom.core.block import load_products
 from carom.core.event_log import EventLog
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
-from carom.core.layout import LEVELS, rub_workspace, workspace
+from carom.core.layout import LEVELS, rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.settling import memory
 from carom.models import Rotor, jeffcott
@@ -28,6 +28,14 @@ NOISE = 4.0 * EPSILON
 """Relative rounding error of a term of ``y``: about eight operations on it, each wrong by half a spacing of doubles."""
 GRAZING_NOISE = 16.0 * EPSILON
 """The same as the kernel states it for what it calls grazing."""
+
+
+def plain_record(exponents, driven, offsets, rows) -> np.record:
+    """A rotor with one plane, whose wall nothing is asked of."""
+    one = np.ones(1)
+    columns = np.ones((len(exponents), 1), complex)
+    given = {"exponents": exponents, "driven": driven, "offsets": offsets, "rows": rows, "columns": columns}
+    return rotor_record(**given, friction=np.zeros(1), restitution=one, surface_speed=one)
 
 
 @dataclass

@@ -5,6 +5,7 @@ from compliant_reference import HuntCrossley as ReferenceHuntCrossley
 from compliant_reference import KelvinVoigt as ReferenceKelvinVoigt
 from compliant_reference import Plane
 from compliant_reference import Rotor as ReferenceRotor
+from linear_rotors import planar_rotor
 
 import carom as cm
 from carom.models import Force, HuntCrossley, KelvinVoigt, Rigid, Touchdown, from_matrices, jeffcott
@@ -31,13 +32,7 @@ RIGID = {"three": THREE, "one": ONE, "six": SIX, "landing": LANDING, "plastic": 
 
 def soft(law, pull, gamma, omega, rho, mu, surface_speed):
     """A planar rotor in a compliant wall, and the same for the reference."""
-    planar = from_matrices(
-        mass=[[1.0]],
-        damping=[[gamma]],
-        stiffness=[[omega**2]],
-        forcing=[rho * np.exp(1j * PHASE)],
-        touchdowns=[Touchdown([1.0], law, mu, surface_speed)],
-    )
+    planar = planar_rotor(gamma, omega**2, rho * np.exp(1j * PHASE), [Touchdown([1.0], law, mu, surface_speed)])
     if isinstance(law, KelvinVoigt):
         same: ReferenceKelvinVoigt | ReferenceHuntCrossley = ReferenceKelvinVoigt(law.stiffness, law.damping)
     else:

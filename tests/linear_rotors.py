@@ -20,6 +20,13 @@ def touchdowns(planes, friction, restitution, surface_speed):
     return [Touchdown(tuple(plane), law, float(mu), float(speed)) for plane, law, mu, speed in walls]
 
 
+def planar_rotor(damping, stiffness, force, touchdowns, **more):
+    """The planar rotor of unit mass in any walls."""
+    return from_matrices(
+        mass=[[1.0]], damping=[[damping]], stiffness=[[stiffness]], forcing=[force], touchdowns=touchdowns, **more
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class FixedFrame:
     """``M Z̈ + (D − iG) Ż + K Z = F e^{it}`` with contact planes; see :func:`carom.models.from_matrices`."""

@@ -39,6 +39,19 @@ REAL = Machine(
     restitution=0.95,
 )
 """The machine of the examples."""
+LIGHT = Machine(
+    mass="20 kg",
+    damping="3000 N s/m",
+    stiffness="8e6 N/m",
+    eccentricity="5 um",
+    clearance="0.2 mm",
+    rotor_radius="30 mm",
+    speed="9000 rpm",
+    unbalance_phase=0.4,
+    friction=0.15,
+    restitution=0.9,
+)
+"""A compressor whose critical speed lies below its speed."""
 
 
 def machine_file(name: str) -> Path:

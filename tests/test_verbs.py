@@ -116,41 +116,26 @@ CALLS = {
     "sweeps.plan_sweep": lambda m: cm.sweeps.plan_sweep(m, [GridAxis.of("gamma", [0.4])], KICKS).case_at((0,)),
 }
 """A small call of each function that takes a rotor."""
-GENERAL = {
-    "explorer.explore",
-    "models.case_of",
-    "attractors.exponents_of",
-    "orbits.lyapunov_exponents",
-    "attractors.find_attractors",
-    "attractors.follow_until_settled",
-    "basins.map_basins",
-    "basins.map_drops",
-    "basins.map_gains",
-    "basins.smallest_unrecovered",
-    "bifurcations.find_bifurcations",
-    "closed_forms.find_equilibria",
-    "bifurcations.map_regions",
-    "bifurcations.motions_at",
-    "closed_forms.levitation",
-    "closed_forms.contact_free_blade_loss",
-    "closed_forms.contact_free_kick",
-    "closed_forms.contact_free_shock",
-    "closed_forms.slipping_whirls",
-    "closed_forms.small_cycles",
-    "disturbances.outward_from",
-    "models.axis",
-    "models.rotor_of",
-    "attractors.known_starts",
-    "basins.map_cells",
-    "studies.check_recovery",
-    "studies.find_recovery",
-    "studies.study",
-    "motions.follow_loads",
-    "motions.settle",
-    "motions.simulate",
-    "sweeps.plan_sweep",
+PLANAR = {
+    "bifurcations.boundary_equilibria",
+    "bifurcations.orbit_windows",
+    "closed_forms.fading_speed",
+    "closed_forms.rolling",
+    "closed_forms.rub_limit",
+    "closed_forms.rub_neighbourhood",
+    "closed_forms.runaway_speed",
+    "closed_forms.contact_changes",
+    "closed_forms.rub_angles",
+    "rotors.synchronous_response",
+    "models.exact_rotor_of",
+    "orbits.find_orbits",
+    "orbits.orbit_near",
+    "orbits.impact_map",
+    "orbits.orbits_within_reach",
+    "orbits.period_condition",
+    "studies.unbalance_response",
 }
-"""Those that take any linear rotor."""
+"""Those that need the planar rotor; the others take any linear one."""
 SLOW = {"studies.study": sized(False, False, True)}
 """Those that take seconds, and whether they are called here."""
 NAMES = [name for name in CALLS if SLOW.get(name, True)]
@@ -209,15 +194,15 @@ def test_all_descriptions_give_the_same(name):
 
 
 @pytest.mark.jit_only
-@pytest.mark.parametrize("name", sorted(GENERAL - set(SLOW)))
+@pytest.mark.parametrize("name", sorted(set(CALLS) - PLANAR - set(SLOW)))
 def test_general_functions_take_any_linear_rotor(name):
     CALLS[name](tilting().model)
 
 
-@pytest.mark.parametrize("name", sorted(set(CALLS) - GENERAL))
+@pytest.mark.parametrize("name", sorted(PLANAR))
 def test_what_is_known_of_one_model_refuses_others_in_one_line(name):
     try:
-        words = CALLS[name](tilting().model)  # no words: it has learned to take them, and belongs to GENERAL
+        words = CALLS[name](tilting().model)  # no words: it has learned to take them, and belongs not to PLANAR
     except InputError as problem:
         words = str(problem)
     assert isinstance(words, str)

@@ -7,6 +7,7 @@ motion from one change of contact to the next.
 from dataclasses import dataclass
 
 import numpy as np
+from linear_rotors import planar_rotor
 
 from carom.models import HuntCrossley, KelvinVoigt, Rotor, Touchdown, from_matrices
 
@@ -27,12 +28,11 @@ class Yielding:
 
     @property
     def model(self) -> Rotor:
-        return from_matrices(
-            mass=[[1.0]],
-            damping=[[self.gamma]],
-            stiffness=[[self.omega**2]],
-            forcing=[self.rho * np.exp(1j * self.phi)],
-            touchdowns=[Touchdown([1.0], self.law, self.mu, self.surface_speed)],
+        return planar_rotor(
+            self.gamma,
+            self.omega**2,
+            self.rho * np.exp(1j * self.phi),
+            [Touchdown([1.0], self.law, self.mu, self.surface_speed)],
         )
 
     def force(self, depth, rate):

@@ -31,15 +31,6 @@ def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
     assert len(back.contacts) == 0 or found.recovered > found.contact_free
 
 
-def test_no_kick_of_an_independent_sample_below_it_is_lost():
-    rotor = carom.models.jeffcott(MACHINE)
-    found = smallest_unrecovered(rotor, VelocityKick(1.0))
-    rng = np.random.default_rng(8)
-    speeds = found.size * 0.998 * np.sqrt(rng.random(4000))
-    starts = VelocityKick().starts(rotor, speeds, rng.uniform(0.0, 2.0 * math.pi, 4000))
-    assert carom.settle(rotor, starts.positions, starts.velocities).recovered.all()
-
-
 def test_a_finer_scan_finds_no_smaller_one():
     rotor = carom.models.jeffcott(MACHINE)
     found, finer = (

@@ -6,12 +6,13 @@ Next to the boundary equilibrium, with the gap ``g`` as the unit of length, flig
 
 import numpy as np
 import pytest
+from linear_rotors import planar_rotor
 from machines import PAPER
 from scipy.linalg import expm
 from scipy.optimize import root
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, Touchdown, from_matrices, jeffcott
+from carom.models import HuntCrossley, KelvinVoigt, Touchdown, jeffcott
 from carom.orbits.closing import close
 from carom.parameters.restitution import damping_ratio_of
 
@@ -19,12 +20,11 @@ STAR = cm.bifurcations.boundary_equilibria(jeffcott(PAPER))[0]
 
 
 def rotor_in(law, gamma):
-    return from_matrices(
-        mass=[[1.0]],
-        damping=[[gamma]],
-        stiffness=[[PAPER.omega**2]],
-        forcing=[PAPER.rho * np.exp(1j * PAPER.phi)],
-        touchdowns=[Touchdown([1.0], law, PAPER.mu, PAPER.radius_ratio + 1.0)],
+    return planar_rotor(
+        gamma,
+        PAPER.omega**2,
+        PAPER.rho * np.exp(1j * PAPER.phi),
+        [Touchdown([1.0], law, PAPER.mu, PAPER.radius_ratio + 1.0)],
     )
 
 

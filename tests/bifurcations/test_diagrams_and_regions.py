@@ -41,19 +41,6 @@ def test_equilibrium_branches(diagram):
         assert stable.normal_force[index] == pytest.approx(at[1].normal_force)
 
 
-def test_regions_of_the_source_paper():
-    grid = {
-        "R1": (0.12, 0.9),
-        "R2": (0.26, 0.9),
-        "R3": (0.26, 0.7),
-        "R4": (0.13, 0.68),
-    }
-    for name, (gamma, omega) in grid.items():
-        motions = motions_at(PAPER.replace(gamma=gamma, omega=omega))
-        assert motions.source_region == name
-        assert motions.rub
-
-
 def test_motions_agree_with_certified_orbits():
     random = np.random.default_rng(9)
     for _ in range(sized(20, 20, 40)):

@@ -49,9 +49,3 @@ def test_text_and_files(carom, dimensionless, tmp_path):
     kicks = int(0.6 * 24)
     assert written["share"]["estimate"] * kicks == pytest.approx(round(written["share"]["estimate"] * kicks))
     assert written["share"]["low"] <= written["share"]["estimate"] <= written["share"]["high"]
-
-
-def test_bad_input(carom, dimensionless):
-    code, out, err = carom("attractors", dimensionless, "--starts", "0")
-    assert (code, out) == (2, "")
-    assert "--starts" in err

@@ -35,11 +35,6 @@ def test_unreadable_files(carom, tmp_path):
         assert_refused(carom("study", path))
 
 
-def test_settings_that_set_the_same_thing(carom, machine):
-    assert_refused(carom("orbits", machine, "--set", "gamma=0.1", "--set", "damping=1"), "gamma", "damping")
-    assert_refused(carom("orbits", machine, "--set", "gamma=0.1", "--set", "gamma=0.2"), "twice")
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -190,39 +185,6 @@ def test_wrong_usage_is_an_object_of_json(carom, machine):
 
     assert (code, error["field"], error["value"], error["allowed"]) == (BAD_INPUT, None, None, None)
     assert err == f"carom: {error['message']}\n"
-
-
-EVIL = "\x1b[31m\u202e\n\x07\x9b\u2028"
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("orbits", f"{EVIL}.toml"),
-        ("orbits", "MACHINE", "--set", f"{EVIL}=1"),
-        ("orbits", "MACHINE", "--set", f"gamma={EVIL}"),
-        ("orbits", "MACHINE", "--longest-period", EVIL),
-        ("orbits", "MACHINE", f"--{EVIL}"),
-        (f"{EVIL}",),
-        ("study", "MACHINE", "--out", f"none/{EVIL}\0"),
-        ("simulate", "MACHINE", "--kick", EVIL),
-        ("simulate", "MACHINE", "--start", EVIL),
-        ("simulate", "MACHINE", "--kick", "1 m/s", "--csv", f"none/{EVIL}"),
-        ("basins", "MACHINE", "--disturbance", EVIL),
-        ("basins", "MACHINE", "--grid", EVIL),
-        ("basins", "MACHINE", "--gains", "2x2", "--plane", EVIL),
-        ("basins", "MACHINE", "--starts", EVIL),
-        ("bifurcations", "MACHINE", "--along", EVIL, "--from", "1", "--to", "2"),
-        ("regions", "MACHINE", "--x", EVIL),
-        ("sweep", f"{EVIL}.toml", "--out", EVIL),
-    ],
-)
-def test_no_control_character_of_an_option_is_told(carom, machine, arguments):
-    code, out, err = carom(*(machine if word == "MACHINE" else word for word in arguments))
-
-    assert (code, out) == (BAD_INPUT, "")
-    assert err.endswith("\n")
-    assert err[:-1].isprintable()
 
 
 @pytest.mark.parametrize("option", ["--csv", "--netcdf"])

@@ -79,15 +79,6 @@ def test_table_and_files(carom, machine, tmp_path):
     assert document["gains"]["parameters"] == ["stiffness", "damping"]
 
 
-def test_gravities_are_not_grams(carom, machine):
-    words = ("basins", machine, "--grid", "2x2", "--json")
-    peaks = [
-        json.loads(carom(*words, "--shock", f"{peak}, 5 ms")[1])["disturbances"]["model"]["peak"]
-        for peak in ("6 g", "6g", f"{6 * 9.80665} m/s^2")
-    ]
-    assert peaks == pytest.approx([6 * 9.80665 / (0.7e-3 * 184.2**2)] * 3)
-
-
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [

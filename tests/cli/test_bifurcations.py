@@ -80,15 +80,6 @@ def test_plane_as_json(capsys):
         assert set(curve["ends"]) <= {"edge of the plane", "closed loop"}
 
 
-@pytest.mark.jit_only
-def test_orbits_with_two_impacts_are_listed(capsys):
-    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.0832", "--to", "0.0836", "--impacts", "2"]
-    assert main(words) == 0
-    shown = capsys.readouterr().out
-    assert "P2,1 (impact+ impact+)" in shown
-    assert "does not prove that these are all" in " ".join(shown.split())
-
-
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [

@@ -264,6 +264,20 @@ def nothing_computed(monkeypatch):
         monkeypatch.setattr(import_module(f"carom.{home}"), name, accepted)
 
 
+EVIL = "\x1b[31m\u202e\n\x07\x9b\u2028"
+
+
+@pytest.mark.usefixtures("nothing_computed")
+@pytest.mark.parametrize("line", LINES, ids=" ".join)
+def test_no_control_character_of_an_option_is_told(carom, machine, line):
+    for place in range(len(line)):
+        words = [machine if word == "MACHINE" else word for word in (*line[:place], EVIL, *line[place + 1 :])]
+        code, out, err = carom(*words)
+        assert (code, out) == (2, ""), words
+        assert err.endswith("\n")
+        assert err[:-1].isprintable()
+
+
 @pytest.mark.usefixtures("nothing_computed")
 def test_damaged_options_are_accepted_or_refused(carom, machine, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

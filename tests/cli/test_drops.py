@@ -34,17 +34,6 @@ def test_a_drop_as_a_document(carom):
     assert "stages" not in found
 
 
-def test_a_drop_in_words_is_seen_from_the_fixed_frame(carom):
-    code, out, err = carom(*DROP)
-    words = " ".join(out.split())
-    assert (code, err) == (0, "")
-    assert "Release: rotor centre 0.0986 mm from the middle at -91.3°" in words
-    assert "under 9.81 m/s² at -90°; angles count from the fixed x axis" in words
-    assert "The rotor ends in rest on the touchdown bearing" in words
-    assert "At the end, in the fixed frame: 1 c_r (0.25 mm) from the centre at -" in words
-    assert "-89.71" in words  # the first impact, next to the bottom
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from flights import inside_task, rotors
+from flights import inside_task, plain_record, rotors
 
 from carom.core import block, table
 from carom.core.flow import fly_all
-from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, rotor_record, workspace
+from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, workspace
 
 
 def loaded(seed):
@@ -59,15 +59,11 @@ def some_modes(seed, modes=4):
     exponents = random.uniform(-1.0, 0.3, modes) + 1j * random.uniform(-3.0, 3.0, modes)
     exponents[1:3] = sorted(exponents[1:3], key=lambda value: value.real)
     driven = np.arange(modes) == 2
-    arrays = rotor_record(
+    arrays = plain_record(
         exponents=exponents,
         driven=driven,
         offsets=np.array([0.1 - 0.2j]),
         rows=random.normal(size=(1, modes)) + 1j * random.normal(size=(1, modes)),
-        columns=np.ones((modes, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
     work = workspace(modes)
     work.current[:] = random.normal(size=modes) + 1j * random.normal(size=modes)

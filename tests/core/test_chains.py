@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from flights import plain_record
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
@@ -9,7 +10,7 @@ from carom.base.outcome import Outcome
 from carom.core.block import move_to
 from carom.core.events import INSIDE, first_crossing
 from carom.core.flow import fly_all, nudge
-from carom.core.layout import rotor_record, workspace
+from carom.core.layout import workspace
 from carom.core.settling import levitates
 from carom.core.table import flight_table
 
@@ -23,15 +24,11 @@ def chained(length, rng, room=1):
     exponents[room : room + length] = 1j * rng.uniform(-2.0, 2.0)
     driven = np.zeros(modes, bool)
     driven[room + 1 : room + length] = True
-    arrays = rotor_record(
+    arrays = plain_record(
         exponents=exponents,
         driven=driven,
         offsets=0.1 * (rng.normal(size=1) + 1j * rng.normal(size=1)),
         rows=0.3 * (rng.normal(size=(1, modes)) + 1j * rng.normal(size=(1, modes))),
-        columns=np.ones((modes, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
     matrix = np.diag(exponents) + np.diag(driven[1:].astype(complex), -1)
     amplitudes = 0.4 * (rng.normal(size=modes) + 1j * rng.normal(size=modes))

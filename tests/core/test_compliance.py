@@ -6,6 +6,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from linear_rotors import planar_rotor
 from mpmath import mpc, mpf
 
 from carom.base.outcome import Phase
@@ -15,7 +16,7 @@ from carom.core.flow import displacement, velocity
 from carom.core.layout import ORDER, rub_workspace
 from carom.core.rub import first_transition, next_phase
 from carom.core.taylor import STEP_FRACTION, margin_step, series_step, sum_series
-from carom.models import HuntCrossley, KelvinVoigt, Touchdown, from_matrices
+from carom.models import HuntCrossley, KelvinVoigt, Touchdown
 
 FLIGHT, FORWARD, BACKWARD, ROLLING, SEPARATED = Phase
 GAMMA, OMEGA, RHO, PHI, FRICTION, RATIO = 0.13, 0.76, 0.43, 0.21, 0.3, 3.0
@@ -34,12 +35,8 @@ IN_CONTACT = [case for case in CASES if case[-1] != SEPARATED]
 
 def rotor_of(law, friction=FRICTION, ratio=RATIO, rows=((1.0,),)):
     """The planar rotor of these parameters with walls of a law."""
-    return from_matrices(
-        mass=[[1.0]],
-        damping=[[GAMMA]],
-        stiffness=[[OMEGA**2]],
-        forcing=[RHO * cmath.exp(1j * PHI)],
-        touchdowns=[Touchdown(row, law, friction, ratio + 1.0) for row in rows],
+    return planar_rotor(
+        GAMMA, OMEGA**2, RHO * cmath.exp(1j * PHI), [Touchdown(row, law, friction, ratio + 1.0) for row in rows]
     )
 
 

@@ -19,6 +19,7 @@ from flights import (
     longest_block,
     near_grazing_task,
     parameters,
+    plain_record,
     random_wall_task,
     rotors,
     task_from_state,
@@ -30,7 +31,7 @@ from reference import plane_flight
 from carom.base.outcome import Outcome
 from carom.core import events
 from carom.core.flow import displacement
-from carom.core.layout import DEGREE, rotor_record, workspace
+from carom.core.layout import DEGREE, workspace
 from carom.core.records import record
 from carom.core.table import flight_table
 from carom.models import jeffcott
@@ -247,15 +248,11 @@ def flights_that_cross_twice(seed, count):
     """Flights that leave the disc at once, come back were there no wall, and leave it again at about a given time."""
     rng, found = np.random.default_rng(seed), 0
     while found < count:
-        arrays = rotor_record(
+        arrays = plain_record(
             exponents=rng.uniform(-0.2, 0.0, 2) + 1j * rng.uniform(-3.0, 3.0, 2),
             driven=np.zeros(2, bool),
             offsets=0.3 * complex_normal(rng, 1),
             rows=complex_normal(rng, 1, 2),
-            columns=np.ones((2, 1), complex),
-            friction=np.zeros(1),
-            restitution=np.ones(1),
-            surface_speed=np.ones(1),
         )
         table = flight_table(arrays.exponents, arrays.driven.astype(bool))
         times = float(table.durations[0]) * np.linspace(0.0, 0.75, 49)

@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from flights import parameters
+from flights import parameters, plain_record
 from scipy.linalg import expm
 
 from carom.core.flow import (
@@ -16,7 +16,6 @@ from carom.core.flow import (
     squared_modulus,
     velocity,
 )
-from carom.core.layout import rotor_record
 from carom.models import jeffcott
 
 EPSILON = 2.0**-52
@@ -24,15 +23,11 @@ EPSILON = 2.0**-52
 
 def pair_rotor(lower, upper, rows=(0.7 - 0.2j, 0.4 + 1.1j)):
     """A rotor of one pair and one free-standing mode."""
-    return rotor_record(
+    return plain_record(
         exponents=np.array([lower, upper, -0.3 + 1.1j]),
         driven=np.array([False, True, False]),
         offsets=np.array([0.1 - 0.3j]),
         rows=np.array([[*rows, 0.25j]]),
-        columns=np.ones((3, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
 
 

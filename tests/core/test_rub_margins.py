@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from flights import EPSILON
+from flights import EPSILON, plain_record
 from machines import PAPER
 
 from carom.base.outcome import Phase
 from carom.core import contact_series, rub, taylor
 from carom.core.flow import displacement, fly_all, velocity
-from carom.core.layout import ORDER, rotor_record, rub_workspace
+from carom.core.layout import ORDER, rub_workspace
 from carom.core.records import record
 from carom.core.rounding import push_rounding, speed_rounding
 from carom.models import jeffcott
@@ -252,15 +252,11 @@ def sizes(terms):
 def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
     random = np.random.default_rng(6)
     for _ in range(20):
-        arrays = rotor_record(
+        arrays = plain_record(
             exponents=random.normal(size=2) + 1j * random.normal(size=2),
             driven=np.zeros(2, bool),
             offsets=random.normal(size=1) + 1j * random.normal(size=1),
             rows=random.normal(size=(1, 2)) + 1j * random.normal(size=(1, 2)),
-            columns=np.ones((2, 1), complex),
-            friction=np.zeros(1),
-            restitution=np.ones(1),
-            surface_speed=np.ones(1),
         )
         amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
         spread = sizes(arrays.offsets)[0] + sizes(arrays.rows[0] * amplitudes).sum()

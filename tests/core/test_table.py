@@ -5,12 +5,12 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from flights import parameters
+from flights import parameters, plain_record
 from reference import Flight, plane_flight
 
 from carom.core import table as tables
 from carom.core.lanes import REACH
-from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, TERMS, rotor_record
+from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, TERMS
 from carom.core.table import flight_table
 from carom.models import jeffcott
 
@@ -34,15 +34,11 @@ def general_arrays(seed: int, modes: int):
     random = np.random.default_rng(seed)
     exponents = random.uniform(-1.0, 0.5, modes) + 1j * random.uniform(-3.0, 3.0, modes)
     exponents[:2] = sorted(exponents[:2], key=lambda value: value.real)
-    return rotor_record(
+    return plain_record(
         exponents=exponents,
         driven=np.arange(modes) == (1 if modes > 2 else -1),
         offsets=np.array([0.2 + 0.1j]),
         rows=random.normal(size=(1, modes)) + 1j * random.normal(size=(1, modes)),
-        columns=np.ones((modes, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
 
 
@@ -239,15 +235,11 @@ def test_derivative_bounds_bound(arrays):
 def test_derivative_bounds_of_pairs_after_a_slow_mode(lower, upper):
     """They bound, and are met at the end of the block by a pair that grows with one exponent."""
     exponents, driven = np.array([0.01, lower, upper], complex), np.array([False, False, True])
-    pair = rotor_record(
+    pair = plain_record(
         exponents=exponents,
         driven=driven,
         offsets=np.zeros(1, complex),
         rows=np.ones((1, 3), complex),
-        columns=np.ones((3, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
     table = flight_table(exponents, driven)
     end = float(table.durations[0])

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from flights import plain_record
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.core.layout import rotor_record
 from carom.core.wall import local_velocity, set_on_wall, unit
 
 EPSILON = 2.0**-52
@@ -19,15 +19,11 @@ def test_unit(z):
 def test_set_on_wall_is_the_smallest_change():
     random = np.random.default_rng(3)
     row = random.normal(size=3) + 1j * random.normal(size=3)
-    arrays = rotor_record(
+    arrays = plain_record(
         exponents=np.array([-0.1 + 1j, -0.2, -1j]),
         driven=np.zeros(3, bool),
         offsets=np.array([0.3 - 0.2j]),
         rows=row[None],
-        columns=np.ones((3, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
     start = random.normal(size=3) + 1j * random.normal(size=3)
     amplitudes = start.copy()
@@ -42,15 +38,11 @@ def test_set_on_wall_is_the_smallest_change():
 
 
 def test_local_velocity_is_radial_and_along_the_wall():
-    arrays = rotor_record(
+    arrays = plain_record(
         exponents=np.array([-0.1 + 1j]),
         driven=np.zeros(1, bool),
         offsets=np.array([0.0j]),
         rows=np.array([[2.0 + 0j]]),
-        columns=np.ones((1, 1), complex),
-        friction=np.zeros(1),
-        restitution=np.ones(1),
-        surface_speed=np.ones(1),
     )
     # y = 2c turns once per unit of time while it shrinks by a tenth.
     assert local_velocity(arrays, 0, np.array([0.3j])) == pytest.approx(0.6 * (-0.1 + 1j), rel=1e-14)

@@ -3,6 +3,7 @@
 import cmath
 import math
 
+import machines
 import numpy as np
 import pytest
 from compilation import sized
@@ -15,18 +16,7 @@ from carom.disturbances import BladeLoss, Grid
 from carom.models import Force, jeffcott
 from carom.parameters import Machine, Parameters
 
-LIGHT = Machine(
-    mass=20.0,
-    damping=3000.0,
-    stiffness=8e6,
-    eccentricity=5e-6,
-    clearance=0.2e-3,
-    rotor_radius=0.03,
-    speed=900.0,
-    unbalance_phase=0.4,
-    friction=0.15,
-    restitution=0.9,
-)
+LIGHT = machines.LIGHT.replace(speed=900.0)
 CHATTER = 400
 """Impacts of the independent integration after which the rotor counts as held at the wall."""
 

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from linear_rotors import planar_rotor
 
 import carom as cm
 from carom.models import HuntCrossley, KelvinVoigt, Rigid, Touchdown, from_matrices
@@ -13,12 +14,8 @@ from carom.parameters.restitution import damping_ratio_of
 
 def planar(law, phase=0.21, friction=0.15):
     """The planar rotor of the paper with a wall of a law and an unbalance of a phase."""
-    return from_matrices(
-        mass=[[1.0]],
-        damping=[[0.1]],
-        stiffness=[[0.76**2]],
-        forcing=[3.0 / 7.0 * cmath.exp(1j * phase)],
-        touchdowns=[Touchdown([1.0], law, friction, 1.0 + 400.0 / 7.0)],
+    return planar_rotor(
+        0.1, 0.76**2, 3.0 / 7.0 * cmath.exp(1j * phase), [Touchdown([1.0], law, friction, 1.0 + 400.0 / 7.0)]
     )
 
 

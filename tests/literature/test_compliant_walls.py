@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from linear_rotors import planar_rotor
 from scipy.integrate import solve_ivp
 from scipy.special import lambertw
 
 import carom as cm
-from carom.models import KelvinVoigt, Touchdown, from_matrices, rotor_of
+from carom.models import KelvinVoigt, Touchdown, rotor_of
 from carom.orbits.closing import close
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 
@@ -48,13 +49,12 @@ def test_synchronous_rubs_of_the_overhung_rotor():
     """``|1 − (1 − Jp)Ω² + β(1 − 1/r) + 2iζΩ| r = mεΩ²``."""
     numbers = []
     for speed in (0.9, 1.08, 1.5, 2.5, 5.0):
-        rotor = from_matrices(
-            mass=[[1.0]],
-            damping=[[2.0 * DAMPING_RATIO / speed]],
-            stiffness=[[1.0 / speed**2]],
+        rotor = planar_rotor(
+            2.0 * DAMPING_RATIO / speed,
+            1.0 / speed**2,
+            UNBALANCE,
+            [Touchdown((1.0,), KelvinVoigt(RING / speed**2, 1.0), 0.0, 20.0)],
             gyroscopic=[[POLAR_INERTIA]],
-            forcing=[UNBALANCE],
-            touchdowns=[Touchdown((1.0,), KelvinVoigt(RING / speed**2, 1.0), 0.0, 20.0)],
         )
         rubs = [rub for rub in cm.find_equilibria(rotor)[1:] if rub.normal_force > 0.0]
         numbers.append(len(rubs))
@@ -74,13 +74,12 @@ def test_the_overhung_rotor_bounces_beside_levitation_near_its_internal_resonanc
     Past the resonance the family goes on, with a third contact from a grazing at 3.539 on, unstable, down to a fold at 2.7454.
     """
     speed = 5.0
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[2.0 * DAMPING_RATIO / speed]],
+    rotor = planar_rotor(
+        2.0 * DAMPING_RATIO / speed,
+        1.0 / speed**2,
+        UNBALANCE,
+        [Touchdown([1.0], KelvinVoigt(RING / speed**2, 0.0), 0.0, 1.0, farthest=4.0)],
         gyroscopic=[[POLAR_INERTIA]],
-        stiffness=[[1.0 / speed**2]],
-        forcing=[UNBALANCE],
-        touchdowns=[Touchdown([1.0], KelvinVoigt(RING / speed**2, 0.0), 0.0, 1.0, farthest=4.0)],
         scales=cm.parameters.Scales(1.0, 1.0, speed),
     )
     (levitation,) = cm.find_equilibria(rotor)

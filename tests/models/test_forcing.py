@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from linear_rotors import FixedFrame, single, tilting, to_fixed, touchdowns
+from linear_rotors import FixedFrame, planar_rotor, single, tilting, to_fixed, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
@@ -104,14 +104,7 @@ def test_a_free_rotor_of_two_coordinates_falls(pushes):
 def dropped():
     """A balanced rotor in a clearance of 0.25 mm whose levitation is lost at 18,000 rpm: nothing but its weight acts on it."""
     scales = cm.parameters.Scales(5.0, 0.25e-3, 600.0 * math.pi)
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[0.0]],
-        stiffness=[[0.0]],
-        forcing=[0.0],
-        touchdowns=touchdowns([[1.0]], [0.1], [0.5], [100.0]),
-        scales=scales,
-    )
+    rotor = planar_rotor(0.0, 0.0, 0.0, touchdowns([[1.0]], [0.1], [0.5], [100.0]), scales=scales)
     weight = 9.81 / (scales.length * scales.speed**2)
     return rotor.under(Force(-1j, np.array([-1j * weight])))
 
@@ -141,13 +134,7 @@ def test_what_needs_rest_or_repetition_is_refused():
 @pytest.mark.parametrize("damping", [0.0, 1e-18])
 def test_unbalance_in_undamped_resonance_drives_the_mode(damping):
     """``z̈ + z = ρe^{it}`` grows without bound, as the matrix exponential says."""
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[damping]],
-        stiffness=[[1.0]],
-        forcing=[0.02],
-        touchdowns=touchdowns([[1.0]], [0.1], [0.5], [9.0]),
-    )
+    rotor = planar_rotor(damping, 1.0, 0.02, touchdowns([[1.0]], [0.1], [0.5], [9.0]))
     motion = cm.simulate(rotor, cm.State(0.0), 120.0)
     matrix = np.array([[0.0, 1.0, 0.0], [0.0, -2.0j, 0.02], [0.0, 0.0, 0.0]])
     for time in (1.0, 20.0, motion.contacts.time[0]):

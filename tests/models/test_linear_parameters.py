@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from linear_rotors import touchdowns
+from linear_rotors import planar_rotor, touchdowns
 from machines import PAPER
 
 from carom.base.outcome import InputError
@@ -19,12 +19,11 @@ TRANSLATION = np.array([1.0, 0.25])
 
 
 def planar(parameters) -> Rotor:
-    return from_matrices(
-        mass=[[1.0]],
-        damping=[[parameters.gamma]],
-        stiffness=[[parameters.omega**2]],
-        forcing=[parameters.rho * np.exp(1j * parameters.phi)],
-        touchdowns=touchdowns([[1.0]], [parameters.mu], [parameters.d], [parameters.radius_ratio + 1.0]),
+    return planar_rotor(
+        parameters.gamma,
+        parameters.omega**2,
+        parameters.rho * np.exp(1j * parameters.phi),
+        touchdowns([[1.0]], [parameters.mu], [parameters.d], [parameters.radius_ratio + 1.0]),
         scales=parameters.scales,
     )
 

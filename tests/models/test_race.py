@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from linear_rotors import planar_rotor
 
 import carom as cm
-from carom.models import KelvinVoigt, Race, Rigid, Touchdown, from_matrices
+from carom.models import KelvinVoigt, Race, Rigid, Touchdown
 
 GAMMA, OMEGA, PUSH = 0.1, 0.76, 3.0 / 7.0 * np.exp(0.21j)
 START = cm.State(0.2 + 0.1j, 1.0)
@@ -12,13 +13,7 @@ SOFT = KelvinVoigt(1e3, 3.3)
 
 
 def rotor_with(law, race, friction=0.15, surface_speed=57.14):
-    return from_matrices(
-        mass=[[1.0]],
-        damping=[[GAMMA]],
-        stiffness=[[OMEGA**2]],
-        forcing=[PUSH],
-        touchdowns=[Touchdown([1.0], law, friction, surface_speed, race)],
-    )
+    return planar_rotor(GAMMA, OMEGA**2, PUSH, [Touchdown([1.0], law, friction, surface_speed, race)])
 
 
 def test_what_cannot_turn_is_refused():
@@ -33,13 +28,7 @@ def test_what_cannot_turn_is_refused():
 def test_impacts_on_a_rigid_wall_keep_the_momentum_of_rotor_and_race(restitution):
     """Friction turns both about the bearing: the rotor at the radius one, the race at its own; the shaft is held at its speed."""
     race = Race(2.0, 1.5)
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[0.0]],
-        stiffness=[[OMEGA**2]],
-        forcing=[0.0],
-        touchdowns=[Touchdown([1.0], Rigid(restitution), 0.2, 4.0, race)],
-    )
+    rotor = planar_rotor(0.0, OMEGA**2, 0.0, [Touchdown([1.0], Rigid(restitution), 0.2, 4.0, race)])
     motion = cm.simulate(rotor, START, 40.0)
     contacts = motion.contacts
     assert len(contacts) >= 8

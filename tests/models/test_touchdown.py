@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from linear_rotors import planar_rotor
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -15,12 +16,11 @@ START = State(0.2 + 0.1j, 1.2 - 0.3j)
 
 def paper(law) -> Rotor:
     """The paper's rotor by its matrices, with a wall of another law."""
-    return from_matrices(
-        mass=[[1.0]],
-        damping=[[PAPER.gamma]],
-        stiffness=[[PAPER.omega**2]],
-        forcing=[PAPER.rho * np.exp(1j * PAPER.phi)],
-        touchdowns=[Touchdown([1.0], law, PAPER.mu, PAPER.radius_ratio + 1.0)],
+    return planar_rotor(
+        PAPER.gamma,
+        PAPER.omega**2,
+        PAPER.rho * np.exp(1j * PAPER.phi),
+        [Touchdown([1.0], law, PAPER.mu, PAPER.radius_ratio + 1.0)],
     )
 
 

@@ -122,10 +122,7 @@ def test_starts_may_have_machines_of_their_own(machine):
         ({"positions": [0.1, 1.5]}, "start position = .*inside the wall"),
         ({"positions": [0.1, np.nan]}, "^positions = .*: finite numbers"),
         ({"velocities": [np.inf, 0.0]}, "^velocities = .*: finite numbers"),
-        ({"until": -1.0}, "until = -1.0"),
-        ({"max_events": 0}, "max_events = 0"),
         ({"patience": 0}, "until = nothing given"),
-        ({"threads": 0}, "threads = 0"),
         ({"which": [0, 0]}, "which = "),
     ],
 )

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from linear_rotors import random_rotor, tilting, touchdowns
+from linear_rotors import planar_rotor, random_rotor, tilting, touchdowns
 from machines import PAPER
 from sliding_motions import ahead_of, assert_slides_to_the_rub
 
@@ -170,12 +170,11 @@ def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
     """Started on a saddle, to rounding, it recurs there and then leaves."""
     one = PAPER.replace(gamma=0.1)
     saddle = carom.find_orbits(one)["B1,b"]
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[one.gamma]],
-        stiffness=[[one.omega**2]],
-        forcing=[one.rho * np.exp(1j * one.phi)],
-        touchdowns=touchdowns([[1.0], [0.1]], [one.mu] * 2, [one.d] * 2, [one.radius_ratio + 1.0] * 2),
+    rotor = planar_rotor(
+        one.gamma,
+        one.omega**2,
+        one.rho * np.exp(1j * one.phi),
+        touchdowns([[1.0], [0.1]], [one.mu] * 2, [one.d] * 2, [one.radius_ratio + 1.0] * 2),
     )
     system, contact = rotor.system, np.array([0, -1])
     own = memory(system.modes)

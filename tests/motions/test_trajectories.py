@@ -6,8 +6,7 @@ from machines import PAPER, fly, strike
 
 from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import jeffcott
-from carom.motions import State, settle, simulate, simulation
-from carom.parameters import Scales
+from carom.motions import State, simulate, simulation
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
 RUBBING = PAPER.replace(gamma=0.2, d=0.5)
@@ -180,24 +179,3 @@ class TestLastingContact:
         assert stopped.time == rubbing.lasting_contacts[0].start
         assert abs(stopped.final.position) == pytest.approx(1.0, abs=1e-15)
         assert np.array_equal(stopped.contacts.time, rubbing.contacts.time[: len(stopped.contacts)])
-
-
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"max_events": 2.5}, "max_events = 2.5: a whole number of at least 1"),
-        ({"patience": -1}, "patience = -1: a whole number of at least 0"),
-        ({"until": [1.0, 2.0]}, "until = .*: a finite time above 0, in 1/Omega or with a unit"),
-        ({"until": "2 kg"}, "until = 2 kg: must be a time"),
-        ({"until": "-2 s"}, "until = -2 s: a finite time above 0"),
-    ],
-)
-def test_limits_that_cannot_be_used_are_named(changes, words):
-    machine = PAPER.replace(scales=Scales(50.0, 0.7e-3, 184.2))
-    for follow in (
-        lambda **limits: simulate(machine, State(0.2 + 0j), **({"until": 1.0} | limits)),
-        lambda **limits: settle(machine, 0.2, 0.0, **({"until": 1.0} | limits)),
-    ):
-        with pytest.raises(InputError, match=f"^{words}") as caught:
-            follow(**changes)
-        assert "\n" not in str(caught.value)

@@ -103,23 +103,6 @@ def exact_arrival(matrix, rotor: Rotor, state: list, guess) -> list:
     return at(time)
 
 
-def test_a_stable_orbit_attracts_and_an_unstable_one_repels():
-    stable, unstable = two_impacts(), find_orbits(DOUBLED)["B1,d"]
-    assert stable.admissible
-    assert stable.stable
-    assert unstable.admissible
-    assert not unstable.stable
-    for orbit in (stable, unstable):
-        sections, start = [orbit.section], orbit.section
-        at = type(start)(start.angle + 1e-6, start.radial_speed, start.angular_speed)
-        apart = []
-        for _ in range(60 * orbit.impacts):
-            at = impact_map(orbit.rotor, at).image
-            sections.append(at)
-        apart = [abs(s.radial_speed - start.radial_speed) for s in sections[:: orbit.impacts]]
-        assert (apart[-1] < 0.9 * apart[10]) is orbit.stable
-
-
 def test_where_the_word_is_not_what_the_machine_does():
     one = find_orbits(PAPER)["B1,d"]
     start = ShootingStart(one.nodes, one.durations)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from carom import State, find_bifurcations, find_orbits, settle, simulate
-from carom.base.outcome import InputError, Outcome, Phase
+from carom import State, find_orbits, settle, simulate
+from carom.base.outcome import Outcome, Phase
 from carom.base.progress import Reporter
 from carom.models import rotor_of
 from carom.orbits import Orbit, orbit_of_motion
@@ -148,12 +148,3 @@ def test_the_same_seed_finds_the_same():
     first, second = (find_orbits(DOUBLED, impacts=2, guesses=sized(40, 1), seed=3) for _ in range(2))
     assert [orbit.period for orbit in first] == [orbit.period for orbit in second]
     assert first.search == second.search
-
-
-@pytest.mark.parametrize("given", [2.5, True, float("nan"), 0, -3, "2", 10**400])
-def test_bad_numbers_of_impacts(given):
-    for function in (find_orbits, lambda *given, **named: find_bifurcations(*given, "gamma", (0.09, 0.1), **named)):
-        with pytest.raises(InputError, match="impacts = ") as problem:
-            function(DOUBLED, impacts=given)
-        assert "a whole number" in problem.value.allowed
-        assert "\n" not in str(problem.value)

@@ -6,25 +6,15 @@ import pickle
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from machines import PAPER, REAL
 from refusals import ALLOWED, error_of
 
-from carom.parameters import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, Machine, Parameters, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Machine, Parameters, Scales
 
-SI = {
-    "mass": 50,
-    "damping": 1400,
-    "stiffness": 9.8e5,
-    "eccentricity": 0.3e-3,
-    "clearance": 0.7e-3,
-    "rotor_radius": 0.04,
-    "speed": 184.2,
-    "unbalance_phase": 0.21,
-    "friction": 0.15,
-    "restitution": 0.95,
-}
+SI = {name: getattr(REAL, name) for name in MACHINE_FIELDS}
 POSITIVE = ("mass", "stiffness", "clearance", "rotor_radius", "speed")
 NOT_NEGATIVE = ("damping", "eccentricity", "friction", "restitution")
-NUMBERS = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
+NUMBERS = PAPER.as_dict()
 
 
 def ulps(number, other):

@@ -27,6 +27,8 @@ UNITS = {
             "Hz": "tau",
             "kHz": "1000*tau",
             "rev/s": "tau",
+            "RPM": "tau/60",
+            "rev/min": "tau/60",
             "rad/s": "1",
             "r/min": "tau/60",
             "deg/s": "tau/360",
@@ -66,14 +68,7 @@ WAYS = {
     "friction": ("friction",),
     "restitution": ("restitution",),
 }
-HELPERS = (
-    "rated_speed",
-    "magnetic_bearings",
-    "force_current_factor",
-    "negative_stiffness",
-    "force_limit",
-    "current_limit",
-)
+HELPERS = [name for name in UNITS if not any(name in ways for ways in WAYS.values())]
 ODD = (
     "",
     " ",

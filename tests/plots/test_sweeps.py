@@ -5,19 +5,15 @@ import dataclasses
 import numpy as np
 import pytest
 from drawn_legends import legend_words
+from machines import REAL
 from matplotlib.collections import QuadMesh
 from matplotlib.path import Path
 from sweep_tasks import Failing, basins_plan
 
 from carom import plots
 from carom.base.outcome import InputError
-from carom.parameters import Case, Machine, Zones
+from carom.parameters import Case, Zones
 from carom.sweeps import GridAxis, StudyTask, SweepPlan, open_sweep, run_sweep
-
-MACHINE = Machine(
-    mass=50.0, damping=1400.0, stiffness=9.8e5, eccentricity=0.3e-3, clearance=0.7e-3, rotor_radius=0.04,
-    speed=184.2, unbalance_phase=0.21, friction=0.15, restitution=0.95,
-)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +27,7 @@ def failing(tmp_path_factory):
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory):
     axes = (GridAxis("speed", "linear", (100.0, 300.0), 5), GridAxis("damping", "list", (500.0, 5000.0), 2))
-    case = Case("machine", MACHINE.parameters, MACHINE, Zones())
+    case = Case("machine", REAL.parameters, REAL, Zones())
     plan = SweepPlan(case, axes, StudyTask(0, (0.3, 0.4, 0.5), has_scales=True), (5, 2))
     path = tmp_path_factory.mktemp("sweep") / "s.zarr"
     run_sweep(plan, path, workers=1, threads=True)

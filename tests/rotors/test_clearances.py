@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from flexible_machines import SOFT, munich
+from linear_rotors import planar_rotor
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.models import Rigid, Touchdown, from_matrices
+from carom.models import Rigid, Touchdown
 from carom.orbits import find_orbits
 from carom.parameters import Scales, TouchdownBearing
 from carom.plots.plane import orbit_path
@@ -153,14 +154,7 @@ def test_orbits_are_told_in_the_clearance_of_their_plane():
     found = []
     for unit in (1.0, wide):  # clearances in the unit of length
         plane = Touchdown([1.0 / unit], Rigid(0.95), 0.15, 21.0, clearance=unit)
-        rotor = from_matrices(
-            mass=[[1.0]],
-            damping=[[gamma]],
-            stiffness=[[omega**2]],
-            forcing=[rho * unit],
-            touchdowns=[plane],
-            scales=Scales(3.0, 1e-3 / unit, 200.0),
-        )
+        rotor = planar_rotor(gamma, omega**2, rho * unit, [plane], scales=Scales(3.0, 1e-3 / unit, 200.0))
         orbits = find_orbits(rotor, impacts=1, guesses=60)
         # Beside it the rolling backward whirl, which has no impact.
         (stable,) = (orbit for orbit in orbits if orbit.stable and orbit.impacts == 1)

@@ -9,7 +9,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from carom import State, find_equilibria, load, simulate
-from carom.base.outcome import Outcome
 from carom.closed_forms import rolling
 from carom.closed_forms.thresholds import ranges_of
 from carom.models import Edge, Span, axis, jeffcott
@@ -86,16 +85,6 @@ def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
         assert 0.5 * (low + high) == pytest.approx(value, rel=3e-6)
 
 
-def test_thresholds_of_the_source_machine():
-    (contact_free,) = steady_range(SOURCE, "contact-free", "gamma").thresholds
-    (rub,) = steady_range(SOURCE, "rub", "gamma").thresholds
-
-    assert contact_free.edge.value == pytest.approx(0.0724686787, abs=5e-11)
-    assert (contact_free.exists, contact_free.edge.kind) == ("above", "boundary-equilibrium")
-    assert rub.edge.value == pytest.approx(0.3700060, abs=5e-8)
-    assert (rub.exists, rub.edge.kind) == ("below", "rub-fold")
-
-
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
@@ -108,13 +97,6 @@ def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
     rolls_on = {contact.kind for contact in motion.lasting_contacts} == {"roll"}
     assert rolls_on == (factor < 1.0)
     assert threshold.exists == "below"
-
-
-def test_rolling_is_where_a_rolling_start_settles():
-    rotor = jeffcott(SOURCE)
-
-    assert steady_range(SOURCE, "rolling", "gamma").exists_at(SOURCE.gamma)
-    assert simulate(rotor, State(1.0 + 0j, -1j * (400 / 7 + 1)), 100.0, settle=True).outcome is Outcome.ROLLING
 
 
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
@@ -163,19 +145,6 @@ def test_no_orbit_of_the_readme_machine_above_the_stiffness_at_which_levitation_
     touching = math.sqrt(1.0 + math.sqrt(parameters.rho**2 - parameters.gamma**2))
     assert end.edge.value == pytest.approx(touching, rel=1e-12)
     assert (end.edge.kind, end.exists) == ("non-smooth-hopf", "below")
-
-
-def test_fold_and_period_doubling_of_the_source_machine():
-    found, stable = orbit_ranges(SOURCE, "gamma")
-
-    (fold,) = found.thresholds
-    assert fold.edge.value == pytest.approx(0.1780277257, abs=5e-11)
-    assert fold.edge.period == pytest.approx(1.6408219835, abs=5e-7)
-    assert (fold.edge.kind, fold.exists) == ("fold", "below")
-    doubling, end = stable.thresholds
-    assert doubling.edge.value == pytest.approx(0.0833814175, abs=5e-11)
-    assert (doubling.edge.kind, doubling.exists) == ("period-doubling", "above")
-    assert end.edge.value == pytest.approx(fold.edge.value, rel=1e-14)
 
 
 def test_ranges_agree_with_the_certified_orbits():

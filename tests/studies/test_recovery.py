@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from linear_rotors import touchdowns
+from linear_rotors import planar_rotor, touchdowns
 
 import carom as cm
 from carom.base.outcome import InputError
 from carom.closed_forms import contact_free_kick
 from carom.disturbances import AnyState, Sample, VelocityKick
-from carom.models import from_matrices, jeffcott
+from carom.models import jeffcott
 from carom.motions import settle
 from carom.parameters import Parameters
 from carom.studies import check_recovery, find_recovery
@@ -74,13 +74,7 @@ def test_every_check_has_a_sample_of_its_own_and_all_of_it(along_damping):
 
 
 def test_any_parameter_of_any_model():
-    rotor = from_matrices(
-        mass=[[1.0]],
-        damping=[[0.4]],
-        stiffness=[[1.5]],
-        forcing=[0.1],
-        touchdowns=touchdowns([[1.0]], [0.1], [0.6], [30.0]),
-    )
+    rotor = planar_rotor(0.4, 1.5, 0.1, touchdowns([[1.0]], [0.1], [0.6], [30.0]))
     name = next(name for name in rotor.varied if "friction" in name)
     kicks = [Sample(VelocityKick(0.8), 60)]
     assert (

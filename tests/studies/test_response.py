@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from compilation import sized
-from machines import machine_file
+from machines import LIGHT, machine_file
 
 import carom as cm
 from carom.base.outcome import Outcome
@@ -18,18 +18,6 @@ from carom.studies import unbalance_response
 from carom.studies.standards import vibration_limit
 
 RPM = math.pi / 30.0
-LIGHT = Machine(
-    mass="20 kg",
-    damping="3000 N s/m",
-    stiffness="8e6 N/m",
-    eccentricity="5 um",
-    clearance="0.2 mm",
-    rotor_radius="30 mm",
-    speed="9000 rpm",
-    unbalance_phase=0.4,
-    friction=0.15,
-    restitution=0.9,
-)
 
 
 @pytest.fixture(scope="module")
