@@ -9,6 +9,7 @@ from machines import PAPER
 import carom as cm
 from carom.base.outcome import InputError
 from carom.basins import DropMap, map_drops
+from carom.basins.document import drop_map_document
 from carom.basins.drops import MEASURES
 from carom.disturbances import Drop
 from carom.disturbances.following import NO_START
@@ -63,6 +64,21 @@ def test_it_is_kept(found, tmp_path):
     assert found.hardest == "force"
     assert f"{values.max():,.0f} N" in found.worst
     assert found.exceeding("force").tolist() == (values > 5000.0).tolist()
+
+
+def test_it_says_where_a_force_still_grows(balls):
+    """Drag of the race drives a slow whirl faster and faster; the drop at rest has had its largest force."""
+    names, ranges = ("speed", "friction"), (("9000 rpm", "30000 rpm"), (0.05, 0.5))
+    falls = map_drops(balls, names=names, ranges=ranges, shape=(2, 2))
+    growing = falls.still_growing
+    for place in np.ndindex(2, 2):
+        speed, friction = (float(falls.dataset[name].values[at]) for name, at in zip(names, place, strict=True))
+        loads = cm.motions.follow_loads(balls.replace(speed=speed, friction=friction), cm.drop(), settle=True)
+        assert growing[place] == loads.planes[0].still_growing
+    assert growing.any()
+    assert not growing.all()
+    assert drop_map_document(falls)["still_growing"] == growing.tolist()
+    assert (", still growing at speed" in falls.worst) == growing.flat[falls.dataset["force"].values.argmax()]
 
 
 def test_a_fall_on_a_spring_in_closed_form(balls):

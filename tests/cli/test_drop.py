@@ -80,6 +80,7 @@ def test_a_map_over_the_race_says_which_drops_whirl_backward(carom):
     code, out, _ = carom("drop", *where, *over)
     assert code == 0
     assert "Backward whirl at the end: 4 of 4, all at friction 0.1 to 0.4, touchdown race inertia" in out
+    assert "Force still growing at the end: " in out
 
 
 def test_a_map_for_people_and_as_json(carom, tmp_path):

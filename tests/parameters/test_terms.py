@@ -106,10 +106,12 @@ def test_a_gain_too_small_says_which_is_enough():
 def test_a_term_to_vary_names_the_parameter_it_stands_for():
     error = error_of(lambda: field_to_vary("proportional_gain"))
 
-    assert str(error).startswith("proportional_gain = to vary: stands for stiffness = magnetic_bearings (")
+    assert str(error).startswith(
+        "proportional_gain is no parameter here: it stands for stiffness = magnetic_bearings ("
+    )
     assert error.allowed.endswith("; use stiffness here")
     unbalance = error_of(lambda: Machine(**PLAIN).parameters.replace(unbalance="3 g mm"))
-    assert str(unbalance) == "unbalance = 3 g mm: stands for eccentricity = unbalance/mass; use eccentricity here"
+    assert str(unbalance) == "unbalance = 3 g mm: it stands for eccentricity = unbalance/mass; use eccentricity here"
     assert field_to_vary("stiffness") is MACHINE_FIELDS["stiffness"]
     assert "did you mean stiffness?" in error_of(lambda: field_to_vary("stifness")).allowed
 

@@ -1,14 +1,18 @@
 """A drop in words and as JSON, against the limits of the touchdown bearing."""
 
 import json
+import math
 
 import pytest
 
 import carom as cm
 from carom.base.files import as_json
-from carom.base.outcome import InputError
+from carom.base.outcome import InputError, Outcome
 from carom.motions import drop_loads
+from carom.motions.loads import LastWhirl
+from carom.parameters import Scales
 from carom.studies import DropStudy, check_loads
+from carom.studies.drops import _whirl_words
 
 pytestmark = pytest.mark.jit_only
 
@@ -37,6 +41,15 @@ def test_a_force_that_grows_to_the_end_says_so(whirl):
     assert growing.document()["touchdown_bearings"][0]["loads"]["still_growing"]
     assert all(check.still_growing for check in growing.checks if check.name in ("force", "depth", "pressure"))
     assert "still growing" not in dict(whirl.tables[0][1])["peak force"]
+
+
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [(1.0, "synchronous with the shaft"), (-1.0, "1 times the shaft"), (1.01, "1.01 times the shaft")],
+)
+def test_a_whirl_says_how_it_goes_with_the_shaft(speed, words):
+    whirl = LastWhirl(speed, 16.0 * math.pi * speed, 16.0 * math.pi, 0.0, goes_on=True, scales=Scales(1.0, 1e-3, 100.0))
+    assert f"({words}); it goes on" in _whirl_words(whirl, Outcome.FORWARD_RUB)
 
 
 def test_limits_of_depth_and_pressure(whirl):

@@ -14,7 +14,9 @@ from carom.base.outcome import Outcome
 from carom.models import Rotor, jeffcott
 from carom.motions.ensembles import settle
 from carom.parameters import Machine
+from carom.parameters.columns import table_of
 from carom.studies import unbalance_response
+from carom.studies.response import BEARING
 from carom.studies.standards import vibration_limit
 
 RPM = math.pi / 30.0
@@ -135,6 +137,19 @@ def test_motions_do_what_is_said_of_each_speed():
 
 def _ends(rotor: Rotor, places: list[complex], velocities: list[complex]) -> list[int]:
     return settle(rotor, np.array(places), np.array(velocities)).outcomes.tolist()
+
+
+def test_the_lag_at_the_present_speed_is_that_of_the_curve():
+    """Of two bearings one is past the half turn: 202° and 182°, not -158° and -178°."""
+    found = unbalance_response(cm.load("examples/uberlandia-flexible-rotor.toml"))
+    lags = np.degrees(found.lags_of(found.now))
+    beside = [np.interp(found.present, found.speeds, np.degrees(lag)) for lag in found.lags.T]
+    # Between two speeds of the curve the lag turns by less than a degree.
+    np.testing.assert_allclose(lags, beside, atol=1.0)
+    assert lags.min() > 180.0
+    shown = [row[-1] for row in table_of(BEARING, range(2), found)[1]]
+    assert shown == ["202°", "182°"]
+    assert found.to_dict()["present"]["lag"] == pytest.approx(math.radians(lags[found.worst]))
 
 
 def test_separation_margin():

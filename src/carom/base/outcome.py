@@ -167,14 +167,16 @@ class InputError(CaromError, ValueError):
         The value given; ``None`` where nothing was given.
     allowed : str
         What is allowed there, or how to correct the input.
+    without : str
+        What is said of the field where nothing was given.
     """
 
-    def __init__(self, field: str, value: object, allowed: str) -> None:
+    def __init__(self, field: str, value: object, allowed: str, without: str = "= nothing given") -> None:
         self.field = field
         self.value = value
         self.allowed = allowed
-        given = "nothing given" if value is None else shown(value)
-        super().__init__(f"{shown(field)} = {given}: {printable(_cut(allowed, _LONGEST_WORDS))}")
+        given = without if value is None else f"= {shown(value)}"
+        super().__init__(f"{shown(field)} {given}: {printable(_cut(allowed, _LONGEST_WORDS))}")
 
     @property
     def errors(self) -> tuple[InputError, ...]:

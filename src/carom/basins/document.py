@@ -190,6 +190,7 @@ def drop_map_document(found: DropMap) -> dict[str, object]:
         "drops": int(found.exists.sum()),
         "fractions": {str(name): share for name, share in found.fractions.items()},
         "hardest": found.worst,
+        "drops_still_growing": int(found.still_growing.sum()),
         "limits": [
             {"name": name, "limit_si": limit, "exceeding": int(found.exceeding(name).sum())}
             for name, limit in found.limits.items()

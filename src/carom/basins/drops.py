@@ -46,6 +46,7 @@ MEASURES = {
     "settled_at": Quantity("s", "time from the release since which the rotor rests or whirls"),
     "time": Quantity("s", "time for which it was followed"),
     "whirl": Quantity("Hz", "whirl at the end, negative backward"),
+    "still_growing": Quantity("1", "touchdown bearings whose force still grew when the motion was followed no longer"),
 }
 """Numbers of each drop, with unit and words: the largest of all planes, or the sum of contacts, heat and time."""
 TURN = 2.0 * math.pi
@@ -117,10 +118,16 @@ class DropMap(OverPlane):
     @property
     def backward(self) -> np.ndarray:
         """Which drops whirl backward at the end, bool."""
-        found: np.ndarray = (
-            self.dataset["whirl"].values < 0.0 if "whirl" in self.dataset else np.zeros(self.exists.shape, bool)
-        )
-        return found
+        return -self._known("whirl") > 0.0
+
+    @property
+    def still_growing(self) -> np.ndarray:
+        """Of which drops the force still grew at the end, so that it is not their largest, bool."""
+        return self._known("still_growing") > 0.0
+
+    def _known(self, name: str) -> np.ndarray:
+        """Numbers of all drops; NaN where the map was made before they were kept."""
+        return np.asarray(self.dataset[name].values if name in self.dataset else np.full(self.exists.shape, np.nan))
 
     @property
     def hardest(self) -> str:
@@ -142,7 +149,8 @@ class DropMap(OverPlane):
         at = np.unravel_index(np.nanargmax(values), values.shape)
         where = [float(self.dataset[axis.name].values[place]) for axis, place in zip(self.axes, at, strict=True)]
         unit, words, _ = MEASURES[self.hardest]
-        return f"{words} {number(float(values[at]), 4)} {unit} at {self.at(where)}"
+        growing = ", still growing" if self.still_growing[at] else ""
+        return f"{words} {number(float(values[at]), 4)} {unit}{growing} at {self.at(where)}"
 
 
 @checked
@@ -302,21 +310,18 @@ def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     """Numbers of a drop by the names of :data:`MEASURES`, in SI units."""
     si = [plane.si() or {} for plane in found.planes]
     soft = any(plane.is_compliant for plane in found.planes)
-    pressures = [plane.pressure for plane in found.planes if plane.pressure is not None]
+    largest = ("impulse", "power", "pressure", *(("force", "depth") if soft else ()))
     whirls = [plane.whirl for plane in found.planes if plane.whirl is not None and plane.whirl.direction]
     turning = max((whirl.angular_speed for whirl in whirls), key=abs, default=math.nan)
-    return {
-        "force": max(each["force"] for each in si) if soft else math.nan,
-        "impulse": max(each["impulse"] for each in si),
-        "depth": max(each["depth"] for each in si) if soft else math.nan,
+    return dict.fromkeys(MEASURES, math.nan) | {
+        **{name: max((each[name] for each in si if name in each), default=math.nan) for name in largest},
         "heat": sum(each["heat"] for each in si),
-        "power": max(each["power"] for each in si),
-        "pressure": max(pressures, default=math.nan),
         "contacts": float(sum(plane.contacts for plane in found.planes)),
         "contact_time": sum(each["contact_time"] for each in si),
         "settled_at": math.nan if found.settled_at is None else found.settled_at * scales.time,
         "time": found.time * scales.time,
         "whirl": turning * scales.speed / TURN,
+        "still_growing": float(sum(plane.still_growing for plane in found.planes)),
     }
 
 

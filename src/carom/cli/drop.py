@@ -140,19 +140,19 @@ def _print_map(screen: Console, found: DropMap) -> None:
     from carom.parameters.columns import table_of
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
 
-    exists = found.exists
+    exists, tried = found.exists, int(found.exists.sum())
     screen.print(f"Drops over {found.plane}: {' x '.join(map(str, exists.shape))}.")
     print_table(screen, "", *table_of(DROPPED, found.fractions, found))
     screen.print(f"Hardest: {found.worst}.")
-    if count := int(found.backward.sum()):
-        screen.print(
-            f"Backward whirl at the end: {count} of {int(exists.sum())}, all at {found.ranges_of(found.backward)}."
-        )
-    else:
-        screen.print("Backward whirl at the end: none.")
+    ends = {"Backward whirl at the end": found.backward, "Force still growing at the end": found.still_growing}
+    for words, cells in ends.items():
+        where = f"{int(cells.sum())} of {tried}, all at {found.ranges_of(cells)}" if cells.any() else "none"
+        screen.print(f"{words}: {where}.")
+    if found.still_growing.any():
+        screen.print("The largest loads of these are not known: follow one of them longer, by --until without --map.")
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())
-        said = f"exceeded by {over} of {int(exists.sum())}" if over else "met by all"
+        said = f"exceeded by {over} of {tried}" if over else "met by all"
         screen.print(f"Limit of {LIMIT_FIELDS[load].words}, {LoadLimits.format(load, limit)}: {said}.")
     if not exists.all():
         screen.print(f"{int((~exists).sum())} of {exists.size} machines cannot levitate, and are not dropped.")

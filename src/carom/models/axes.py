@@ -79,7 +79,7 @@ def axis(machine: Subject, name: str) -> Axis:
     varied = model.varied
     if name in varied:
         return Axis(varied[name])
-    raise no_such_parameter(name, "to vary", varied, model.scales is not None)
+    raise no_such_parameter(name, None, varied, model.scales is not None)
 
 
 def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:

@@ -68,7 +68,7 @@ def _planes(rotor: LinearEquations) -> dict[str, tuple[str, int]]:
 def value_of(rotor: LinearEquations, name: str) -> float:
     """Present value of a parameter; refuse an unknown name, and one whose values differ between planes."""
     if name not in fields(rotor):
-        raise no_such_parameter(name, "wanted", fields(rotor), rotor.scales is not None)
+        raise no_such_parameter(name, None, fields(rotor), rotor.scales is not None)
     if name == "speed" and rotor.scales is not None:
         return rotor.scales.speed
     own, plane = _planes(rotor).get(name, (PLANAR_NAMES.get(name, name), None))

@@ -208,11 +208,11 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds them to the message, without numbered ones such as
     ``friction_2`` where ``friction`` is known.
     """
-    best = nearest_name(name, known)
-    advice = [f"did you mean {best}?"] if best else []
+    advice = [f"did you mean {best}?"] if (best := nearest_name(name, known)) else []
     allowed = [each for each in known if not (part := _NUMBERED.fullmatch(each)) or part[1] not in known]
     remedy = " ".join(advice + ([f"allowed: {', '.join(allowed)}"] if listed else []))
-    return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
+    reason = f"unknown name in {where}" + (f"; {remedy}" if remedy else "")
+    return InputError(shown(name), given, reason, "is no parameter here")
 
 
 def unknown_names(table: Mapping[str, object], known: Mapping[str, object], where: str) -> list[InputError]:

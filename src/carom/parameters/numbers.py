@@ -120,7 +120,7 @@ class Parameters:
             If the name is unknown, or a physical one without scales.
         """
         if name not in self.varied:
-            raise no_such_parameter(name, "wanted", self.varied, self.scales is not None)
+            raise no_such_parameter(name, None, self.varied, self.scales is not None)
         return Numbers.of(self).value(name)
 
     @property

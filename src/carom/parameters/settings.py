@@ -26,5 +26,5 @@ SETTINGS: Mapping[str, Field] = {**SETTABLE, **OF_TABLES}
 def field_to_set(name: str) -> Field:
     """Field of anything that a setting, or an axis of a sweep, may change."""
     if name not in SETTINGS:
-        raise unknown_name(name, "to vary", SETTINGS, "the parameters")
+        raise unknown_name(name, None, SETTINGS, "the parameters")
     return SETTINGS[name]

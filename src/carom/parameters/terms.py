@@ -143,25 +143,26 @@ def set_by(name: str) -> str:
 def field_to_vary(name: str) -> Field:
     """Field of a parameter of the planar rotor; refuse an unknown name, and an entry that stands for a parameter."""
     if name not in PARAMETERS:
-        raise no_such_parameter(name, "to vary", PARAMETERS, has_scales=True)
+        raise no_such_parameter(name, None, PARAMETERS, has_scales=True)
     return PARAMETERS[name]
 
 
 def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has_scales: bool) -> InputError:
-    """Error for a parameter that a rotor does not have: an unknown one, a term, or a physical one without scales."""
+    """Error for a parameter that a rotor does not have: an unknown one, a term, or a physical one without scales; ``given`` is ``None`` where only its name is."""
     if name in TERMS and TERMS[name].sets in varied:
         field, formula, *_ = TERMS[name]
-        return InputError(name, shown(given), f"stands for {field} = {formula}; use {field} here")
-    if some := [each for each in varied if re.fullmatch(rf"{re.escape(name)}_\d+", each)]:
-        return InputError(name, shown(given), f"stated for some parts only: use {', '.join(some)}, or state it for all")
-    if name in HELPER_FIELDS and has_scales:
-        return InputError(name, shown(given), "not varied here; set it in the machine file or, for one run, by --set")
-    if has_scales or name not in SETTABLE:
+        allowed = f"it stands for {field} = {formula}; use {field} here"
+    elif some := [each for each in varied if re.fullmatch(rf"{re.escape(name)}_\d+", each)]:
+        allowed = f"it is stated for some parts only; use {', '.join(some)}, or state it for all"
+    elif name in HELPER_FIELDS and has_scales:
+        allowed = "set it in the machine file or, for one run, by --set"
+    elif has_scales or name not in SETTABLE:
         return unknown_name(name, given, varied, "the parameters that the machine file states")
-    partner = {partner: number for number, partner in PHYSICAL_PARTNER.items()}.get(set_by(name))
-    advice = f"set {partner} instead" if partner in varied else "use a file with a [machine] table"
-    allowed = f"not a parameter here ({', '.join(varied)}), as mass, clearance and speed are not known; {advice}"
-    return InputError(name, shown(given), allowed)
+    else:
+        partner = {partner: number for number, partner in PHYSICAL_PARTNER.items()}.get(set_by(name))
+        advice = f"set {partner} instead" if partner in varied else "use a file with a [machine] table"
+        allowed = f"only {', '.join(varied)} are, as mass, clearance and speed are not known; {advice}"
+    return InputError(name, given, allowed, "is no parameter here")
 
 
 def conflicts(entries: Mapping[str, Any]) -> list[InputError]:

@@ -212,6 +212,10 @@ def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
     return entry
 
 
+def _by_shaft(times: str) -> str:
+    return "synchronous with the shaft" if times == "1" else f"{times.lstrip('-')} times the shaft"
+
+
 def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
     """Sense and frequency, and whether it goes on."""
     turns = number(whirl.lasted / (2.0 * math.pi), 3)
@@ -219,7 +223,7 @@ def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
         return "none"
     rate = f"{number(abs(whirl.angular_speed), 4)} Ω"
     if whirl.frequency_si is not None:
-        rate = f"{number(whirl.frequency_si, 4)} Hz ({number(abs(whirl.angular_speed), 3)} times the shaft)"
+        rate = f"{number(whirl.frequency_si, 4)} Hz ({_by_shaft(number(whirl.angular_speed, 3))})"
     if whirl.goes_on:
         return f"{whirl.direction}, {rate}; it goes on"
     seen = "and is not known to go on" if not outcome.settled else "in the mean"

@@ -62,7 +62,7 @@ BEARING = (
     Column("", "backward", lambda at, found: micrometres(float(np.abs(found.now.touchdowns.backward[0, at])))),
     Column("", "sag", lambda at, found: micrometres(float(found.now.sags[at]))),
     Column("", "share of clearance", lambda at, found: f"{number(100.0 * float(found.now.reach[0, at]), 3)} %"),
-    Column("", "lag", lambda at, found: f"{number(float(np.degrees(found.now.lags[0, at])), 3)}°"),
+    Column("", "lag", lambda at, found: f"{number(float(np.degrees(found.lags_of(found.now)[at])), 3)}°"),
 )
 """Of each touchdown bearing, by its place, the whirl at the present speed."""
 
@@ -70,9 +70,8 @@ BEARING = (
 def sentences(response: UnbalanceResponse) -> tuple[str, ...]:
     """Present speed, critical speeds with their separation, limits, and where the rotor touches."""
     peaks = [f"Critical speed: {each.words}" for each in response.criticals]
-    if not peaks:
-        peaks = [f"The response has no peak between {rpm(response.interval[0])} and {rpm(response.interval[1])}."]
-    found = [_present(response), *peaks, _limit(response), _saturation(response), *_contact(response)]
+    none = f"The response has no peak between {rpm(response.interval[0])} and {rpm(response.interval[1])}."
+    found = [_present(response), *(peaks or [none]), _limit(response), _saturation(response), *_contact(response)]
     return tuple(sentence for sentence in found if sentence)
 
 
@@ -88,9 +87,7 @@ def _present(response: UnbalanceResponse) -> str:
             f"At {rpm(speed)}, the present speed, the unbalance would need a contact-free whirl of {micrometres(width)} peak to "
             f"peak{where}{sagging}, and the clearance allows {micrometres(2.0 * float(now.clearances[worst]))}: the rotor touches."
         )
-    over, speeds = width / allowed, response.speeds
-    inside = speeds[0] <= speed <= speeds[-1]
-    lag = response.lags[int(np.abs(speeds - speed).argmin()), worst] if inside else now.lags[0, worst]
+    over, lag = width / allowed, response.lags_of(now)[worst]
     ratio = f", exceeded by a factor of {number(over, 3)}" if over > 1.0 else ""
     return (
         f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak{where}{sagging} "

@@ -143,7 +143,7 @@ class UnbalanceResponse(Result):
             "saturates": [each.document() for each in self.saturating if each.what],
             "steady": [each.document() | each.what._asdict() for each in self.stretches],
             "curve": record(self, CURVE),
-            "touchdowns": _bearings(self.whirl),
+            "touchdowns": _bearings(self.whirl, self.lags),
             "rubs": rubs and record(rubs, "speed_si=speeds lags radii"),
             "assumptions": list(ASSUMPTIONS),
         }
@@ -198,8 +198,12 @@ class UnbalanceResponse(Result):
     def lags(self) -> np.ndarray:
         """Angle by which the contact-free displacement lags the unbalance at each touchdown bearing, rad, without jumps over the speed, from −π/2 to 3π/2 at the lowest one; shape (n, P)."""
         whole = np.unwrap(self.whirl.lags, axis=0)
-        turns = np.floor((whole[0] + 0.5 * np.pi) / (2.0 * np.pi))
-        return np.asarray(whole - 2.0 * np.pi * turns)
+        return np.asarray(whole - 2.0 * np.pi * np.floor((whole[0] + 0.5 * np.pi) / (2.0 * np.pi)))
+
+    def lags_of(self, found: SynchronousResponse) -> np.ndarray:
+        """Those of a response at one speed, without a jump from the curve at the nearest speed; shape (P,)."""
+        near = self.lags[np.abs(self.speeds - found.speeds[0]).argmin()]
+        return near + np.angle(np.exp(1j * (found.lags[0] - near)))
 
     @cached_property
     def steady_at_present(self) -> Steady:
@@ -278,16 +282,16 @@ def _at(response: UnbalanceResponse, speed: float) -> dict[str, Any]:
         "rpm": speed / RPM,
         "amplitude": size / float(found.clearances[worst]),
         "peak_to_peak_si": 2.0 * size,
-        "lag": float(found.lags[0, worst]),
+        "lag": float(response.lags_of(found)[worst]),
         "admissible": bool(found.reach.max() < 1.0),
         "zone": response.zone_at(speed) or None,
         "api_617_limit_si": float(vibration_limit(np.array(speed))),
-        "touchdowns": _bearings(found),
+        "touchdowns": _bearings(found, response.lags_of(found)[None]),
         "saturation": float(found.saturation.max()) if found.saturation.size else None,
     }
 
 
-def _bearings(found: SynchronousResponse) -> list[dict[str, Any]]:
+def _bearings(found: SynchronousResponse, lags: np.ndarray) -> list[dict[str, Any]]:
     """Amplitudes 0-to-peak at each touchdown bearing, from 1 on, over the speeds of a response."""
     places = zip(found.clearances.tolist(), found.sags.tolist(), strict=True)
     return [
@@ -298,7 +302,7 @@ def _bearings(found: SynchronousResponse) -> list[dict[str, Any]]:
             "amplitude_si": found.touchdowns.major[:, place].tolist(),
             "forward_si": np.abs(found.touchdowns.forward[:, place]).tolist(),
             "backward_si": np.abs(found.touchdowns.backward[:, place]).tolist(),
-            "lag": found.lags[:, place].tolist(),
+            "lag": lags[:, place].tolist(),
         }
         for place, (clearance, sag) in enumerate(places)
     ]
