@@ -12,7 +12,7 @@ from carom.studies.findings import _bouncing
     ("radius_ratio", "longest", "words"),
     [
         (400 / 7, None, "bounds exclude any other"),
-        (0.5, None, "but for those whose impacts stop the slip"),
+        (0.5, None, "but for impacts that stop the slip"),
         (400 / 7, 5.0, "there may be more"),
     ],
 )

@@ -18,7 +18,6 @@ def test_quantities_with_units():
     assert SI.time(2.328416) == "12.6 ms"
     assert SI.velocity(0.05) == "6.45 mm/s"
     assert SI.velocity(2.0) == "258 mm/s"
-    assert SI.slip(58.142857) == "7.5 m/s"
     assert SI.name("gamma") == "damping"
     assert SI.force(0.75853) == "901 N"
     assert SI.force(3265.0) == "3.88 MN"

@@ -24,10 +24,7 @@ _NO_CHANGE = {
     "not-decided": "not decided: too few of the disturbances that the machine must survive could be followed",
     "no-change-found": f"none found that brings all back that must be survived and changes no gain by more than {number(GAIN_FACTOR)} times",
 }
-_HOW_SURE = (
-    "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
-    "disturbances, so that rare ones may end elsewhere. Results not marked 'proven' are not proven"
-)
+_HOW_SURE = "closed form: exact; searched: complete lists of orbits at values close together; sampled: random disturbances, so rare ones may end elsewhere; proven only if marked so"
 _LAST_ZONE = "D"
 _fact = partial(Fact, "Recommendation")
 

@@ -27,10 +27,7 @@ from carom.studies.verdict import proofs_of, verdict_facts
 from carom.studies.wording import Wording, counted, indentation_of_steel, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
-REDUCTION = (
-    "Whether it levitates and all linear results are of all modes. Motions with contact are of {vectors} vectors, {modes} of them modes of the free rotor: "
-    "when the free rotor comes to a touchdown bearing straight, tilting or bending, half as many vectors more change the force of the first contact by {error} %.{damped}"
-)
+REDUCTION = "Linear results are of all modes, motions with contact of {vectors} vectors ({modes} modes of the free rotor): half as many more change the force of a first contact by {error} %.{damped}"
 DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
 ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
 BORNE = {
@@ -42,30 +39,16 @@ HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl a
 NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
 SAMPLED = "Disturbances other than those simulated{but}. They are samples: one between them, or a larger one, may end elsewhere."
 PROVEN_KICKS = ", but for the kicks that are proven to come back"
-LONGER_MOTIONS = (
-    "Periodic motions with two or more impacts a period, bouncing that never repeats, and motions that alternate between bounces and lasting contact. "
-    "They are named only if a simulated disturbance ended in one."
-)
+LONGER_MOTIONS = "Motions with two or more impacts a period, that never repeat, or that alternate between bounces and lasting contact, unless a simulated disturbance ended in one."
 RIGID_WALL = (
-    "A touchdown bearing that moves, turns or is compliant: the wall is rigid, so the load of an impact is an impulse."
+    "A touchdown bearing that moves, turns or is compliant: on a rigid wall the load of an impact is an impulse."
 )
 COMPLIANT_WALL = "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated."
-PLANAR = (
-    "Changes of speed, gravity, a rotor that bends or tilts, and controllers that do more than a spring and a damper."
-)
+PLANAR = "Changes of speed, gravity, bending and tilting of the rotor, and controllers that are no spring and damper."
 LINEAR = "Changes of speed, coefficients of supports at other speeds, and limits of the magnetic bearings that the file does not state."
-SYMMETRY = (
-    f"What rests on the symmetry of a turn: {STEADY_WORDS['rub']}s, orbits in closed form, and that a kick does the same whatever the angle of the "
-    "unbalance is as it acts. Here that is the angle in the machine file; with others some kicks may end elsewhere."
-)
-CLOSED_FORMS = (
-    "What is known in closed form for the planar rotor alone: whether rolling lasts and from which speed whirl runs away to it, for which damping and "
-    "stiffness each motion exists, and that no orbit is missing."
-)
-AT_LIMITS = (
-    "Other angles of the unbalance to the axes of the magnetic bearings, along which their limits act, as a disturbance acts than that of the "
-    "machine file. Saturation of the iron and limits of the voltage are not modelled."
-)
+SYMMETRY = f"{RUB.capitalize()}s and orbits in closed form, which need the symmetry of a turn; and kicks while the unbalance is at another angle than that of the machine file."
+CLOSED_FORMS = "What closed forms say of the planar rotor alone: whether rolling lasts, from which speed whirl runs away to it, where each motion exists, and that no orbit is missing."
+AT_LIMITS = "Disturbances while the unbalance is at another angle than that of the machine file, saturation of the iron, and limits of the voltage of the magnetic bearings."
 
 
 def facts_of(study: StudyData) -> Iterator[Fact]:
@@ -98,10 +81,7 @@ def unfinished_facts(study: StudyData) -> Iterator[Fact]:
     """What was not followed to its end, and how much of it was."""
     if study.unfinished:
         shown = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in study.unfinished]
-        text = (
-            f"Not followed to the end: {listed(shown)}. Each question of a study has a fixed number of events, so that "
-            "its answer does not depend on the computer; a time limit ends it earlier."
-        )
+        text = f"Not followed to the end: {listed(shown)}. Each question has a fixed number of events; a time limit ends it earlier."
         yield Fact("Not reached", text, values={"questions": [record(each, UNFINISHED) for each in study.unfinished]})
 
 
@@ -125,9 +105,7 @@ def _levitation(study: StudyData) -> str:
     text += f" Small vibrations decay, with a time constant of {say.time(1.0 / decay)}."
     if "air_gap" in si:
         share = si["clearance"] / si["air_gap"]
-        text += (
-            f" Where it touches it is {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
-        )
+        text += f" It touches at {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
     return text
 
 
@@ -173,9 +151,7 @@ def _bouncing(study: StudyData) -> str:
         sure = f"Orbits of one impact a period were searched up to a period of {longest}; there may be more."
     else:
         none = "" if study.stable_orbits else "No orbit with one impact a period is stable. "
-        but = (
-            ": bounds exclude any other" if orbits.slip_stays_forward else ", but for those whose impacts stop the slip"
-        )
+        but = ": bounds exclude any other" if orbits.slip_stays_forward else ", but for impacts that stop the slip"
         sure = f"{none}The list of these is complete{but}."
     return " ".join([*(_stable_orbit(study, orbit) for orbit in study.stable_orbits), sure])
 
@@ -202,9 +178,7 @@ def _disturbances(study: StudyData) -> str:
     else:
         text += f" They ended: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}."
         if study.levitates and touched:
-            text += (
-                f" Of the {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
-            )
+            text += f" Of {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
     if hardest > 0.0:
         text += f" The hardest impact had a normal impulse of {say.impulse(hardest)}{_of_impact(study, hardest)}."
     return text
@@ -221,10 +195,7 @@ def _backward_whirl(study: StudyData) -> str:
     if study.rotor.value("gamma") > roll.damping_bound:
         return f"No backward whirl in lasting contact sustains itself: {bound} rules it out."
     if not roll.holds:
-        return (
-            "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
-            f"each turn is not ruled out; {bound} would rule it out."
-        )
+        return f"The rotor cannot roll backward for a whole turn, but may slide backward for a part of each; {bound} would rule it out."
     return f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway, roll)} Only {bound} rules that out."
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -42,10 +43,7 @@ SLOWEST, FASTEST, FOLLOWED = 0.05, 1.5, 40
 WHIRLS = 10
 COLLOCATION = "bearing frequency_hz=whirl.frequency sense=whirl.sense node_between=opposed node_at=hardly"
 SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
-RULE = (
-    "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width; its annex on magnetic "
-    "bearings may state others."
-)
+RULE = "By API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10) with the half-power width; its annex on magnetic bearings may state others."
 
 
 @dataclass(frozen=True)
@@ -175,10 +173,8 @@ def _loop_of_mass(si: Mapping[str, float]) -> LoopPeak | None:
 
     top = 2.0 * mass * stiffness * (stiffness + pull) - pull * damping**2
     below = mass * (2.0 * mass * (stiffness + pull) - damping**2)
-    square = max(top, 0.0) / below if below > 0.0 else math.inf
-    peak = size(square) if square < math.inf else 1.0
-    if pull / stiffness > peak:
-        square, peak = 0.0, pull / stiffness
+    sizes = {square: size(square) for square in ([max(top, 0.0) / below, 0.0] if below > 0.0 else [0.0])}
+    square, peak = max({**sizes, math.inf: 1.0}.items(), key=itemgetter(1))
     return LoopPeak(1, peak, math.sqrt(square), zone_of(peak))
 
 

@@ -148,15 +148,10 @@ def _steady(entry: SteadyMotion, say: Wording, share: str, parameters: Parameter
         remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
         return MotionRow(name, "not possible", size=size, trials=share, remark=remark)
     soft = "" if contact_free else no_rigid_wall(indentation_of_force(parameters, entry.normal_force))
-    force = "" if contact_free else _force(say, entry.normal_force, soft)
+    force = "" if contact_free else "no model" if soft else say.force(entry.normal_force)
     touches = "touches the wall without force" if entry.status == "boundary" else soft
     state: State = "stable" if entry.stable else "unstable"
     return MotionRow(name, state, size=size, force=force, trials=share, remark=touches)
-
-
-def _force(say: Wording, force: float, no_model: str) -> str:
-    """A force of lasting contact, unless no wall bears it."""
-    return "no model" if no_model else say.force(force)
 
 
 def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
@@ -181,7 +176,7 @@ def _seen(study: StudyData, member: Attractor) -> MotionRow:
         "transient" if member.transient else "seen" if member.settled else "undecided",
         period=say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
-        force=_force(say, force, soft) if force > 0 else "",
+        force=("no model" if soft else say.force(force)) if force > 0 else "",
         trials=_share(study.attractors, member.name),
         remark=_joined(lasts, known, soft),
     )

@@ -87,10 +87,6 @@ def _rate(scales: Scales | None, period: float) -> str:
     return f"{number(1.0 / (period * scales.time), 3)} times a second"
 
 
-def _slip(scales: Scales | None, value: float) -> str:
-    return f"{number(value * scales.velocity, 3)} m/s" if scales else format_quantity(value, "velocity", None)
-
-
 def _speed(scales: Scales | None, value: float) -> str:
     return f"{number(value)} Ω" if scales is None else format_entry("speed", value * scales.speed)
 
@@ -98,12 +94,11 @@ def _speed(scales: Scales | None, value: float) -> str:
 OTHER_KINDS: dict[str, Callable[[Scales | None, float], str]] = {
     "radius": _radius,
     "rate": _rate,
-    "slip": _slip,
     "speed": _speed,
     "pressure": lambda _, value: f"{number(1e-9 * value, 3)} GPa",
     "percent": lambda _, value: f"{number(100.0 * value, 2)} %",
 }
-"""A radius in clearances and in mm, how often an event with a period comes, the speed of the surface of the rotor on the wall in m/s, angular speed in rpm, a pressure
+"""A radius in clearances and in mm, how often an event with a period comes, angular speed in rpm, a pressure
 in Pa, and a share."""
 
 
@@ -154,9 +149,7 @@ class Wording:
     unbalance = partialmethod(write, kind="unbalance")
     force = partialmethod(write, kind="force")
     impulse = partialmethod(write, kind="impulse")
-    energy = partialmethod(write, kind="energy")
     power = partialmethod(write, kind="power")
-    slip = partialmethod(write, kind="slip")
     per_second = partialmethod(write, kind="rate")
     radius = partialmethod(write, kind="radius")
 
