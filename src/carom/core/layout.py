@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -141,19 +140,18 @@ def rotor_record(
         if follows:
             generator[k, k - 1] = 1.0
             gaps[k] = values[k] - values[k - 1]
-    own = {
+    own: dict[str, np.ndarray] = {
         "exponents": exponents,
         "driven": driven,
-        "gaps": gaps,
-        "inverse_gaps": [1.0 / np.complex128(gap) if gap else 0j for gap in gaps],
-        "largest_response": _largest_response(values, gaps),
+        "gaps": np.array(gaps),
+        "inverse_gaps": np.array([1.0 / np.complex128(gap) if gap else 0j for gap in gaps]),
+        "largest_response": np.array(_largest_response(values, gaps)),
     }
     seen = _seen(generator, rows, offsets)
     fields = _nothing_more(modes, stations) | own | seen | others
     number, scale = len(fields["limit_bounds"]), 1.0 / fields["limit_bounds"]
-    reach = (
-        own | _seen(generator, fields["limit_rows"] * scale[:, None], fields["limit_offsets"] * scale) | {"shaft": []}
-    )
+    limited = _seen(generator, fields["limit_rows"] * scale[:, None], fields["limit_offsets"] * scale)
+    reach = own | limited | {"shaft": np.zeros(0)}
     fields |= {
         "columns": columns,
         "mobility": seen["rate_rows"].dot(columns),
@@ -162,7 +160,6 @@ def rotor_record(
         "restitution": restitution,
         "surface_speed": surface_speed,
         "limit_pulls": seen["rate_rows"].dot(fields["limit_columns"]),
-        "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
     if free is not None:
         fields["free"] = free
@@ -171,11 +168,12 @@ def rotor_record(
         fields |= more
     sizes = len(fields["shaft"]), number, len(fields["anisotropy"]), len(fields["gap_rows"])
     layout = _rotor_layout(modes, stations, *sizes)
-    return filled(layout, tuple(fields[name] for name in layout.names or ()))
+    within = tuple(reach[name] for name in _flight_layout(modes, number).names or ())
+    return filled(layout, tuple(within if name == "reach" else fields[name] for name in layout.names or ()))
 
 
 @cache
-def _nothing_more(modes: int, stations: int) -> dict[str, Any]:
+def _nothing_more(modes: int, stations: int) -> dict[str, np.ndarray]:
     """Fields of a rotor between rigid walls, without race, shaft, limits, anisotropy and magnets."""
     none = np.zeros(stations)
     names = "law", "law_number", "stiffness", "loss", "race_gain"

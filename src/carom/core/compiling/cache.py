@@ -15,7 +15,7 @@ import sys
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import llvmlite
 import numba
@@ -28,11 +28,20 @@ from carom.core.compiling.cache_directory import cache_directory, warn_once
 from carom.core.compiling.choice import compiles_plainly
 from carom.core.compiling.names import source_of
 
+if TYPE_CHECKING:
+    from types import FunctionType
+
+    from numba.core.codegen import JITCPUCodegen
+    from numba.core.cpu import CPUContext
+    from numba.core.registry import CPUDispatcher
+    from numba.core.types import Type
+    from numba.core.typing.templates import Signature
+
 CHECKSUM = 32
 """Length of the checksum at the start of a file, in bytes."""
 
 
-def keep(kernel: Any) -> None:
+def keep(kernel: CPUDispatcher) -> None:
     """Cache the compiled versions of a kernel on disk."""
     kernel._cache = KernelCache(kernel.py_func, cache_directory())
 
@@ -48,7 +57,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         The cache directory; None to cache nothing.
     """
 
-    def __init__(self, function: Any, directory: Path | None) -> None:
+    def __init__(self, function: FunctionType, directory: Path | None) -> None:
         self.directory = directory
         self._function = function
         self._enabled = True
@@ -58,7 +67,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         """The directory as text, for Numba's statistics."""
         return None if self.directory is None else str(self.directory)
 
-    def load_overload(self, sig: Any, target_context: Any) -> CompileResult | None:
+    def load_overload(self, sig: Signature | tuple[Type, ...], target_context: CPUContext) -> CompileResult | None:
         """Return the version for these argument types, or None if it has to be compiled."""
         target_context.refresh()
         if not self._enabled or self.directory is None:
@@ -78,7 +87,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
             getattr(import_module(module), name).compile(args)
         return CompileResult._rebuild(target_context, *reduced)
 
-    def save_overload(self, sig: Any, data: CompileResult) -> None:
+    def save_overload(self, sig: Signature | tuple[Type, ...], data: CompileResult) -> None:
         """Write a version to the cache; if that fails, only this process uses it."""
         if not self._enabled or data.library.has_dynamic_globals:  # addresses that are valid in this process only
             return
@@ -110,7 +119,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         kernel = f"{self._function.__module__}.{self._function.__name__.strip('<>')}"
         return f"{kernel}.{hashlib.sha256(origin).hexdigest()[:16] if origin else '*'}"
 
-    def _origin(self, sig: Any, codegen: Any) -> bytes:
+    def _origin(self, sig: Signature | tuple[Type, ...], codegen: JITCPUCodegen) -> bytes:
         """Everything that determines the machine code, except the other sources: these name the directory."""
         compiler = sys.version, numba.__version__, llvmlite.__version__, codegen.magic_tuple(), compiles_plainly()
         return repr((source_of(self._function), compiler, sig)).encode()

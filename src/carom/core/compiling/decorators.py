@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numba
 from numba.extending import register_jitable
@@ -14,7 +14,7 @@ from carom.core.compiling.names import NamingCompiler
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
-_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "nsz"}}
+_OPTIONS: dict[str, str | set[str]] = {"error_model": "numpy", "fastmath": {"contract", "nsz"}}
 """Arithmetic of kernels."""
 
 

@@ -10,18 +10,22 @@ import math
 import operator
 from collections.abc import Callable, Sequence
 from functools import partial, reduce
-from typing import Any
+from typing import TYPE_CHECKING
 
 from llvmlite.ir import Constant, IntType, Undefined
 
+if TYPE_CHECKING:
+    from llvmlite.ir import IRBuilder, Type, Value
+    from numba.core.datamodel.models import DataModel
 
-def variable(builder: Any, kind: Any, name: str = "") -> Any:
+
+def variable(builder: IRBuilder, kind: Type, name: str = "") -> Value:
     """Place of a variable in the frame of the function."""
     with builder.goto_entry_block():
         return builder.alloca(kind, name=name)
 
 
-def struct(builder: Any, kind: Any, *values: Any) -> Any:
+def struct(builder: IRBuilder, kind: Type, *values: Value) -> Value:
     """Struct of these values."""
     packed = Constant(kind, Undefined)
     for i, value in enumerate(values):
@@ -29,13 +33,13 @@ def struct(builder: Any, kind: Any, *values: Any) -> Any:
     return packed
 
 
-def _termwise(name: str, builder: Any, first: Any, second: Any) -> Any:
+def _termwise(name: str, builder: IRBuilder, first: Value, second: Value) -> Value:
     """Sum or difference of two complex numbers."""
     parts = [getattr(builder, name)(builder.extract_value(first, i), builder.extract_value(second, i)) for i in (0, 1)]
     return struct(builder, first.type, *parts)
 
 
-def _product(builder: Any, first: Any, second: Any) -> Any:
+def _product(builder: IRBuilder, first: Value, second: Value) -> Value:
     """Product of two complex numbers."""
     a, b = (builder.extract_value(first, i) for i in (0, 1))
     c, d = (builder.extract_value(second, i) for i in (0, 1))
@@ -44,7 +48,7 @@ def _product(builder: Any, first: Any, second: Any) -> Any:
     return struct(builder, first.type, real, imaginary)
 
 
-COMPLEX_OPERATIONS: dict[Any, Callable[..., Any]] = {
+COMPLEX_OPERATIONS: dict[Callable[..., object], Callable[..., Value]] = {
     operator.add: partial(_termwise, "fadd"),
     operator.sub: partial(_termwise, "fsub"),
     operator.mul: _product,
@@ -52,33 +56,33 @@ COMPLEX_OPERATIONS: dict[Any, Callable[..., Any]] = {
 """Operations on two complex numbers that are a few instructions."""
 
 
-def conjugate(builder: Any, number: Any) -> Any:
+def conjugate(builder: IRBuilder, number: Value) -> Value:
     """Complex conjugate."""
     return builder.insert_value(number, builder.fneg(builder.extract_value(number, 1)), 1)
 
 
-EXTREMES = {max: ">", min: "<"}
+EXTREMES: dict[Callable[..., object], str] = {max: ">", min: "<"}
 """Functions of several numbers that are one of them, with the comparison by which a later one replaces an earlier one."""
 
 
-def extreme(builder: Any, function: Any, numbers: Sequence[Any]) -> Any:
+def extreme(builder: IRBuilder, function: Callable[..., object], numbers: Sequence[Value]) -> Value:
     """Largest or smallest of several numbers of one type, chosen as Python does where one of them is no number."""
     floats = not isinstance(numbers[0].type, IntType)
     compare = builder.fcmp_ordered if floats else builder.icmp_signed
 
-    def choose(first: Any, second: Any) -> Any:
+    def choose(first: Value, second: Value) -> Value:
         return builder.select(compare(EXTREMES[function], second, first), second, first)
 
     return reduce(choose, numbers)
 
 
-def range_of(builder: Any, kind: Any, limits: Sequence[Any]) -> Any:
+def range_of(builder: IRBuilder, kind: Type, limits: Sequence[Value]) -> Value:
     """A range in steps of one: its start, its stop, its step."""
     start, stop = limits if len(limits) == 2 else (Constant(limits[0].type, 0), limits[0])
     return struct(builder, kind, start, stop, Constant(stop.type, 1))
 
 
-def begin_range(builder: Any, kind: Any, limits: Any) -> Any:
+def begin_range(builder: IRBuilder, kind: Type, limits: Value) -> Value:
     """Iterator over a range in steps of one: place of the next number, stop, step, place of the count of what is left."""
     start, stop, step = (builder.extract_value(limits, i) for i in range(3))
     number, count = variable(builder, start.type), variable(builder, start.type)
@@ -89,7 +93,7 @@ def begin_range(builder: Any, kind: Any, limits: Any) -> Any:
     return struct(builder, kind, number, stop, step, count)
 
 
-def next_in_range(builder: Any, kind: Any, iterator: Any) -> Any:
+def next_in_range(builder: IRBuilder, kind: Type, iterator: Value) -> Value:
     """The next number of a range, and whether there is one."""
     place, step, counter = (builder.extract_value(iterator, i) for i in (0, 2, 3))
     number, count = builder.load(place), builder.load(counter)
@@ -98,7 +102,7 @@ def next_in_range(builder: Any, kind: Any, iterator: Any) -> Any:
     return struct(builder, kind, number, builder.icmp_signed(">", count, Constant(count.type, 0)))
 
 
-def array_in_record(builder: Any, model: Any, data: Any) -> Any:
+def array_in_record(builder: IRBuilder, model: DataModel, data: Value) -> Value:
     """Description of an array that is part of a record and owns no memory: constants of its type, and its address."""
     kind, array = model.get_value_type(), model.fe_type
     known = {"nitems": math.prod(array.shape), "itemsize": array.size, "shape": array.shape, "strides": array.strides}
@@ -106,14 +110,13 @@ def array_in_record(builder: Any, model: Any, data: Any) -> Any:
     return builder.insert_value(Constant(kind, parts), data, model.get_field_position("data"))
 
 
-def _constant(kind: Any, value: Any) -> Any:
+def _constant(kind: Type, value: int | tuple[int, ...] | None) -> Constant:
     """Whole numbers, or null if there is no value."""
-    if isinstance(value, tuple):
-        value = [Constant(kind.element, number) for number in value]
-    return Constant(kind, value)
+    parts = [Constant(kind.element, number) for number in value] if isinstance(value, tuple) else value
+    return Constant(kind, parts)
 
 
-def item_address(builder: Any, data: Any, shape: Sequence[Any], numbers: Sequence[Any]) -> Any:
+def item_address(builder: IRBuilder, data: Value, shape: Sequence[Value], numbers: Sequence[Value]) -> Value:
     """Address of the item of an array whose last axis varies fastest; negative numbers count from the end."""
     places = [_from_the_start(builder, number, size) for number, size in zip(numbers, shape, strict=True)]
     place = places[0]
@@ -122,7 +125,7 @@ def item_address(builder: Any, data: Any, shape: Sequence[Any], numbers: Sequenc
     return builder.gep(data, [place])
 
 
-def _from_the_start(builder: Any, number: Any, size: Any) -> Any:
+def _from_the_start(builder: IRBuilder, number: Value, size: Value) -> Value:
     if isinstance(number, Constant) and number.constant >= 0:
         return number
     negative = builder.icmp_signed("<", number, Constant(number.type, 0))

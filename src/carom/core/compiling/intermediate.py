@@ -7,7 +7,7 @@ called by kernels only, so most of their machine code would never run.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numba
 from numba.core.compiler import CompileResult
@@ -18,15 +18,23 @@ from numba.core.types import unliteral  # type: ignore[attr-defined]
 from carom.core.compiling.libraries import CallerLibrary, IntermediateLibrary
 from carom.core.compiling.steps import KernelCompiler
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
 
-def compile_once(function: Any, options: dict[str, Any], share: bool) -> Any:
+    from numba.core.compiler import Flags
+    from numba.core.compiler_machinery import PassManager
+    from numba.core.types import Type
+    from numba.core.typing.templates import CallableTemplate
+
+
+def compile_once(function: Callable[..., object], options: Mapping[str, object], share: bool) -> CPUDispatcher:
     """A kernel that other kernels use as intermediate code or, if it is to be shared, as machine code; Python calls either."""
     kernel = numba.jit(**options, pipeline_class=_CallerPipeline)(function)
     (_share_machine_code if share else _serve_kernels)(kernel)
     return kernel
 
 
-def _serve_kernels(kernel: Any) -> None:
+def _serve_kernels(kernel: CPUDispatcher) -> None:
     """Make a kernel provide intermediate code only to the kernels that call it."""
     options = {**kernel.targetoptions, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     twin = _IntermediateKernel(kernel.py_func, locals={}, targetoptions=options, pipeline_class=_Pipeline)
@@ -34,7 +42,7 @@ def _serve_kernels(kernel: Any) -> None:
     kernel.get_call_template, kernel.get_overload = twin.get_call_template, twin.get_overload
 
 
-def _share_machine_code(kernel: Any) -> None:
+def _share_machine_code(kernel: CPUDispatcher) -> None:
     """Make the kernels that call a kernel use its machine code, which is compiled once for them and for Python.
 
     Callers are kept on the disk with the name that they call, which is the same in each process (:mod:`carom.core.compiling.names`).
@@ -52,7 +60,7 @@ def _share_machine_code(kernel: Any) -> None:
 class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
     """The versions of a kernel for calls from other kernels: one for all numbers of a type, literal or not."""
 
-    def get_call_template(self, args: Any, kws: Any) -> Any:
+    def get_call_template(self, args: tuple[Type, ...], kws: Mapping[str, Type]) -> CallableTemplate:
         """Type a call with arguments of these types."""
         return super().get_call_template(tuple(map(unliteral, args)), kws)
 
@@ -64,7 +72,7 @@ class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
 class _CallerPipeline(KernelCompiler):
     """Numba's compiler pipeline for kernels that Python calls."""
 
-    def define_pipelines(self) -> Any:
+    def define_pipelines(self) -> list[PassManager]:
         """The steps of compilation."""
         self.state.library = CallerLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
         self.state.library.enable_object_caching()
@@ -74,7 +82,7 @@ class _CallerPipeline(KernelCompiler):
 class _Pipeline(KernelCompiler):
     """Numba's compiler pipeline for kernels that other kernels call."""
 
-    def define_pipelines(self) -> Any:
+    def define_pipelines(self) -> list[PassManager]:
         """The steps of compilation."""
         self.state.library = IntermediateLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
         return super().define_pipelines()
@@ -83,11 +91,11 @@ class _Pipeline(KernelCompiler):
 class _IntermediateCompiler(_FunctionCompiler):  # type: ignore[misc]
     """Compile a version, and register it for the compilation of its callers."""
 
-    def _customize_flags(self, flags: Any) -> Any:
+    def _customize_flags(self, flags: Flags) -> Flags:
         flags.no_compile = True
         return flags
 
-    def compile(self, args: Any, return_type: Any) -> CompileResult:
+    def compile(self, args: tuple[Type, ...], return_type: Type | None) -> CompileResult:
         """Compile a version for given argument types."""
         result = super().compile(args, return_type)
         result = result._replace(entry_point=object())  # Numba's key of the version; there is no machine code to call

@@ -6,15 +6,18 @@ outermost caller reaches.  The last time decides how fast the kernel is; before,
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from numba.core.codegen import JITCodeLibrary
+
+if TYPE_CHECKING:
+    from llvmlite.binding import ModulePassManager, ModuleRef, PassBuilder
 
 
 class _Library(JITCodeLibrary):  # type: ignore[misc]
     """Code of a kernel, optimised in full by the kernel that Python calls."""
 
-    def _optimize_functions(self, module: Any) -> None:
+    def _optimize_functions(self, module: ModuleRef) -> None:
         """Keep variables in registers instead of memory, and drop empty blocks."""
         module.data_layout = self._codegen._data_layout
         for function in module.functions:
@@ -28,7 +31,7 @@ class _Library(JITCodeLibrary):  # type: ignore[misc]
         passes, builder = self._passes()
         passes.run(self._final_module, builder)
 
-    def _passes(self) -> Any:
+    def _passes(self) -> tuple[ModulePassManager, PassBuilder]:
         """Passes over all functions."""
         return self._codegen._module_pass_manager()
 
@@ -50,13 +53,13 @@ class IntermediateLibrary(_Library):
         super().finalize()
         self.defined, self.called = _functions(self, True), _functions(self, False)
 
-    def left_out(self) -> list[Any]:
+    def left_out(self) -> list[JITCodeLibrary]:
         """Code of callees that the outermost caller has to link."""
         if self._finalized:
             return self._left_out
         return list({library: None for library in self._linking_libraries if _is_left_out(library)})
 
-    def _passes(self) -> Any:
+    def _passes(self) -> tuple[ModulePassManager, PassBuilder]:
         passes, builder = self._codegen._module_pass_manager(opt=0)
         passes.add_sroa_pass()
         return passes, builder
@@ -69,12 +72,12 @@ class IntermediateLibrary(_Library):
 class CallerLibrary(_Library):
     """Code of a kernel that Python calls, with that of all kernels it reaches except those that share theirs."""
 
-    def __init__(self, *args: Any) -> None:
+    def __init__(self, *args: object) -> None:
         super().__init__(*args)
-        self.needs: dict[Any, None] = {}
+        self.needs: dict[tuple[object, ...], None] = {}
         """Versions of kernels whose machine code this one calls."""
 
-    def add_linking_library(self, library: Any) -> None:
+    def add_linking_library(self, library: JITCodeLibrary) -> None:
         """Add the code of a callee, unless it shares its machine code."""
         version = getattr(library, "version", None)
         if version is None:
@@ -94,7 +97,7 @@ class CallerLibrary(_Library):
         super()._optimize_final_module()
 
 
-def _is_left_out(library: Any) -> bool:
+def _is_left_out(library: JITCodeLibrary) -> bool:
     return getattr(library, "apart", False) or hasattr(library, "version")
 
 
@@ -116,6 +119,6 @@ def _callers_first(called: set[str], libraries: list[IntermediateLibrary]) -> li
     return list(reversed(ordered))
 
 
-def _functions(library: Any, defined: bool) -> set[str]:
+def _functions(library: JITCodeLibrary, defined: bool) -> set[str]:
     """Names of the functions that a library defines, or of those that it only declares."""
     return {function.name for function in library._final_module.functions if function.is_declaration != defined}

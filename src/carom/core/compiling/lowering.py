@@ -9,7 +9,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 from functools import cache, partial
-from typing import Any
+from typing import TYPE_CHECKING, cast
 
 from llvmlite.ir import Constant, IntType
 from numba.core import cgutils, ir
@@ -45,6 +45,14 @@ from carom.core.compiling.instructions import (
     variable,
 )
 
+if TYPE_CHECKING:
+    from llvmlite.ir import Value
+    from numba.core.compiler import StateDict
+    from numba.core.types import Record, Type
+    from numba.core.typing.templates import Signature
+
+    from carom.core.compiling.signatures import RecallingContext
+
 PARTS = "real", "imag"
 
 
@@ -54,13 +62,13 @@ class KernelLowering(BaseNativeLowering):  # type: ignore[misc]
 
     _name = "carom_lowering"
 
-    def run_pass(self, state: Any) -> Any:
+    def run_pass(self, state: StateDict) -> bool:
         """Generate the code of one function."""
         self._typing = state.typingctx
         return super().run_pass(state)
 
     @property
-    def lowering_class(self) -> Any:
+    def lowering_class(self) -> Callable[..., Lower]:
         """Makes what generates the code."""
         return partial(_Lower, self._typing)
 
@@ -75,23 +83,23 @@ class _Lower(Lower):  # type: ignore[misc]
     others : Numba's arguments
     """
 
-    def __init__(self, typing: Any, *others: Any, **named: Any) -> None:
+    def __init__(self, typing: RecallingContext, *others: object, **named: object) -> None:
         super().__init__(*others, **named)
         self._typing = typing
 
-    def lower_expr(self, resty: Any, expr: Any) -> Any:
+    def lower_expr(self, resty: Type, expr: ir.Expr) -> Value:
         """Evaluate an expression."""
         lowered = _SHORTER.get(expr.op)
         value = None if lowered is None else lowered(self, resty, expr)
         return super().lower_expr(resty, expr) if value is None else value
 
-    def lower_binop(self, resty: Any, expr: Any, op: Any) -> Any:
+    def lower_binop(self, resty: Type, expr: ir.Expr, op: Callable[..., object]) -> Value:
         """Apply an operator; Numba tries other implementations where an operand is a literal."""
         if expr.static_lhs is not ir.UNDEFINED or expr.static_rhs is not ir.UNDEFINED:
             return super().lower_binop(resty, expr, op)
         return self._operation(op, self.fndesc.calltypes[expr], (expr.lhs, expr.rhs), resty)
 
-    def lower_getitem(self, resty: Any, expr: Any, value: Any, index: Any, signature: Any) -> Any:
+    def lower_getitem(self, resty: Type, expr: ir.Expr, value: ir.Var, index: ir.Var, signature: Signature) -> Value:
         """Read an item."""
         place = self._place(value, index, signature)
         if place is None:
@@ -99,7 +107,7 @@ class _Lower(Lower):  # type: ignore[misc]
         item = load_item(self.context, self.builder, self.typeof(value.name), place)
         return self.context.cast(self.builder, item, signature.return_type, resty)
 
-    def lower_setitem(self, target_var: Any, index_var: Any, value_var: Any, signature: Any) -> Any:
+    def lower_setitem(self, target_var: ir.Var, index_var: ir.Var, value_var: ir.Var, signature: Signature) -> None:
         """Write an item."""
         place = self._place(target_var, index_var, signature)
         if place is None:
@@ -107,7 +115,13 @@ class _Lower(Lower):  # type: ignore[misc]
         kind = self.typeof(target_var.name)
         return store_item(self.context, self.builder, kind, self._cast_var(value_var, kind.dtype), place)
 
-    def _operation(self, operation: Any, signature: Any, operands: tuple[Any, ...], resty: Any = None) -> Any:
+    def _operation(
+        self,
+        operation: Callable[..., object],
+        signature: Signature,
+        operands: tuple[ir.Var, ...],
+        resty: Type | None = None,
+    ) -> Value:
         values = [self._cast_var(operand, kind) for operand, kind in zip(operands, signature.args, strict=True)]
         if operation in COMPLEX_OPERATIONS and signature.args == (complex128, complex128):
             result = COMPLEX_OPERATIONS[operation](self.builder, *values)
@@ -117,7 +131,7 @@ class _Lower(Lower):  # type: ignore[misc]
             result = self.context.get_function(function, typed)(self.builder, values)
         return result if resty is None else self.context.cast(self.builder, result, signature.return_type, resty)
 
-    def _place(self, array: Any, index: Any, signature: Any) -> Any:
+    def _place(self, array: ir.Var, index: ir.Var, signature: Signature) -> Value | None:
         """Address of the item of an array at whole numbers, None for other indices."""
         kind, chosen = self.typeof(array.name), signature.args[1]
         several = isinstance(chosen, BaseTuple)
@@ -130,7 +144,7 @@ class _Lower(Lower):  # type: ignore[misc]
         places = [self.context.cast(self.builder, n, axis, intp) for n, axis in zip(numbers, axes, strict=True)]
         return item_address(self.builder, *self._layout(kind, self.loadvar(array.name)), places)
 
-    def _layout(self, kind: Any, descriptor: Any) -> tuple[Any, list[Any]]:
+    def _layout(self, kind: Array, descriptor: Value) -> tuple[Value, list[Value]]:
         """Address and shape of an array; the shape of one in a record is constant."""
         model = default_manager[kind]
         data = model.get(self.builder, descriptor, "data")
@@ -138,7 +152,7 @@ class _Lower(Lower):  # type: ignore[misc]
             return data, [Constant(IntType(64), size) for size in kind.shape]
         return data, cgutils.unpack_tuple(self.builder, model.get(self.builder, descriptor, "shape"))
 
-    def _attribute(self, resty: Any, expr: Any) -> Any:
+    def _attribute(self, resty: Type, expr: ir.Expr) -> Value | None:
         """Part of a complex number, or the description of an array in a record."""
         kind = self.typeof(expr.value.name)
         if isinstance(resty, NestedArray):
@@ -147,14 +161,14 @@ class _Lower(Lower):  # type: ignore[misc]
             return self.builder.extract_value(self.loadvar(expr.value.name), PARTS.index(expr.attr))
         return None
 
-    def _array_in_record(self, kind: Any, name: str, record: Any) -> Any:
+    def _array_in_record(self, kind: Record, name: str, record: Value) -> Value:
         """Description of an array in a record."""
-        array = kind.typeof(name)
+        array = cast("NestedArray", kind.typeof(name))
         item = self.context.get_data_type(array.dtype)
         data = cgutils.get_record_member(self.builder, record, kind.offset(name), item)
         return array_in_record(self.builder, default_manager[array], data)
 
-    def _lower_call_normal(self, fnty: Any, expr: Any, signature: Any) -> Any:
+    def _lower_call_normal(self, fnty: Type, expr: ir.Expr, signature: Signature) -> Value:
         """Call a function: the conjugate of a number, the largest or smallest of several, a range, or any other."""
         called, kinds = getattr(fnty, "typing_key", None), signature.args
         if called == "complex.conjugate" and signature.recvr == complex128:
@@ -167,7 +181,7 @@ class _Lower(Lower):  # type: ignore[misc]
             return range_of(self.builder, self.context.get_value_type(signature.return_type), limits)
         return super()._lower_call_normal(fnty, expr, signature)
 
-    def _iterator(self, resty: Any, expr: Any) -> Any:
+    def _iterator(self, resty: Type, expr: ir.Expr) -> Value | None:
         """Iterator over a range in steps of one."""
         made = guard(get_definition, self.func_ir, expr.value)
         called = isinstance(made, ir.Expr) and made.op == "call" and len(made.args) < 3
@@ -176,20 +190,20 @@ class _Lower(Lower):  # type: ignore[misc]
         kind = self.context.get_value_type(resty)
         return begin_range(self.builder, kind, self.loadvar(expr.value.name))
 
-    def _next(self, resty: Any, expr: Any) -> Any:
+    def _next(self, resty: Type, expr: ir.Expr) -> Value | None:
         """Next number of a range."""
         if not isinstance(self.typeof(expr.value.name), RangeIteratorType):
             return None
         return next_in_range(self.builder, self.context.get_value_type(resty), self.loadvar(expr.value.name))
 
-    def _of_pair(self, resty: Any, expr: Any) -> Any:
+    def _of_pair(self, resty: Type, expr: ir.Expr) -> Value | None:
         """Member of a pair."""
         if _is_counted(resty):
             return None
         place = 0 if expr.op == "pair_first" else 1
         return self.builder.extract_value(self.loadvar(expr.value.name), place)
 
-    def storevar(self, value: Any, name: str, argidx: int | None = None) -> None:
+    def storevar(self, value: Value, name: str, argidx: int | None = None) -> None:
         """Store a variable."""
         kind = self.typeof(name)
         if _is_counted(kind):
@@ -206,30 +220,30 @@ class _Lower(Lower):  # type: ignore[misc]
         if _is_counted(self.typeof(name)):
             super().delvar(name)
 
-    def alloca(self, name: str, type: Any) -> Any:
+    def alloca(self, name: str, type: Type) -> Value:
         """Reserve the place of a variable."""
         if _is_counted(type):
             return super().alloca(name, type)
         return variable(self.builder, self.context.get_value_type(type), name)
 
-    def incref(self, typ: Any, val: Any) -> None:
+    def incref(self, typ: Type, val: Value) -> None:
         """Count a reference."""
         if _is_counted(typ):
             super().incref(typ, val)
 
-    def decref(self, typ: Any, val: Any) -> None:
+    def decref(self, typ: Type, val: Value) -> None:
         """Count one reference less."""
         if _is_counted(typ):
             super().decref(typ, val)
 
 
 @cache
-def _is_counted(kind: Any) -> bool:
+def _is_counted(kind: Type) -> bool:
     """Whether references to values of a type are counted."""
     return not isinstance(kind, NestedArray) and bool(default_manager[kind].contains_nrt_meminfo())
 
 
-_SHORTER: dict[str, Callable[[_Lower, Any, Any], Any]] = {
+_SHORTER: dict[str, Callable[[_Lower, Type, ir.Expr], Value | None]] = {
     "getattr": _Lower._attribute,
     "getiter": _Lower._iterator,
     "iternext": _Lower._next,

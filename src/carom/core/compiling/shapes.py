@@ -6,11 +6,14 @@ and generates code for both, unless the condition consists of constants.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, cast
 
 from numba.core import ir, types
 from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.ir_utils import build_definitions, find_const, get_definition, guard
+
+if TYPE_CHECKING:
+    from numba.core.compiler import StateDict
 
 
 @register_pass(mutates_CFG=False, analysis_only=False)
@@ -22,7 +25,7 @@ class RecordShapes(FunctionPass):  # type: ignore[misc]
     def __init__(self) -> None:
         super().__init__()
 
-    def run_pass(self, state: Any) -> bool:
+    def run_pass(self, state: StateDict) -> bool:
         """Rewrite one function before its types are inferred; returns whether it has changed."""
         found = False
         for block in state.func_ir.blocks.values():
@@ -36,7 +39,7 @@ class RecordShapes(FunctionPass):  # type: ignore[misc]
         return found
 
 
-def _length(function: Any, arguments: tuple[types.Type, ...], item: Any) -> int | None:
+def _length(function: ir.FunctionIR, arguments: tuple[types.Type, ...], item: object) -> int | None:
     """Value of an expression ``record.array.shape[i]``, None for any other expression."""
     if not (isinstance(item, ir.Expr) and item.op in ("getitem", "static_getitem")):
         return None
@@ -51,9 +54,8 @@ def _length(function: Any, arguments: tuple[types.Type, ...], item: Any) -> int 
     if not isinstance(kind, types.Record) or array.attr not in kind.fields:
         return None
     axis = item.index if item.op == "static_getitem" else find_const(function, item.index)
-    field: Any = kind.typeof(array.attr)
-    return int(field.shape[axis])
+    return int(cast("types.NestedArray", kind.typeof(array.attr)).shape[axis])
 
 
-def _is_attribute(expression: Any) -> bool:
+def _is_attribute(expression: object) -> bool:
     return isinstance(expression, ir.Expr) and expression.op == "getattr"

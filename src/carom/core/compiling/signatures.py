@@ -7,7 +7,7 @@ numbers, arrays, strings, lists, dates.  Kernels repeat the same few hundred ope
 from __future__ import annotations
 
 import operator
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from numba.core import types
 from numba.core.targetconfig import ConfigStack
@@ -15,6 +15,13 @@ from numba.core.types import unliteral  # type: ignore[attr-defined]
 from numba.core.typing import signature
 
 from carom.core.compiling.instructions import EXTREMES
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numba.core.compiler import Flags
+    from numba.core.typing.context import Context
+    from numba.core.typing.templates import Signature
 
 
 class RecallingContext:
@@ -27,17 +34,19 @@ class RecallingContext:
         Operations that Numba compiles from Python source inherit some of them; here they are the same for all kernels, inlined or not.
     """
 
-    _known: ClassVar[dict[Any, Any]] = {}
+    _known: ClassVar[dict[tuple[object, ...], Signature | types.Type | None]] = {}
 
-    def __init__(self, context: Any, flags: Any) -> None:
+    def __init__(self, context: Context, flags: Flags) -> None:
         self._context = context
         self._flags = flags.copy()
         self._flags.forceinline = False
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> object:
         return getattr(self._context, name)
 
-    def resolve_function_type(self, function: Any, args: Any, keywords: Any) -> Any:
+    def resolve_function_type(
+        self, function: object, args: tuple[types.Type, ...], keywords: Mapping[str, types.Type]
+    ) -> Signature | None:
         """The signature of a call, None if there is none."""
         if not isinstance(function, types.Type):  # an operation that is no name in the kernel
             function = self._context._lookup_global(function) or function
@@ -45,7 +54,9 @@ class RecallingContext:
             return self._context.resolve_function_type(function, args, keywords)
         return self._recalled(function, args)
 
-    def _recalled(self, function: Any, args: tuple[Any, ...]) -> Any:
+    def _recalled(
+        self, function: types.BaseFunction | types.BoundFunction, args: tuple[types.Type, ...]
+    ) -> Signature | None:
         if (function, args) not in self._known:
             plain = tuple(map(unliteral, args))
             if function.typing_key in EXTREMES and len(plain) > 1 and set(plain) in ({types.float64}, {types.int64}):
@@ -56,13 +67,13 @@ class RecallingContext:
             self._known[function, args] = found
         return self._known[function, args]
 
-    def resolve_setitem(self, target: Any, index: Any, value: Any) -> Any:
+    def resolve_setitem(self, target: types.Type, index: types.Type, value: types.Type) -> Signature | None:
         """The signature of an assignment to an item, None if there is none."""
         return self.resolve_function_type(
             self._context.resolve_value_type(operator.setitem), (target, index, value), {}
         )
 
-    def resolve_getattr(self, kind: Any, name: str) -> Any:
+    def resolve_getattr(self, kind: types.Type, name: str) -> types.Type | None:
         """The type of an attribute of a value of this type, None if there is none."""
         if (kind, name) not in self._known:
             self._known[kind, name] = self._context.resolve_getattr(kind, name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from numba.core.typed_passes import NativeLowering
 from numba.core.untyped_passes import InlineInlinables, RewriteSemanticConstants
@@ -12,6 +12,9 @@ from carom.core.compiling.names import NamingCompiler
 from carom.core.compiling.shapes import RecordShapes
 from carom.core.compiling.signatures import RecallingContext
 
+if TYPE_CHECKING:
+    from numba.core.compiler_machinery import PassManager
+
 
 class KernelCompiler(NamingCompiler):
     """Numba's compiler with steps of its own for kernels.
@@ -19,7 +22,7 @@ class KernelCompiler(NamingCompiler):
     Shapes of records become constants before branches are pruned, and again after functions are inlined.
     """
 
-    def define_pipelines(self) -> Any:
+    def define_pipelines(self) -> list[PassManager]:
         """The steps of compilation."""
         self.state.typingctx = RecallingContext(self.state.typingctx, self.state.flags)
         (pipeline,) = super().define_pipelines()

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
 
 from carom.core import laws
 from carom.core.compiling.decorators import formula
 from carom.core.laws.law import LAWS
 
-Function = Callable[..., Any]
+Function = Callable[..., float]
 
 
 def _chosen(name: str, one_of: Callable[[int, Function, Function], Function]) -> Function:
