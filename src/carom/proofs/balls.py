@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal, localcontext
 from fractions import Fraction
 from itertools import takewhile
-from typing import Any
 
 from flint import arb, ctx, fmpq
 
@@ -46,19 +45,18 @@ def ball_of(number: ExactNumber) -> arb:
     return ball * arb.pi() ** number.turns if number.turns else ball
 
 
-def decided(ball: Any) -> int:
+def decided(ball: arb) -> int:
     """Sign that is proven for all numbers of a real ball: 1, −1, or 0 if none is."""
     if ball > 0:
         return 1
     return -1 if ball < 0 else 0
 
 
-def exact_ends(ball: Any) -> tuple[Fraction, Fraction]:
+def exact_ends(ball: arb) -> tuple[Fraction, Fraction]:
     """Both ends of a real ball, outward, as rational numbers."""
     ends = []
     for end in (ball.lower(), ball.upper()):
-        mantissa, exponent = end.man_exp()
-        mantissa, exponent = int(mantissa), int(exponent)
+        mantissa, exponent = map(int, end.man_exp())
         ends.append(Fraction(mantissa * 2**exponent) if exponent >= 0 else Fraction(mantissa, 2**-exponent))
     return ends[0], ends[1]
 
@@ -114,7 +112,7 @@ def enclosure_of_fraction(number: Fraction) -> Enclosure:
     return Enclosure(low, high, (number, number))
 
 
-def enclosures_of(**balls: Any) -> dict[str, Enclosure]:
+def enclosures_of(**balls: arb) -> dict[str, Enclosure]:
     """Decimal enclosures of those real balls that are bounded."""
     return {name: enclosure_of(ball) for name, ball in balls.items() if ball.is_finite()}
 

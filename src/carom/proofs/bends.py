@@ -41,13 +41,13 @@ def second_derivatives(departure: PatchDeparture, time: arb, window: arb) -> tup
     crossing times differ from a linear function of these.
     """
     columns = _few(departure.patch.directions)
-    slopes: list[Any] = [arb(0)] * len(columns)
+    slopes: list[arb] = [arb(0)] * len(columns)
     apart = arb((window - time).abs_upper())
     for _ in range(_REFINEMENTS):
         late = _Bends(departure, columns, MeanValueForm(time, [*slopes, apart], window), 2).late()
         slopes, apart = [], arb(0)
         for column in columns:
-            slope: Any = arb(0)
+            slope = arb(0)
             for x, y in zip(late, column, strict=True):
                 slope = slope + x.every * y
             slopes.append(arb(slope.mid()))
@@ -65,7 +65,7 @@ def remainder(columns: list[list[arb]], squares: Squares) -> arb:
 
     Of all columns but the two spans the sums of their moduli are taken.
     """
-    total: Any = _sum(_bent(columns, {pair: value.every - value.at for pair, value in squares.items()}))
+    total = _sum(_bent(columns, {pair: value.every - value.at for pair, value in squares.items()}))
     size = len(columns[0])
     few = [_sum(column[m] for column in columns[:2]) for m in range(size)]
     all_ = [_sum(column[m] for column in columns) for m in range(size)]
@@ -75,20 +75,20 @@ def remainder(columns: list[list[arb]], squares: Squares) -> arb:
     return total.upper()
 
 
-def _bent(columns: list[list[arb]], squares: dict[tuple[int, int], Any]) -> list[arb]:
+def _bent(columns: list[list[arb]], squares: dict[tuple[int, int], arb]) -> list[arb]:
     one, other = columns[:2]
     return [_applied(squares, one, one) / 2, _applied(squares, one, other), _applied(squares, other, other) / 2]
 
 
-def _applied(squares: dict[tuple[int, int], Any], one: list[arb], other: list[arb]) -> arb:
-    total: Any = arb(0)
+def _applied(squares: dict[tuple[int, int], arb], one: list[arb], other: list[arb]) -> arb:
+    total = arb(0)
     for (m, n), value in squares.items():
         total = total + value * (one[m] * other[n] if m == n else one[m] * other[n] + one[n] * other[m])
     return total
 
 
-def _sum(numbers: Iterable[Any]) -> arb:
-    total: Any = arb(0)
+def _sum(numbers: Iterable[arb]) -> arb:
+    total = arb(0)
     for number in numbers:
         total = total + abs(number)
     return total
@@ -227,7 +227,7 @@ def _freely(held: Held, jet: Iterable[Any], orders: int) -> list[Any]:
     return found
 
 
-def _through(time: MeanValueForm, at: Any, every: Any, slope: Any) -> Pair:
+def _through(time: MeanValueForm, at: arb, every: arb, slope: arb) -> Pair:
     """A real or complex function of time."""
     if isinstance(at, arb):
         return Pair(time.through(at, every, slope), NOTHING)

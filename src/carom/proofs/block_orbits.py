@@ -64,7 +64,7 @@ class OrbitFact:
     reason: str
     instability: str
     period: arb
-    speed: Any
+    speed: arb
 
     @property
     def signature(self) -> tuple[Any, ...]:

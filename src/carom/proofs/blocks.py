@@ -80,9 +80,9 @@ class Slopes(NamedTuple):
         Derivative of the condition by the period.
     """
 
-    slope: Any
-    bend: Any
-    rate: Any
+    slope: arb
+    bend: arb
+    rate: arb
 
 
 def slopes_on(block: Block, period: arb) -> Slopes | None:

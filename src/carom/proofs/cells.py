@@ -97,7 +97,7 @@ class Analytic:
         return decided(about[order]) if _leads(about, order, interval(width, width)) else 0
 
 
-def _leads(terms: list[Any], order: int, width: Any) -> bool:
+def _leads(terms: list[Any], order: int, width: arb) -> bool:
     """Whether the term of an order exceeds the sum of all higher ones within a width."""
     total = 0
     for term in reversed(terms[order + 1 :]):

@@ -15,8 +15,6 @@ decided it lies in the hull of those that are possible, as a mean value form of 
 
 from __future__ import annotations
 
-from typing import Any
-
 from flint import arb
 
 from carom.proofs.bends import bent, remainder, second_derivatives
@@ -25,7 +23,7 @@ from carom.proofs.passages import GRAZE, Brush, Impact, LeftOpenError
 from carom.proofs.patches import Patch, PatchDeparture
 from carom.proofs.series import hull
 
-Columns = list[list[Any]]
+Columns = list[list[arb]]
 MOST_SPANS = 14
 """Spans that a patch keeps at most."""
 

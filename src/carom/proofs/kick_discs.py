@@ -134,9 +134,9 @@ class KickDisc:
     def _known(self) -> dict[tuple[Part, ...], BoxPart]:
         return {}
 
-    def reach(self, numbers: LineNumbers, moved: Mapping[str, Any]) -> Any:
+    def reach(self, numbers: LineNumbers, moved: Mapping[str, arb | arb_series]) -> Any:
         """``v`` of the largest size, for numbers of a rotor at values of the parameters: a ball or a power series."""
-        size: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
+        size = rational(self.exact[0]) * arb.pi() ** self.exact[1]
         if not self.along:
             return size * self.scale.one() * self.scale.gain(numbers)
         if not self.physical:
@@ -242,7 +242,7 @@ class BoxPart:
 
     held: Held
     reaches: tuple[arb, arb]
-    moves: list[Any]
+    moves: list[arb]
     phase: float
 
     @cached_property

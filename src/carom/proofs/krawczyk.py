@@ -11,7 +11,7 @@ from carom.proofs.balls import exact_ends, rational
 from carom.proofs.evidence import rational_of
 from carom.proofs.series import terms
 
-System = Callable[..., Sequence[Any]]
+System = Callable[..., Sequence[arb | arb_series]]
 """Takes as many balls or power series as it gives."""
 STEPS = 14
 """Largest number of steps of Newton's method."""
@@ -19,7 +19,7 @@ _WIDTHS = (8, 12, 16, 20, 26, 32, 40, 50, 64, 80, 100)
 """Widths of the boxes that are tried: these powers of 1/2, relative to the unknowns."""
 
 
-def derivatives(system: System, box: Sequence[Any]) -> tuple[list[arb], arb_mat]:
+def derivatives(system: System, box: Sequence[arb]) -> tuple[list[arb], arb_mat]:
     """Values of a system on a box and its Jacobian, an ``arb_mat``."""
     columns, values = [], []
     with terms(2):
@@ -31,7 +31,7 @@ def derivatives(system: System, box: Sequence[Any]) -> tuple[list[arb], arb_mat]
     return values, arb_mat([[column[row] for column in columns] for row in range(len(values))])
 
 
-def newton(system: System, guess: Sequence[Any]) -> list[arb] | None:
+def newton(system: System, guess: Sequence[arb | float]) -> list[arb] | None:
     """Zero near a guess by Newton's method, not proven; ``None`` if the method fails."""
     place = [arb(x).mid() for x in guess]
     for _ in range(STEPS):
@@ -96,13 +96,13 @@ def box_around(centre: Sequence[arb], width: int) -> list[arb]:
     return [c + arb(0, (arb(2) ** -width * (abs(c) + 2**-10)).upper()) for c in centre]
 
 
-def box_of(evidence: Mapping[str, Any]) -> list[Any]:
+def box_of(evidence: Mapping[str, Any]) -> list[arb]:
     """The box in which the zero of such evidence is unique."""
     centre = [rational(rational_of(text)).mid() for text in evidence["centre"]]
     return box_around(centre, int(evidence["width"]))
 
 
-def found_zero(system: System, guess: Sequence[Any]) -> tuple[dict[str, Any], list[Any]] | None:
+def found_zero(system: System, guess: Sequence[arb | float]) -> tuple[dict[str, Any], list[arb]] | None:
     """Evidence of a zero near a guess, for a certificate, and balls that contain it; ``None`` if none is shown."""
     centre = newton(system, guess)
     found = None if centre is None else enclosed_zero(system, centre)

@@ -44,22 +44,22 @@ SMALLEST = 1e-9
 class _Linear(NamedTuple):
     """The system in balls: states are the coordinates, then the rates of those with mass."""
 
-    generator: Any
-    kicks: tuple[Any, ...]
+    generator: acb_mat
+    kicks: tuple[acb_mat, ...]
     """States just after a kick of one, the sum of which with any phases is meant: one, or two where ``(z, z̄)`` are the coordinates."""
-    steps: tuple[Any, ...]
+    steps: tuple[acb_mat, ...]
     """Parts of the steady motion of an unbalance of one, forward and backward."""
-    rows: list[Any]
+    rows: list[acb_mat]
     """Of each wall and limit."""
-    steady: list[Any]
+    steady: list[arb]
     """Distance of the steady motion there: a bound."""
-    rooms: list[Any]
+    rooms: list[arb]
     bearings: int
     """How many of the rows are those of touchdown bearings."""
     units: tuple[float, ...]
     """Speed and length in SI units that count one; empty where they are not known."""
 
-    def both(self, name: str, size: Any) -> dict[str, Enclosure]:
+    def both(self, name: str, size: arb) -> dict[str, Enclosure]:
         """A ``speed`` or a ``change`` of the unbalance, and the same in SI units where these are known."""
         known = dict(zip(("speed", "change"), self.units, strict=False))
         return enclosures_of(**{name: size}, **({f"{name}_si": size * arb(known[name])} if name in known else {}))
@@ -199,7 +199,7 @@ def _state(coordinates: acb_mat, rates: np.ndarray) -> acb_mat:
     return acb_mat([[entry] for entry in coordinates.entries()] + [[entry] for entry in rates.tolist()])
 
 
-def _parts(answer: Any, has_mass: np.ndarray, n: int, double: bool) -> tuple[Any, ...]:
+def _parts(answer: acb_mat, has_mass: np.ndarray, n: int, double: bool) -> tuple[acb_mat, ...]:
     """States of a whirl at time zero: what turns with ``e^{it}``, and with ``e^{−it}`` where ``(z, z̄)`` are the coordinates."""
     entries, unit = answer.entries(), acb(0, 1)
 
@@ -225,7 +225,7 @@ def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, has
     """Rates of the states per state."""
     n, count = len(mass), int(has_mass.sum())
     own, others = np.ix_(has_mass, has_mass), np.ix_(~has_mass, ~has_mass)
-    rates = [[0] * (n + count) for _ in range(n)]
+    rates: list[list[acb | int]] = [[0] * (n + count) for _ in range(n)]
     for place, row in enumerate(np.flatnonzero(has_mass).tolist()):
         rates[row][n + place] = 1
     if not has_mass.all():

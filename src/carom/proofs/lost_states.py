@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import arb
 
@@ -30,7 +30,7 @@ class Lost(NamedTuple):
     """
 
     words: str
-    speed: Any
+    speed: arb
 
 
 def steadily_lost(rotor: ProvenRotor) -> Iterator[Lost]:

@@ -31,9 +31,9 @@ class MeanValueForm:
 
     __slots__ = ("at", "by", "every")
 
-    def __init__(self, at: Any, by: Sequence[Any], every: Any = None) -> None:
+    def __init__(self, at: arb, by: Sequence[arb], every: arb | None = None) -> None:
         self.at, self.by = at, by
-        size: Any = arb(0)
+        size = arb(0)
         for slope in by:
             size = size + abs(slope)
         near = at + size * _UNIT

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 from flint import acb, arb
+
+from carom.proofs.mean_values import MeanValueForm
 
 if TYPE_CHECKING:
     from carom.proofs.patches import PatchDeparture
@@ -15,7 +17,25 @@ UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
 FORM = 5
 """Spans by where in the cell a kick is, those of first and second order; then come those of the parameters of a box of rotors."""
-Wave = tuple[Any, Any, Any]
+Wave = tuple[arb | acb, arb | acb, acb]
+
+
+Real = TypeVar("Real", arb, MeanValueForm)
+
+
+Part = TypeVar("Part", covariant=True)
+
+
+class Complex(Protocol[Part]):
+    """What has a real and an imaginary part: a ball, or a pair of forms."""
+
+    @property
+    def real(self) -> Part:
+        """Real part."""
+
+    @property
+    def imag(self) -> Part:
+        """Imaginary part."""
 
 
 class Waves(NamedTuple):
@@ -38,7 +58,7 @@ class Moment:
         self.waves = departure.held.waves(time, departure.from_wall)
 
     @property
-    def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
+    def parts(self) -> tuple[list[acb], list[acb], list[acb]]:
         """``p``, ``q`` and ``k`` with their first two derivatives."""
         return self._p, self._q, [wave[2] for wave in self.waves]
 
@@ -87,7 +107,7 @@ class Moment:
             found[j] = (along + place, drift + rate, turn)
         return found
 
-    def _by_parameters(self) -> Iterator[tuple[Any, ...]]:
+    def _by_parameters(self) -> Iterator[tuple[acb, ...]]:
         """Place and rate differentiated along each parameter, the state at the start kept."""
         d = self.departure
         for waves, side in zip(d.held.waves_by(self.time, d.from_wall), d.held.sides, strict=True):
@@ -140,19 +160,19 @@ class Moment:
         return [(turned * turn - cross(z, along)) / square for along, _, turn in self._moved]
 
 
-def dot(one: Any, other: Any) -> Any:
+def dot(one: Complex[Real], other: Complex[Real]) -> Real:
     """``Re(z̄ w)``."""
     return one.real * other.real + one.imag * other.imag
 
 
-def cross(one: Any, other: Any) -> Any:
+def cross(one: Complex[Real], other: Complex[Real]) -> Real:
     """``Im(z̄ w)``."""
     return one.real * other.imag - one.imag * other.real
 
 
 def spread(columns: list[arb]) -> arb:
     """All sums of numbers of the columns, each with a factor from −1 to 1."""
-    total: Any = arb(0)
+    total = arb(0)
     for column in columns:
         total = total + abs(column)
     return UNIT * total

@@ -116,7 +116,7 @@ class Held:
 
     def waves_by(self, time: arb, from_wall: bool) -> list[tuple[Wave, Wave]]:
         """``c``, ``h₁`` and ``k`` and their rates, differentiated by each parameter of the box."""
-        found = []
+        found: list[tuple[Wave, Wave]] = []
         for c, h, dc, dh in responses_by(self.numbers, self.sides, time) if self.sides else []:
             place, rate = (c, h, -acb(c, h)), (dc, dh, -acb(dc, dh))
             found.append((place, rate) if from_wall else ((arb(0), h, acb(0)), (arb(0), dh, acb(0))))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
-from typing import Any
+
+from flint import arb
 
 from carom.proofs.sides import Side
 
@@ -20,7 +21,7 @@ class PlainRotor:
     radius: float
 
     @classmethod
-    def of(cls, *balls: Any) -> PlainRotor:
+    def of(cls, *balls: arb) -> PlainRotor:
         """The rotor in the middle of balls."""
         return cls(*(float(ball.mid()) for ball in balls))
 

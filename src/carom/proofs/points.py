@@ -172,7 +172,7 @@ def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> ProofPoint:
 
 def _claims_of(point: ProofPoint, entry: Mapping[str, Any]) -> list[Claim]:
     boxes = {f"{name} box": ball for name, ball in zip(point.at, box_of(entry), strict=True)}
-    claims = [point.claim("", _statement(point.line, point.kind), 1, **point.at, **boxes)]
+    claims = [point.claim("", _statement(point.line, point.kind), 1, "", **point.at, **boxes)]
     try:
         return [*claims, *_nature(point)]
     except (ValueError, ZeroDivisionError) as problem:
@@ -180,7 +180,7 @@ def _claims_of(point: ProofPoint, entry: Mapping[str, Any]) -> list[Claim]:
         return [*claims, point.claim("transversal", "It is transversal.", 0, reason)]
 
 
-def _in_range(line: Line, at: Mapping[str, Any]) -> bool:
+def _in_range(line: Line, at: Mapping[str, arb]) -> bool:
     """Whether the value is in the interval, the period positive and a touch between the impacts."""
     low, high = exact_ends(at["value"])
     period = at.get("period", arb(1))
@@ -208,9 +208,9 @@ class ProofPoint:
     line: Line
     kind: str
     label: str
-    at: Mapping[str, Any]
+    at: Mapping[str, arb]
 
-    def claim(self, what: str, statement: str, sign: int, reason: str = "", **balls: Any) -> Claim:
+    def claim(self, what: str, statement: str, sign: int, reason: str = "", **balls: arb) -> Claim:
         """Claim that more bits do not decide, as the search for points would not find others with them."""
         values = {name: enclosure_of(ball) for name, ball in balls.items()}
         about = f"of {self.label} {what}".rstrip()
@@ -220,7 +220,7 @@ class ProofPoint:
         """Whether both may be one zero: nothing tells them apart."""
         return all(ball.overlaps(other.at[name]) for name, ball in self.at.items())
 
-    def moved(self, period_rate: Any = 0, by: int = 1) -> Return:
+    def moved(self, period_rate: arb | int = 0, by: int = 1) -> Return:
         """The return of the orbit as a power series of the parameter; with ``by`` zero of its period alone."""
         value = arb_series([self.at["value"], by])
         return Return(self.line.at(value), arb_series([self.at["period"], period_rate]))

@@ -112,7 +112,7 @@ class ProvenRotor:
             for number, sign in zip(whole, (1, -1), strict=True)
         )
 
-    def claim(self, about: str, kind: str, statement: str, sign: int, reason: str = "", **balls: Any) -> Claim:
+    def claim(self, about: str, kind: str, statement: str, sign: int, reason: str = "", **balls: arb) -> Claim:
         """Claim about it, with enclosures of those balls that are bounded; more bits may decide what is undecided of one machine."""
         values, limited = enclosures_of(**balls), self.hypotheses.exact
         return claim_of(about, kind, statement, sign, reason=reason, enclosures=values, limited=limited)

@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import acb, arb
 
@@ -38,15 +38,15 @@ _FASTER, _HIGHER = Fraction(11, 10), Fraction(3, 2)
 class TrapBox(NamedTuple):
     """All states of bounces: ``δ``, ``q``, ``y``, ``r'`` and ``g``, and with them ``r``, ``ρ cos x``, ``ρ sin x`` and ``r''``."""
 
-    off: Any
-    slide: Any
-    turning: Any
-    rate: Any
-    gap: Any
-    radius: Any
-    along: Any
-    across: Any
-    push: Any
+    off: arb
+    slide: arb
+    turning: arb
+    rate: arb
+    gap: arb
+    radius: arb
+    along: arb
+    across: arb
+    push: arb
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Bounces:
 
     rub: Rub
     reach: arb
-    speed: Any
+    speed: arb
 
     @cached_property
     def level(self) -> arb:

@@ -19,7 +19,7 @@ _REACH = 4
 """Largest ``|D t²|`` at which the functions of :func:`hyperbolic` are summed as power series."""
 _SHORT = 0.3
 """Largest ``(|λ| T/6)²`` at which :func:`short_return` is summed: its terms fall faster than the powers of this."""
-_BERNOULLI: dict[tuple[int, int], Any] = {}
+_BERNOULLI: dict[tuple[int, int], arb] = {}
 
 
 @contextmanager
@@ -61,7 +61,7 @@ def squared(x: acb | acb_series) -> Any:
     return a * a + b * b
 
 
-def hull(low: Any, high: Any) -> Any:
+def hull(low: arb | float, high: arb | float) -> arb:
     """Smallest ball that contains two real balls."""
     return arb(low).union(arb(high))
 

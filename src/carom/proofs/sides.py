@@ -11,7 +11,7 @@ written.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import arb, arb_series
 
@@ -34,12 +34,12 @@ class Side(NamedTuple):
         Of ``γ``, ``ω²``, ``|U*|``, ``d``, ``μ(1 + d)`` and the rotor's radius in clearances.
     """
 
-    gamma: Any
-    omega_squared: Any
-    radius: Any
-    restitution: Any
-    grip: Any
-    rim: Any
+    gamma: arb
+    omega_squared: arb
+    radius: arb
+    restitution: arb
+    grip: arb
+    rim: arb
 
     @classmethod
     def of(cls, numbers: LineNumbers) -> Side:
@@ -53,10 +53,10 @@ class Side(NamedTuple):
 class Responses(NamedTuple):
     """``h₀``, ``h₁`` and their rates at a time, differentiated by one parameter."""
 
-    place: Any
-    push: Any
-    place_rate: Any
-    push_rate: Any
+    place: arb
+    push: arb
+    place_rate: arb
+    push_rate: arb
 
 
 def responses_by(numbers: LineNumbers, sides: Sequence[Side], time: arb) -> list[Responses]:
@@ -84,7 +84,7 @@ def _odd_by_split(split: arb, time: arb, even: arb, odd: arb) -> arb:
     square = split * time * time
     if not abs(square) < _NEAR:
         return (time * even - odd) / (2 * split)
-    total: Any = arb(0, _LEFT_OUT)
+    total = arb(0, _LEFT_OUT)
     for factor in reversed(_FACTORS):
         total = total * square + factor
     return total * time * time * time

@@ -19,7 +19,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
 from flint import arb, arb_series
 
@@ -45,7 +44,7 @@ def candidates(rotor: ProvenRotor, periods: PeriodProof) -> Iterator[tuple[str, 
         yield f"B{root.pair},{'/'.join(letters)}", found
 
 
-def _radial_speeds(rotor: ProvenRotor, back: Return) -> list[Any] | None:
+def _radial_speeds(rotor: ProvenRotor, back: Return) -> list[arb] | None:
     """Both radial speeds, the lower first; empty if there is none, ``None`` if that is undecided."""
     if back.discriminant < 0:
         return []

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 from flint import arb
 
@@ -28,7 +27,7 @@ def read_size(field: Field, text: str, hypotheses: Hypotheses, whole: str = "") 
 
 def unit_of(hypotheses: Hypotheses, *names: str) -> arb:
     """Product of numbers of a machine; 1 for a dimensionless one."""
-    product: Any = arb(1)
+    product = arb(1)
     if hypotheses.table == "machine":
         for name in names:
             product = product * ball_of(read_exact(MACHINE_FIELDS[name], hypotheses.values[name]))

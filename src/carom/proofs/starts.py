@@ -30,6 +30,7 @@ from carom.proofs.series import I, hull
 if TYPE_CHECKING:
     from carom.proofs.patches import Held
 
+
 Response = tuple[Any, Any, Any]
 """A response with its first two derivatives."""
 Plain = tuple[complex, complex, complex]
@@ -47,7 +48,7 @@ class DisturbedStart:
         """``H`` when motion becomes free."""
         return self.response(held, self.lasts)
 
-    def response(self, held: Held, time: Any) -> Response:
+    def response(self, held: Held, time: arb) -> Response:
         """``H`` at a time or on an interval of times."""
         raise NotImplementedError
 
@@ -109,7 +110,8 @@ class Pulse(DisturbedStart):
             return _freely(held, held.released, time - self.lasts)
         during = self._during(held, hull(begin, self.lasts.upper()))
         after = _freely(held, held.released, hull(0, (end - self.lasts).upper()))
-        return tuple(hull(one, other) for one, other in zip(during, after, strict=True))
+        place, rate, bend = map(hull, during, after)
+        return place, rate, bend
 
     def last(self, held: Held) -> Response:
         """``H(T)``."""

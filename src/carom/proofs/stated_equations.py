@@ -96,7 +96,7 @@ class StatedEquations:
         return cls(document["numbers"], document["values"])
 
 
-def text_of(array: np.ndarray) -> Any:
+def text_of(array: np.ndarray) -> dict[str, object]:
     """An array as text of its doubles, with its shape."""
     pairs = np.stack([array.real.ravel(), array.imag.ravel()], axis=1).ravel()
     return {
@@ -113,7 +113,7 @@ def array_of(text: Any) -> np.ndarray:
     return (pairs[:, 0] + 1j * pairs[:, 1]).reshape(text["shape"])
 
 
-def balls(array: np.ndarray) -> Any:
+def balls(array: np.ndarray) -> acb_mat:
     """Matrix of exact balls of an array of doubles; a vector is a column."""
     whole = array if array.ndim == 2 else array[:, None]
     return acb_mat(

@@ -15,7 +15,6 @@ first turning point ``τ = (2/γ) x⁻¹ artanh x``, ``x² = 4D/γ²`` and ``D =
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 from flint import arb
 
@@ -98,25 +97,25 @@ def _claims_of_rub(rotor: ProvenRotor, name: str, side: int) -> list[Claim]:
     return [exists, pressed, attracts]
 
 
-def wall_condition(n: LineNumbers) -> Any:
+def wall_condition(n: LineNumbers) -> arb:
     """``(ω² − 1)² + γ² − ρ²``: zero where ``|U*| = 1``."""
     return squared(n.product) - n.rho * n.rho
 
 
-def rub_force(n: LineNumbers, side: int) -> Any:
+def rub_force(n: LineNumbers, side: int) -> arb:
     """Normal force of a rub, the larger (1) or the smaller (−1) root, where the discriminant is positive."""
     root, half = rub_discriminant(n).sqrt(), rub_balance(n)
     # The form without cancellation where there would be some.
     return wall_condition(n) / (half - side * root) if half * side < 0 else (half + side * root) / (1 + n.mu * n.mu)
 
 
-def rub_discriminant(n: LineNumbers) -> Any:
+def rub_discriminant(n: LineNumbers) -> arb:
     """``ρ²(1 + μ²) − (γ + μκ)²``: a quarter of the discriminant of both rubs."""
     pull = n.gamma + n.mu * (1 - n.omega_squared)
     return n.rho * n.rho * (1 + n.mu * n.mu) - pull * pull
 
 
-def rub_balance(n: LineNumbers) -> Any:
+def rub_balance(n: LineNumbers) -> arb:
     """``κ − μγ``, which decides what becomes of levitation where it meets the wall."""
     return 1 - n.omega_squared - n.mu * n.gamma
 

@@ -20,7 +20,6 @@ repeats after a turn.  At ``ν`` times the speed of the shaft ``γ`` is ``γ/ν`
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from flint import arb
 
@@ -63,7 +62,7 @@ def sign_of(value: arb | Fraction) -> int | None:
     return 0 if value.is_zero() else decided(value) or None
 
 
-def rolling_force(n: LineNumbers) -> Any:
+def rolling_force(n: LineNumbers) -> arb:
     """``A = s² − ω²``, the mean normal force of rolling."""
     return n.radius_ratio * n.radius_ratio - n.omega_squared
 
@@ -103,7 +102,7 @@ def drag_sign(n: LineNumbers) -> int | None:
     return 1 if not_negative and excess == 1 else None
 
 
-def _claim(rotor: ProvenRotor, kind: str, statement: str, sign: int | None, reason: str = "", **balls: Any) -> Claim:
+def _claim(rotor: ProvenRotor, kind: str, statement: str, sign: int | None, reason: str = "", **balls: arb) -> Claim:
     """Claim about whirl.  More bits may decide it where the sign is ``None``."""
     limited = rotor.hypotheses.exact and sign is None
     shown = reason or ("the sign of a condition is open" if sign is None else "")
@@ -151,7 +150,7 @@ def attracting_speed(n: LineNumbers) -> arb:
     return speed if n.gamma >= 0 else speed.max((n.omega_squared + n.rho).sqrt())
 
 
-def sustaining_speed(n: LineNumbers, excitation: Any) -> arb:
+def sustaining_speed(n: LineNumbers, excitation: arb | int) -> arb:
     """Larger root ``w`` of ``μ(w² − ω²) − γw = excitation``, as a ball."""
     return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + excitation)).sqrt()) / (2 * n.mu)
 
