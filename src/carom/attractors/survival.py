@@ -250,7 +250,7 @@ def follow_until_settled(
 
 
 @checked
-def document_of(survival: Survival | None) -> dict[str, Any]:
+def document_of(survival: Survival | None) -> dict[str, object]:
     """Document of the survival for JSON; without a survival the motion is not irregular."""
     if survival is None:
         return {"transient": False, "half_life_impacts": None}

@@ -133,7 +133,7 @@ def format_value(kind: str, value: object, scales: Any) -> str:
     return f"{in_a_line(value, scales)}{beside}"
 
 
-def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, Any]:
+def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, object]:
     """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``, ``kind="edge.kind"``.
 
     What has a method ``document`` is given by that; of ``None`` every attribute is ``None``.
@@ -179,7 +179,7 @@ def flags(values: Any, meanings: Iterable[str]) -> dict[str, Any]:
     return {"flag_values": values, "flag_meanings": words}
 
 
-def in_si(values: Mapping[str, Any], scales: Any, /, *names: str, **kinds: str) -> dict[str, Any]:
+def in_si(values: Mapping[str, Any], scales: Any, /, *names: str, **kinds: str) -> dict[str, object]:
     """Some numbers of a document once more, in SI units under keys that end in ``_si``; nothing without scales.
 
     What a number is says :data:`KINDS`, or the name of a property of the scales: ``lost="velocity"``.

@@ -103,7 +103,7 @@ def with_purpose(command: Callable[..., None]) -> Callable[..., None]:
         return command
 
     @wraps(command)
-    def run(purpose: Purpose, **given: Any) -> None:
+    def run(purpose: Purpose, **given: object) -> None:
         if purpose is Purpose.PAGE:
             return command(**given)
         from carom import plots

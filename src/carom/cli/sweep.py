@@ -97,7 +97,7 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
             plots.save(plots.sweep_map(data, drawn, present=present), directory / FIGURES / name)
 
 
-def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:
+def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, object]:
     from carom.base.results import fields_of
 
     return {

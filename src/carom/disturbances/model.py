@@ -61,7 +61,7 @@ class Disturbance:
     example: ClassVar[str] = ""
     bare: ClassVar[bool] = False
 
-    def __init_subclass__(cls, **keywords: Any) -> None:
+    def __init_subclass__(cls, **keywords: object) -> None:
         super().__init_subclass__(**keywords)
         if "kind" not in cls.__dict__:
             cls.kind = cls.__name__.lower()

@@ -93,7 +93,7 @@ class _Tornado(BokehTornado):
         super().__init__(applications, extra_websocket_origins=hosts, **options)
         self._text = write_page(origin, self.resources())
 
-    def find_handler(self, request: HTTPServerRequest, **options: Any) -> Any:
+    def find_handler(self, request: HTTPServerRequest, **options: object) -> Any:
         if request.host.lower() not in self._hosts:
             return self.get_handler_delegate(request, ErrorHandler, {"status_code": 403})
         if request.path in ("/", "/ws") and len(self.get_sessions("/")) >= MOST:

@@ -271,7 +271,7 @@ class LinearEquations(Definition, Result):
 
 
 def from_matrices(
-    *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, touchdowns: Any, **others: Any
+    *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, touchdowns: Any, **others: object
 ) -> Rotor:
     """Any linear rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
 

@@ -48,7 +48,7 @@ class LogTable(Result):
     columns: ClassVar[dict[str, Mapping[str, str]]] = {}
     scales: Scales | None
 
-    def __init_subclass__(cls, **keywords: Any) -> None:
+    def __init_subclass__(cls, **keywords: object) -> None:
         super().__init_subclass__(**keywords)
         fields = {name: value.metadata for name, value in vars(cls).items() if isinstance(value, Field)}
         cls.columns = {name: metadata for name, metadata in fields.items() if metadata}

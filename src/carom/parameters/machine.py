@@ -123,7 +123,7 @@ class Machine(Tabular, pydantic.BaseModel):
     air_gap: float | None = None
     _resolved: Resolved = pydantic.PrivateAttr()
 
-    def __init__(self, /, **entries: Any) -> None:
+    def __init__(self, /, **entries: object) -> None:
         self._fill(resolve(entries), entries)
 
     def _fill(self, resolved: Resolved, entries: Mapping[str, object]) -> None:

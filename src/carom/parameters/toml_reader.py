@@ -107,7 +107,7 @@ def _read(name: str, what: str, remedy: str) -> str:
         raise InputError(what, shown(name), f"must be text in UTF-8; line {line} is not") from None
 
 
-def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
+def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, object]:
     if not text.strip():
         raise InputError(what, shown(name), f"{remedy}; it is empty")
     if deep := _DEEP.search(text):

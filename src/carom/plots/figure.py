@@ -88,7 +88,7 @@ class StyledFigure(Figure):
         if self._heading:
             super().suptitle(self._heading, wrap=True)
 
-    def suptitle(self, t: str, **kwargs: Any) -> Text:
+    def suptitle(self, t: str, **kwargs: object) -> Text:
         """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading, its lines broken where the figure ends."""
         return super().suptitle(f"{self._heading}\n{t}" if self._heading else t, **{"wrap": True} | kwargs)
 

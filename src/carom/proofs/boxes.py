@@ -48,7 +48,7 @@ class Box:
         """Ball of each parameter on a part of the box."""
         return {line.name: interval(*self.ends(j, parts[j])) for j, line in enumerate(self.lines)}
 
-    def middles(self, parts: Sequence[Part]) -> dict[str, Any]:
+    def middles(self, parts: Sequence[Part]) -> dict[str, object]:
         """Ball of the middle of each parameter on a part of the box."""
         return {line.name: rational(sum(self.ends(j, parts[j]), Fraction(0)) / 2) for j, line in enumerate(self.lines)}
 

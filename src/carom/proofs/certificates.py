@@ -105,7 +105,7 @@ def _held(found: Enclosure, stated: Sequence[str], name: str) -> Enclosure:
     return given
 
 
-def _read(path: str | os.PathLike[str]) -> dict[str, Any]:
+def _read(path: str | os.PathLike[str]) -> dict[str, object]:
     try:
         with Path(path).open("rb") as file:
             data = file.read(LARGEST_BYTES + 1)
@@ -121,7 +121,7 @@ def _read(path: str | os.PathLike[str]) -> dict[str, Any]:
     return document
 
 
-def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, object]:
     """An object of JSON; a duplicate key is refused, as a reader may take the other value."""
     found = dict(pairs)
     if len(found) != len(pairs):

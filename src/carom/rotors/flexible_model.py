@@ -104,7 +104,7 @@ class FlexibleDefinition(LinearEquations):
             rotor = rotor._with_number(name, changes[name])
         return rotor
 
-    def _made(self, **changes: Any) -> FlexibleDefinition:
+    def _made(self, **changes: object) -> FlexibleDefinition:
         made: FlexibleDefinition = self.reduced.of(self.reduced.machine.replace(**changes)).definition
         return made
 

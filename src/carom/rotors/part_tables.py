@@ -44,7 +44,7 @@ ATTACHED = {
 PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
 """Entries of the parts of a rigid rotor, and those that they stand for."""
 _QUOTIENT, _MATRICES = ("numerator", "denominator"), ("A", "B", "C", "D")
-_CONTROLLERS: tuple[tuple[Callable[..., Any], Iterable[str], tuple[str, ...]], ...] = (
+_CONTROLLERS: tuple[tuple[Callable[..., object], Iterable[str], tuple[str, ...]], ...] = (
     (PID, PID_FIELDS, ("proportional",)),
     (TransferFunction, _QUOTIENT, _QUOTIENT),
     (StateSpace, _MATRICES, _MATRICES),

@@ -180,7 +180,7 @@ def _shaft_words(shaft: Braking) -> str:
     return f"{text}; the torque of the drive is left out in flight, where it would {change}"
 
 
-def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
+def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, object]]:
     """The loads of each plane as JSON, with the limits."""
     return [_entry(plane, limits) for plane in loads.planes]
 

@@ -59,7 +59,7 @@ def _stage(motion: Trajectory, limits: LoadLimits) -> dict[str, Any]:
     }
 
 
-def _impacts(motion: Trajectory) -> list[dict[str, Any]]:
+def _impacts(motion: Trajectory) -> list[dict[str, object]]:
     """Impacts at one bearing."""
     if motion.is_compliant:
         return []
@@ -84,7 +84,7 @@ def _stretch(contact: LastingContact) -> dict[str, Any]:
     return record(contact, "kind phase=phase.label start end")
 
 
-def _end(seen: Trajectory) -> dict[str, Any]:
+def _end(seen: Trajectory) -> dict[str, object]:
     """Place and velocity of the rotor in one bearing at the end, in the fixed frame."""
     place, velocity = seen.end()
     return record(SimpleNamespace(place=place, velocity=velocity), "place:length velocity:", seen.scales)

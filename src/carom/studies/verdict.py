@@ -75,7 +75,7 @@ def proven_words(proof: Any, scales: Scales | None = None) -> str:
     return text
 
 
-def proven_kicks_document(kicks: Any) -> dict[str, Any]:
+def proven_kicks_document(kicks: Any) -> dict[str, object]:
     """What is proven of kicks, as plain data for JSON."""
     return record(kicks, KICKS, kicks.rotor.scales) | {
         "open": [record(part, "reason share") for part in kicks.parts if part.open]

@@ -59,7 +59,7 @@ def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:
     return Chunk(number, arrays, [_failure(plan, point, error) for point in plan.points_of(number)])
 
 
-def _failure(plan: SweepPlan, point: tuple[int, ...], error: str) -> dict[str, Any]:
+def _failure(plan: SweepPlan, point: tuple[int, ...], error: str) -> dict[str, object]:
     return {"point": list(point), "values": plan.values(point), "error": error}
 
 

@@ -84,7 +84,7 @@ def create(path: Path, plan: SweepPlan) -> None:
             raise
 
 
-def description_of(plan: SweepPlan) -> dict[str, Any]:
+def description_of(plan: SweepPlan) -> dict[str, object]:
     """Return the attributes of the results of a plan."""
     return {
         "Conventions": "CF-1.11",

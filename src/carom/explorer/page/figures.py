@@ -132,7 +132,7 @@ def _diagram(parts: dict[str, object]) -> Any:
     return plot
 
 
-def _curves(plot: Any, parts: dict[str, object], name: str, **look: Any) -> None:
+def _curves(plot: Any, parts: dict[str, object], name: str, **look: object) -> None:
     """Several lines, each with a colour of its own."""
     source = _source(parts, name, "xs", "ys", "colour")
     plot.multi_line("xs", "ys", source=source, line_color="colour", line_width=1.6, name=name, **look)

@@ -24,7 +24,7 @@ class TextTable:
     """Headings of the columns that hold numbers."""
 
 
-def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> dict[str, Any]:
+def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> dict[str, object]:
     """Return all numbers with the printed ones, the misprints, and the curves and regions of figure 6b.
 
     Parameters
