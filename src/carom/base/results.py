@@ -84,7 +84,7 @@ class Result(Tabular):
         return next((found for holder in holders if (found := getattr(holder, "scales", None)) is not None), None)
 
 
-def _held(result: Any, name: str) -> Any:
+def _held(result: object, name: str) -> object:
     """An attribute of a result; ``None`` if there is none, or none for this model: only the planar rotor has ``parameters``."""
     try:
         return getattr(result, name, None)
@@ -126,7 +126,7 @@ class Members(Result, Sequence[Member]):
         return [getattr(member, "name", "") for member in self.members]
 
 
-def format_value(kind: str, value: object, scales: Any) -> str:
+def format_value(kind: str, value: object, scales: object) -> str:
     """A value of a kind in a line, behind it in SI units if the scales are known."""
     # The layers forbid imports from above.
     beside = import_module("carom.parameters.formats").format_beside(value, kind, scales) if kind and scales else ""
@@ -142,13 +142,13 @@ def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, object
     return {key: _plain(_attribute(entry, name)) for key, name in keys.items()}
 
 
-def _attribute(entry: Any, path: str) -> Any:
+def _attribute(entry: object, path: str) -> object:
     for name in path.split("."):
         entry = None if entry is None else getattr(entry, name)
     return entry
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     if isinstance(value, np.ndarray):
         return value.tolist()
     if type(value) is tuple:
@@ -179,7 +179,7 @@ def flags(values: Any, meanings: Iterable[str]) -> dict[str, Any]:
     return {"flag_values": values, "flag_meanings": words}
 
 
-def in_si(values: Mapping[str, Any], scales: Any, /, *names: str, **kinds: str) -> dict[str, object]:
+def in_si(values: Mapping[str, object], scales: object, /, *names: str, **kinds: str) -> dict[str, object]:
     """Some numbers of a document once more, in SI units under keys that end in ``_si``; nothing without scales.
 
     What a number is says :data:`KINDS`, or the name of a property of the scales: ``lost="velocity"``.

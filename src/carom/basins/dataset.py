@@ -190,7 +190,7 @@ def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, object], tuple[str, ...]]
     """Coordinates of a dataset, including those in SI units, and its dimensions."""
     coordinates = plan.model.coordinates
     grid = isinstance(plan, Grid)
-    axes: dict[str, Any] = {}
+    axes: dict[str, object] = {}
     for coordinate, values in zip(coordinates, plan.values(), strict=True):
         along = (coordinate.name,) if grid else ("start",)
         unit, si = coordinate.units

@@ -130,7 +130,7 @@ def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict
     key = kind.replace("-", "_")
     name = f"smallest_unrecovered_{key}"
     several = f"{key}es" if key.endswith("s") else f"{key}s"
-    document: dict[str, Any] = {
+    document: dict[str, object] = {
         name: found.size if found else None,
         f"{name}_bracket": [found.all_back, found.size] if found else None,
         f"{name}_angle": found.angle if found else None,

@@ -51,7 +51,7 @@ def _distinct(after: np.ndarray) -> tuple[list[Rotor], np.ndarray]:
     return [after[place] for place in np.unique(which, return_index=True)[1]], which
 
 
-def follow_machines(machines: Iterable[tuple[Rotor, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
+def follow_machines(machines: Iterable[tuple[Rotor, Starts]], chunk: int, **limits: object) -> Iterator[Endings]:
     """Follow the disturbances of one machine after another; yield the endings of each, as :func:`follow` returns them.
 
     About ``chunk`` starts are followed together and held in memory.

@@ -274,7 +274,7 @@ class Disturbance:
 
     @staticmethod
     @checked
-    def from_description(description: Mapping[str, Any]) -> Disturbance:
+    def from_description(description: Mapping[str, object]) -> Disturbance:
         """Disturbance from its description.
 
         Raises

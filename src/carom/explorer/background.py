@@ -115,7 +115,7 @@ class Worker:
             except SupersededError:
                 continue
 
-    def _result(self, job: Job, tell: Callable[[Progress], None]) -> Any:
+    def _result(self, job: Job, tell: Callable[[Progress], None]) -> object:
         try:
             return job.work(tell)
         except SupersededError:

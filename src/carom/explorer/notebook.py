@@ -90,7 +90,7 @@ def _figure_class(planes: int, frame: str) -> type:
     return KickFigure
 
 
-def encoded(value: object, buffers: list[bytes]) -> Any:
+def encoded(value: object, buffers: list[bytes]) -> object:
     """A message as JSON; arrays become buffers, in the place of which their number and type stand."""
     if isinstance(value, dict):
         return {name: encoded(entry, buffers) for name, entry in value.items()}

@@ -64,7 +64,7 @@ class Stage:
     carry: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        rotor: Any = self.rotor
+        rotor: object = self.rotor
         if not isinstance(rotor, Rotor) or rotor.stages:
             raise InputError("rotor", shown(rotor), ONE_STAGE)
         if not isinstance(self.trigger, Trigger):

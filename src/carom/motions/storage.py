@@ -32,8 +32,8 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
     """
     import xarray
 
-    columns: dict[str, Any] = {}
-    attributes: dict[str, Any] = {"parts": len(motion.parts)}
+    columns: dict[str, object] = {}
+    attributes: dict[str, object] = {"parts": len(motion.parts)}
     for number, part in enumerate(motion.parts):
         mark = _mark(number)
         for name, dimensions in SEGMENTS.items():
@@ -86,7 +86,7 @@ def provenance(motion: Trajectory) -> dict[str, object]:
     }
 
 
-def _numbers(state: State) -> list[Any]:
+def _numbers(state: State) -> list[object]:
     parts = state.position, state.velocity
     numbers = ([np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in parts)
     return [*numbers, list(state.races), list(state.shaft), state.time]

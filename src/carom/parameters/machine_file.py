@@ -324,7 +324,7 @@ def _changed(table: _Table, changes: Mapping[str, object], entry: str = "") -> _
 
 def _with_restitution(
     values: Mapping[str, object], touchdown: Mapping[str, object]
-) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+) -> tuple[Mapping[str, object], Mapping[str, object]]:
     """Entries of a machine and its touchdown bearing: the restitution of a rigid wall, wherever it is stated, is that of the machine.
 
     With a compliant touchdown bearing the restitution of the machine is not used; one that is given is refused.

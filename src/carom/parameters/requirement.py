@@ -262,7 +262,7 @@ def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:
 
 
 def _read_node(name: str, given: object, scales: Scales | None) -> int:
-    number: Any = int(given) if isinstance(given, str) and given.strip().isdecimal() else given
+    number: object = int(given) if isinstance(given, str) and given.strip().isdecimal() else given
     if not isinstance(number, int) or isinstance(number, bool) or number < 0:
         raise InputError(name, shown(given), "must be the number of a node, from 0 on")
     return number

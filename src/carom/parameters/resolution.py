@@ -76,7 +76,7 @@ class _Work:
         self.entries, self.numbers, self.base = entries, numbers, base
         self.ways = {set_by(name): name for name in entries}
         self.values: dict[str, float] = {}
-        self.given: dict[str, dict[str, Any]] = {}
+        self.given: dict[str, dict[str, object]] = {}
 
     def resolved(self) -> Resolved:
         """Find all numbers, field by field."""

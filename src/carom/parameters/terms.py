@@ -165,7 +165,7 @@ def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has
     return InputError(name, given, allowed, "is no parameter here")
 
 
-def conflicts(entries: Mapping[str, Any]) -> list[InputError]:
+def conflicts(entries: Mapping[str, object]) -> list[InputError]:
     """Errors for entries that set the same field of the machine, such as ``damping`` and ``damping_ratio``."""
     found, first = [], dict[str, str]()
     for name in sorted(entries, key=lambda name: name != set_by(name)):  # fields of the machine come first

@@ -230,13 +230,13 @@ TOUCHDOWN_FIELDS = entries_of(TouchdownBearing)
 BALL_FIELDS = {name: field for name, field in TOUCHDOWN_FIELDS.items() if name in OF_BALLS}
 
 
-def _without_power(given: object) -> Any:
+def _without_power(given: object) -> object:
     """The number of a stiffness in N/mⁿ, with or without its unit."""
     powered = _POWERED.fullmatch(given.strip()) if isinstance(given, str) else None
     return powered["number"] if powered else given
 
 
-def _as_number(given: object) -> Any:
+def _as_number(given: object) -> object:
     """The number of a fraction such as ``"10/9"``."""
     fraction = _FRACTION.fullmatch(given.strip()) if isinstance(given, str) else None
     return int(fraction[1]) / int(fraction[2]) if fraction else given

@@ -36,7 +36,7 @@ _LINE = 22
 """Letters of a line of words in place of a picture."""
 _REACH = 1.04
 """Half-width of the axes, relative to the largest disturbance."""
-OF_ONE_SIZE: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour, "gid": "circle"}
+OF_ONE_SIZE: dict[str, object] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour, "gid": "circle"}
 """Look of the circle of all disturbances of one size."""
 
 

@@ -138,6 +138,6 @@ def share_bars(axes: Axes, looks: Sequence[MotionLook], words: Sequence[str], en
 
 def finish(figure: Figure, motions: Sequence[MotionLook], columns: int, *, shares: bool = True) -> Figure:
     """Add below a figure a legend of motions, with their shares, and of all that is labelled in the axes."""
-    handles: list[Any] = [*(entry.patch(share=shares) for entry in motions), *unique_entries(figure.axes)[0]]
+    handles: list[object] = [*(entry.patch(share=shares) for entry in motions), *unique_entries(figure.axes)[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, len(handles)))
     return figure

@@ -75,7 +75,7 @@ def draw_map(
 def mark_cells(axes: Axes, edges: tuple[Floats, Floats], cells: np.ndarray, look: Look, gid: str) -> None:
     """Fill or hatch cells with a look, whose words stand in the legend."""
     if cells.any():
-        drawn: dict[str, Any] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK, "zorder": 1.5}
+        drawn: dict[str, object] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK, "zorder": 1.5}
         axes.add_patch(PathPatch(cells_path(np.meshgrid(*edges), cells), lw=0.0, gid=gid, label=look.words, **drawn))
 
 

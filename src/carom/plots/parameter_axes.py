@@ -33,7 +33,7 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
     def to_machine(values: ArrayLike) -> Any:
         return conversion.value(np.asarray(values, float), scales) / size
 
-    def from_machine(values: ArrayLike) -> Any:
+    def from_machine(values: ArrayLike) -> object:
         # Matplotlib tries values beyond the axis.
         return (np.maximum(values, 0.0) * size / conversion.unit(scales)) ** (1.0 / conversion.power)
 

@@ -6,7 +6,7 @@ import json
 import textwrap
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import colormaps
@@ -178,7 +178,7 @@ def _shades(
 ) -> None:
     """Draw a number as shades with a colour bar, or a flag as colours."""
     shown = np.ma.masked_invalid(np.asarray(values.values, float))
-    look: dict[str, Any] = {}
+    look: dict[str, object] = {}
     meanings = str(values.attrs.get("flag_meanings", "")).split()
     if meanings:
         look = {"cmap": ListedColormap(_FLAGS[: len(meanings)]), "vmin": -0.5, "vmax": len(meanings) - 0.5}

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import partial
 from itertools import groupby
-from typing import Any
 
 from carom.core.processors import available_cores
 from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
@@ -39,7 +38,7 @@ def options_of(family: DisturbanceFamily) -> tuple[str, str]:
     return family.option, "most_impacts"
 
 
-def _disc_from(family: DisturbanceFamily, rotor: ProvenRotor, options: Mapping[str, Any]) -> KickDisc:
+def _disc_from(family: DisturbanceFamily, rotor: ProvenRotor, options: Mapping[str, object]) -> KickDisc:
     """The disc that options of a theorem describe, and with an option ``box`` the box."""
     largest, most = (options[name] for name in options_of(family))
     if not isinstance(largest, str) or type(most) is not int or not 0 <= most < len(IMPACTS):
@@ -53,7 +52,7 @@ def _disc_from(family: DisturbanceFamily, rotor: ProvenRotor, options: Mapping[s
 
 
 def kick_claims(
-    family: DisturbanceFamily, rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, Any]
+    family: DisturbanceFamily, rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, object]
 ) -> list[Claim]:
     """Claims of a certificate, all of whose proven cells are shown again; nothing is searched."""
     if rotor.bits != BITS:

@@ -102,7 +102,7 @@ def box_of(evidence: Mapping[str, Any]) -> list[arb]:
     return box_around(centre, int(evidence["width"]))
 
 
-def found_zero(system: System, guess: Sequence[arb | float]) -> tuple[dict[str, Any], list[arb]] | None:
+def found_zero(system: System, guess: Sequence[arb | float]) -> tuple[dict[str, object], list[arb]] | None:
     """Evidence of a zero near a guess, for a certificate, and balls that contain it; ``None`` if none is shown."""
     centre = newton(system, guess)
     found = None if centre is None else enclosed_zero(system, centre)

@@ -65,7 +65,7 @@ class _Linear(NamedTuple):
         return enclosures_of(**{name: size}, **({f"{name}_si": size * arb(known[name])} if name in known else {}))
 
 
-def levitation_claims(stated: StatedEquations, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
+def levitation_claims(stated: StatedEquations, evidence: Evidence, options: Mapping[str, object]) -> list[Claim]:
     """Claims from forms that are searched for or read."""
     try:
         held = _linear(stated)

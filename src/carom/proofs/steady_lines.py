@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import arb
 
@@ -30,7 +30,7 @@ _ROUNDING = 1e-15
 """Of the lower ends in double precision."""
 
 
-def steady_line_claims(rotor: ProvenRotor, options: Mapping[str, Any]) -> list[Claim]:
+def steady_line_claims(rotor: ProvenRotor, options: Mapping[str, object]) -> list[Claim]:
     """Claims along a parameter: the options ``along``, ``from`` and ``to``, as texts.
 
     The rotor's own value of the parameter does not matter.

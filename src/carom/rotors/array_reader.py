@@ -64,7 +64,7 @@ def read(source: str, keys: list[str]) -> dict[str, Any]:
     return {key: plain(key, held[key]) for key in keys if key in held}
 
 
-def plain(key: str, given: Any) -> np.ndarray:
+def plain(key: str, given: object) -> np.ndarray:
     """Numbers as doubles, with their zeros if they are sparse; of one text, or of a cell array of MATLAB, its texts."""
     array = np.asarray(given.toarray() if hasattr(given, "toarray") else given)
     if array.dtype.kind in "USO":

@@ -77,13 +77,13 @@ class FlexibleMachine(NamedParameters):
     supports: Sequence[Support] = ()
 
     def __post_init__(self) -> None:
-        rotor: Any = self.rotor
+        rotor: object = self.rotor
         if not isinstance(rotor, FreeRotor):
             raise InputError("rotor", shown(rotor), "carom.rotors.FlexibleRotor, MatrixRotor or RigidRotor")
         if not isinstance(self.gravity, Gravity | None):
             raise InputError("gravity", shown(self.gravity), "carom.parameters.Gravity, or None")
         for name, kind in _KINDS.items():
-            given: Any = getattr(self, name)
+            given: object = getattr(self, name)
             listed = tuple(given) if isinstance(given, Iterable) else (None,)
             if not all(isinstance(each, kind) for each in listed) or (name == "touchdowns" and not listed):
                 least = ", one or more" if name == "touchdowns" else ""

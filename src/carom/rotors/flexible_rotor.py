@@ -55,7 +55,7 @@ class FlexibleRotor(BendingRotor):
 
     def __post_init__(self) -> None:
         for name, kind in (("sections", ShaftSection), ("discs", Disc)):
-            given: Any = getattr(self, name)
+            given: object = getattr(self, name)
             listed = tuple(given) if isinstance(given, Iterable) else (None,)
             if not all(isinstance(each, kind) for each in listed) or (kind is ShaftSection and not listed):
                 raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}")

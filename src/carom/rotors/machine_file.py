@@ -221,7 +221,7 @@ def _placed(entry: Mapping[str, object]) -> dict[str, object]:
         if node in entry:
             raise InputError(node, shown(entry[node]), f"{name}, from the centre of mass: a rigid rotor has no nodes")
     require(entry, ("position",))
-    found: dict[str, Any] = {"position": read_quantity(POSITION, entry["position"])}
+    found: dict[str, object] = {"position": read_quantity(POSITION, entry["position"])}
     if "sensor_positions" in entry:
         given = entry["sensor_positions"]
         listed = given if isinstance(given, list) else [given]

@@ -37,7 +37,7 @@ def machine_toml(machine: FlexibleMachine, modes: int) -> str:
     return "\n".join(tables)
 
 
-def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, Any]]:
+def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, object]]:
     """All parts, each with the name of its table."""
     for kind in ("section", "disc"):
         for part in getattr(machine.rotor, f"{kind}s", ()):

@@ -97,7 +97,7 @@ class MagneticBearing:
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("bearing node", self.node))
         read_entries(self, BEARING_FIELDS)
-        given: Any = self.sensor_nodes
+        given: object = self.sensor_nodes
         if not isinstance(given, Iterable) or isinstance(given, str):
             raise InputError("sensor_nodes", shown(given), "a sequence of numbers of nodes")
         nodes = tuple(read_node("sensor node", each) for each in given)

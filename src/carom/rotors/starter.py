@@ -60,7 +60,7 @@ def _held(found: ImportedRotor) -> list[Mapping[str, Any]]:
     return list({each["node"]: each for each in chosen}.values())
 
 
-def _springs(found: ImportedRotor) -> list[Mapping[str, Any]]:
+def _springs(found: ImportedRotor) -> list[Mapping[str, object]]:
     return [each for each in found.bearings if each["kind"] != MAGNETIC and not _is_support(each)]
 
 

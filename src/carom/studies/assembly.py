@@ -211,7 +211,7 @@ class Contributor(NamedTuple):
     words: str
     share: float
     """About what share of the time it takes."""
-    find: Callable[[Asked, Reporter], Any]
+    find: Callable[[Asked, Reporter], object]
     applies: Callable[[Asked], bool] = lambda _: True
     question: str = ""
     """Within whose events it is found, if these are limited as a whole."""

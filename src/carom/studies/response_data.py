@@ -257,7 +257,7 @@ class UnbalanceResponse(Result):
 
 
 def stretches_between(
-    interval: tuple[float, float], edges: Iterable[float], what: Callable[[float], Any]
+    interval: tuple[float, float], edges: Iterable[float], what: Callable[[float], object]
 ) -> tuple[SpeedStretch, ...]:
     """Stretches of an interval on which something is the same, if it can change only at given edges."""
     low, high = interval

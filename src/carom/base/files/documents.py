@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -26,7 +25,7 @@ def write_json(target: Path, document: dict[str, object]) -> None:
     target.write_text(as_json(document) + "\n", encoding="utf-8")
 
 
-def _plain(value: object) -> Any:
+def _plain(value: object) -> object:
     """Convert a value to the types of JSON."""
     if isinstance(value, dict):
         return {key: _plain(entry) for key, entry in value.items()}

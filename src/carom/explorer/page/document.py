@@ -108,7 +108,7 @@ def _title(origin: Origin) -> str:
     return f"{origin.case.name} – carom explore"
 
 
-def _act(act: Callable[[Any], None], name: str, old: object, new: object) -> None:
+def _act(act: Callable[[object], None], name: str, old: object, new: object) -> None:
     """Pass a new request on."""
     act(new)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from carom.base.outcome import CaromError
 from carom.base.progress import ShowProgress
@@ -123,7 +122,7 @@ class Questions:
         self._ranges: dict[str, float] = {}
         self._pairs: dict[str, Pairs] = {}
         self._cost = PATIENCE / COARSE**2
-        self._diagrams: dict[tuple[Any, ...], Message] = {}
+        self._diagrams: dict[tuple[object, ...], Message] = {}
         self.quick: Mapping[str, Work] = {
             "levitating": lambda shown, tell: messages.levitation_message(shown.subject.case),
             "basin": self._coarse,

@@ -24,7 +24,7 @@ QUIET = 0.15
 FIRST, WAITED_FOR = "levitating", "basin"
 """The answer that is there at once and needs no kernels, and that for which a dragged slider waits."""
 
-Answer = Callable[[str, Any], None]
+Answer = Callable[[str, object], None]
 """Receives the name of an answer and its value, in any thread."""
 
 

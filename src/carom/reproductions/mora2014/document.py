@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from carom.base.results import fields_of
 from carom.reproductions.mora2014.pictures import Picture
