@@ -67,7 +67,7 @@ class OrbitFact:
     speed: arb
 
     @property
-    def signature(self) -> tuple[Any, ...]:
+    def signature(self) -> tuple[object, ...]:
         """What is the same along a stretch of the parameter."""
         return self.name, self.admissible, self.stable, self.reason, self.instability
 

@@ -64,7 +64,7 @@ class Analytic:
         Takes a real ball and a number of terms, and gives that many Taylor coefficients about every point of the ball.
     """
 
-    def __init__(self, series: Callable[[Any, int], list[Any]]) -> None:
+    def __init__(self, series: Callable[[arb, int], list[arb]]) -> None:
         self.series = series
         self._cells: dict[tuple[Fraction, Fraction], tuple[int, int]] = {}
         self._signs: dict[Fraction, int] = {}

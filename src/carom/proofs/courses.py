@@ -14,7 +14,7 @@ from flint import acb, arb, arb_series
 
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import I, first, imaginary, real, short_return, squared
+from carom.proofs.series import Ball, ComplexBall, I, first, imaginary, real, short_return, squared
 
 _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
@@ -29,7 +29,7 @@ def period_condition(whole: LineNumbers, period: arb) -> Callable[[LineNumbers, 
     return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else entire_condition
 
 
-def _short_condition(n: LineNumbers, period: arb | arb_series) -> Any:
+def _short_condition(n: LineNumbers, period: Ball) -> Ball:
     found = short_return(n.half, n.split, period)
     return period * arb.nan() if found is None else 1 + real(n.q * found[1])
 
@@ -78,7 +78,7 @@ class Return:
         self.closing = 1 + real(self.turn)
         self.levitation = n.rho * n.rho / squared(self.product)
 
-    def _levers(self) -> tuple[Any, Any]:
+    def _levers(self) -> tuple[ComplexBall, ComplexBall]:
         short = short_return(self.half, self.split, self.period)
         if short is not None:
             return short
@@ -153,7 +153,7 @@ class OrbitCourse:
         return 1 + real(back.lever) * speed * 2 + back.lever_squared * speed * speed - back.levitation
 
     @property
-    def speed_fold(self) -> Any:
+    def speed_fold(self) -> Ball:
         """Half of the derivative of ``balance`` by ``ṙ``."""
         return real(self.back.lever) + self.back.lever_squared * self.speed
 

@@ -42,7 +42,7 @@ class Scale:
 
     largest: ExactNumber
     one: Callable[[], Any]
-    gain: Callable[[LineNumbers], Any]
+    gain: Callable[[LineNumbers], arb]
     start: Callable[[], DisturbedStart]
 
 

@@ -121,7 +121,7 @@ class Machines:
         return {name: ball for name, ball in self._balls.items() if name in names}
 
     @cached_property
-    def _machine(self) -> dict[str, Any]:
+    def _machine(self) -> dict[str, arb]:
         given = {**self.hypotheses.values, **self.hypotheses.helpers}
         return {name: ball_of(read_exact(ENTRIES[name], text)) for name, text in given.items()}
 

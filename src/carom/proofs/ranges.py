@@ -169,7 +169,7 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter
     return found
 
 
-def _signature(piece: Stretch) -> tuple[Any, ...]:
+def _signature(piece: Stretch) -> tuple[object, ...]:
     return piece.facts and tuple(fact.signature for fact in piece.facts), piece.facts is None, bool(piece.reason)
 
 

@@ -14,6 +14,8 @@ from typing import Any
 from flint import acb, acb_series, arb, arb_series, ctx, fmpq
 
 I = acb(0, 1)  # noqa: E741  (the imaginary unit)
+Ball = arb | arb_series
+ComplexBall = acb | acb_series
 _SERIES = (arb_series, acb_series)
 _REACH = 4
 """Largest ``|D t²|`` at which the functions of :func:`hyperbolic` are summed as power series."""
@@ -95,7 +97,7 @@ def hyperbolic(split: arb | arb_series, time: arb | arb_series) -> tuple[Any, An
     return square * arb.nan(), square * arb.nan()
 
 
-def _hyperbolic_sums(square: arb | arb_series, time: arb | arb_series) -> tuple[Any, Any]:
+def _hyperbolic_sums(square: arb | arb_series, time: Ball) -> tuple[Ball, Ball]:
     """The same as sums of powers of ``z = D t²``, ``|z| < 4``.
 
     The ``j``-th Taylor coefficient of what is left out after ``K`` terms is at most
@@ -105,14 +107,14 @@ def _hyperbolic_sums(square: arb | arb_series, time: arb | arb_series) -> tuple[
     while arb(8) ** count / arb(2 * count).fac() > arb(2) ** (-ctx.prec - 10):
         count += 2
     rest = arb(0, (arb(8) ** count * 2 / arb(2 * count).fac()).upper())
-    even: Any = arb(0)
-    odd: Any = arb(0)
+    even: Ball = arb(0)
+    odd: Ball = arb(0)
     for k in range(count - 1, -1, -1):
         even = even * square + 1 / arb(2 * k).fac()
         odd = odd * square + 1 / arb(2 * k + 1).fac()
-    left_out: Any = rest
+    left_out: Ball = rest
     if isinstance(square, arb_series):
-        step: Any = square - square[0]
+        step: Ball = square - square[0]
         power: Any = arb(1)
         for _ in range(1, ctx.cap):
             power = power * step
@@ -166,7 +168,7 @@ def short_return(half: Any, split: Any, period: Any) -> tuple[Any, Any] | None:
     return place + _rest_series(rest / longest, radius, series), turn + _rest_series(rest, radius, series)
 
 
-def _largest(x: Any, radius: arb) -> arb:
+def _largest(x: Ball | ComplexBall, radius: arb) -> arb:
     """Bound of the modulus for a variable of the series up to a radius."""
     total, power = arb(0), arb(1)
     for c in x.coeffs() if isinstance(x, _SERIES) else [x]:
@@ -175,7 +177,7 @@ def _largest(x: Any, radius: arb) -> arb:
     return total
 
 
-def _rest_series(bound: arb, radius: arb, series: bool) -> Any:
+def _rest_series(bound: arb, radius: arb, series: bool) -> ComplexBall:
     """Series of which nothing is known but a bound on a circle."""
     found = []
     for _ in range(ctx.cap if series else 1):

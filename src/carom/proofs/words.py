@@ -19,13 +19,13 @@ from flint import acb, arb, arb_mat
 from carom.proofs.flights import stays_inside
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import I, conjugate, imaginary, real, squared
+from carom.proofs.series import Ball, I, conjugate, imaginary, real, squared
 
 UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
 """Unknowns of each impact, in their order."""
 
 
-def equations_of(n: LineNumbers, *unknowns: Any) -> list[Any]:
+def equations_of(n: LineNumbers, *unknowns: Ball) -> list[Ball]:
     """Differences between the end of each flight and the state before the next impact."""
     impacts = [unknowns[k : k + 4] for k in range(0, len(unknowns), 4)]
     found = []
