@@ -36,7 +36,7 @@ from carom.base.outcome import InputError
 if TYPE_CHECKING:
     import numpy as np  # loaded where an array is read: the parameters of a machine do without it
 
-_Checked = TypeVar("_Checked", bound=Callable[..., Any])
+_Checked = TypeVar("_Checked", bound=Callable[..., object])
 _MOST = 10**15
 """Largest number of anything: far more than can be stored or awaited."""
 
@@ -92,7 +92,7 @@ def checked(target: _Checked) -> _Checked:
     door: list[_Door] = []  # made at the first call: an annotation may name what is defined later
 
     @wraps(target)
-    def wrapper(*args: Any, **kwargs: Any) -> Any:
+    def wrapper(*args: object, **kwargs: object) -> object:
         if not door:
             door.append(_Door.of(target))
         door[0].check(args, kwargs)
@@ -110,7 +110,7 @@ class _Door(NamedTuple):
     kinds: Mapping[str, ArgumentKind]
 
     @classmethod
-    def of(cls, function: Callable[..., Any]) -> _Door:
+    def of(cls, function: Callable[..., object]) -> _Door:
         """Read the annotations of a function."""
         names, kinds = _Names(inspect.unwrap(function).__globals__), {"": _ANYTHING}
         places, others, further = list[str](), "", ""
@@ -147,10 +147,10 @@ class _ByName(type):
         return _ByName(name, (), {})
 
 
-class _Names(dict[str, Any]):
+class _Names(dict[str, object]):
     """Names of a module, and those that only type checkers import."""
 
-    def __missing__(self, name: str) -> Any:
+    def __missing__(self, name: str) -> object:
         return getattr(builtins, name) if hasattr(builtins, name) else _ByName(name, (), {})
 
 
@@ -187,7 +187,7 @@ def kind_of_numbers(value: object) -> str:
 
 _NUMBERS = ArgumentKind(lambda value: kind_of_numbers(value) != "-", "finite numbers")
 _ANYTHING = ArgumentKind(lambda value: True, "anything")
-_PLAIN: Mapping[Any, ArgumentKind] = {
+_PLAIN: Mapping[object, ArgumentKind] = {
     Any: _ANYTHING,
     object: _ANYTHING,
     type(None): ArgumentKind(lambda value: value is None, ""),

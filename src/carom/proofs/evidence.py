@@ -42,7 +42,7 @@ class Evidence:
         self.tell = tell or Reporter(step="proving")
         self._end = time.monotonic() + seconds
         self._recorded = None if recorded is None else dict(recorded)
-        self._used: dict[str, Any] = {}
+        self._used: dict[str, object] = {}
 
     @property
     def is_late(self) -> bool:

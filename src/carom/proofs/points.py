@@ -90,7 +90,7 @@ def equations_of(line: Line, kind: PointKind, *unknowns: Any) -> tuple[Any, ...]
     return back.closing, course.balance, *(found(at["touch"]) if "touch" in at else (found,))
 
 
-def point_claims(rotor: ProvenRotor, evidence: Evidence, options: Any) -> list[Claim]:
+def point_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, float | str]) -> list[Claim]:
     """Claims about bifurcation points along a parameter: the options ``along``, ``from`` and ``to``, as texts.
 
     The rotor's own value of the parameter does not matter.

@@ -114,7 +114,7 @@ def prove(
     return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell, seconds)
 
 
-def without_closed_forms(machine: Any, settings: Iterable[str] = ()) -> Rotor | None:
+def without_closed_forms(machine: object, settings: Iterable[str] = ()) -> Rotor | None:
     """The model of a machine whose contacts have no theorems: all but the planar rotor in a rigid wall, without weight and limits."""
     if isinstance(machine, Hypotheses | Mapping):
         return None

@@ -7,13 +7,12 @@ parameter and blocks share their ends, an orbit keeps its name along a stretch.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial, reduce
 from itertools import groupby, pairwise
 from math import floor, log2
-from typing import Any
 
 from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision, enclosure_of, interval
@@ -69,7 +68,7 @@ class Stretch:
         return next((fact for fact in self.facts or () if fact.name == name), None)
 
 
-def range_claims(rotor: ProvenRotor, evidence: Evidence, options: Any) -> list[Claim]:
+def range_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, float | str]) -> list[Claim]:
     """Claims for all values of a parameter between two: the options ``along``, ``from`` and ``to``, as texts.
 
     The option ``blocks`` is the largest number of blocks, ``narrowest`` the share of the interval at which a block is left open, as

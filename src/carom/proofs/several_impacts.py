@@ -21,7 +21,7 @@ MOST_IMPACTS = 24
 """Impacts a period up to which orbits can be proven."""
 
 
-def several_impact_claims(rotor: ProvenRotor, evidence: Evidence, options: Any) -> list[Claim]:
+def several_impact_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, float | str]) -> list[Claim]:
     """Claims about periodic motions with 2 to ``impacts`` impacts a period, an option."""
     found = evidence.take("orbits", lambda: list(_searched(rotor, int(options["impacts"]))))
     if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):

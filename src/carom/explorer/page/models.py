@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bokeh.core.properties import Any
+from bokeh.core import properties
 from bokeh.model import DataModel
 
 
@@ -17,11 +17,11 @@ class Requests(DataModel):
     begun only so, and counts how often it was asked for.
     """
 
-    machine = Any(default=None)
-    kick = Any(default=None)
-    cancel = Any(default=0)
-    resume = Any(default=0)
-    wish = Any(default=None)
+    machine = properties.Any(default=None)
+    kick = properties.Any(default=None)
+    cancel = properties.Any(default=0)
+    resume = properties.Any(default=0)
+    wish = properties.Any(default=None)
 
 
 class Answers(DataModel):
@@ -32,17 +32,17 @@ class Answers(DataModel):
     ``motion`` and ``beside`` are those after the kicks that are drawn.
     """
 
-    state = Any(default=None)
-    reply = Any(default=None)
-    basin = Any(default=None)
-    motion = Any(default=None)
-    beside = Any(default=None)
-    table = Any(default=None)
-    loss = Any(default=None)
-    hardest = Any(default=None)
-    verdict = Any(default=None)
-    proven = Any(default=None)
-    diagram = Any(default=None)
-    exports = Any(default=None)
-    levitating = Any(default=None)
-    response = Any(default=None)
+    state = properties.Any(default=None)
+    reply = properties.Any(default=None)
+    basin = properties.Any(default=None)
+    motion = properties.Any(default=None)
+    beside = properties.Any(default=None)
+    table = properties.Any(default=None)
+    loss = properties.Any(default=None)
+    hardest = properties.Any(default=None)
+    verdict = properties.Any(default=None)
+    proven = properties.Any(default=None)
+    diagram = properties.Any(default=None)
+    exports = properties.Any(default=None)
+    levitating = properties.Any(default=None)
+    response = properties.Any(default=None)
