@@ -25,8 +25,7 @@ from carom.parameters.machine_file import split_settings
 from carom.parameters.quantities import Written
 from carom.parameters.terms import DEFAULTS, check_names
 
-End = str | int | float | Fraction | Decimal
-Given = End | tuple[End, End]
+Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
 """A number as it may be given: a float stands for itself, a tuple for an interval."""
 NUMBERS = ("gamma", "omega_squared", "rho", "mu", "d", "radius_ratio")
 """The numbers that the equations hold.  The phase ``φ`` of the unbalance only turns motions."""

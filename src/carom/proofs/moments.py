@@ -18,11 +18,7 @@ UNIT = arb(0, 1)
 FORM = 5
 """Spans by where in the cell a kick is, those of first and second order; then come those of the parameters of a box of rotors."""
 Wave = tuple[arb | acb, arb | acb, acb]
-
-
 Real = TypeVar("Real", arb, MeanValueForm)
-
-
 Part = TypeVar("Part", covariant=True)
 
 

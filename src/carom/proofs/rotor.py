@@ -24,7 +24,6 @@ from carom.proofs.balls import ball_of, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import LineNumbers
-from carom.proofs.series import Ball
 
 TOO_LARGE = "the product of its multipliers is 1 or more in modulus"
 
@@ -60,7 +59,7 @@ class Invariants(NamedTuple):
         return 1 + self.trace + self.minors + self.determinant
 
     @property
-    def of_pairs(self) -> Ball:
+    def of_pairs(self) -> Any:
         """Product of ``1 − λⱼλₖ`` over the pairs of multipliers: zero at a Neimark–Sacker bifurcation."""
         return 1 - self.minors + self.determinant * (self.trace - self.determinant)
 

@@ -110,8 +110,7 @@ class Pulse(DisturbedStart):
             return _freely(held, held.released, time - self.lasts)
         during = self._during(held, hull(begin, self.lasts.upper()))
         after = _freely(held, held.released, hull(0, (end - self.lasts).upper()))
-        place, rate, bend = map(hull, during, after)
-        return place, rate, bend
+        return hull(during[0], after[0]), hull(during[1], after[1]), hull(during[2], after[2])
 
     def last(self, held: Held) -> Response:
         """``H(T)``."""
