@@ -87,7 +87,7 @@ def test_what_is_withheld_and_the_accuracy_are_told(studied):
     topics = {fact.topic for fact in studied.facts}
     assert {"Not covered", "Accuracy", "Drop", "Critical speeds", "Magnetic bearings"} <= topics
     accuracy = next(fact for fact in studied.facts if fact.topic == "Accuracy")
-    assert accuracy.values["error"] == studied.reduced.error
+    assert accuracy.values["error"] == studied.rotor.finite_elements.error
     document = studied.to_dict()
     assert {"survives", "share", "requirement", "levitating", "reduction", "drop", "full_size"} <= set(document)
     assert len(document["facts"]) == len(studied.facts)

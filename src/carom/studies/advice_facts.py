@@ -37,12 +37,9 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
     yield _fact(", ".join(shown), "Machine")
     kind = recommended.kind
     if kind in _NO_CHANGE:
-        unfinished = kind == "no-change-found" and not all(
-            entry.complete and entry.searched for entry in study.recoveries
-        )
-        yield _fact(
-            f"{_NO_CHANGE[kind]}{', but the search was not finished' if unfinished else ''}", "Change", "sampled"
-        )
+        finished = all(entry.complete and entry.searched for entry in study.recoveries)
+        but = ", but the search was not finished" if kind == "no-change-found" and not finished else ""
+        yield _fact(f"{_NO_CHANGE[kind]}{but}", "Change", "sampled")
     for place, change in enumerate(recommended.changes):
         yield _fact(_change(study, change), CHANGES[min(place, 1)], values=change.document(say))
         for label, text, sure in _details(study, change):

@@ -48,6 +48,10 @@ def _period_of_found(orbit: Orbit | SimulatedOrbit, found: OrbitSet) -> str:
     return f"{Wording(found.rotor.scales).time(orbit.period)}{turns}"
 
 
+def _multipliers(orbit: Orbit | SimulatedOrbit, _: object) -> str:
+    return "   ".join(map(complex_words, orbit.multipliers.values))
+
+
 FOUND_ORBIT = (
     Column("", "orbit", lambda orbit, _: orbit.name),
     Column("", "period", _period_of_found),
@@ -69,11 +73,7 @@ ORBIT = (
 MULTIPLIERS = (
     Column("", "orbit", lambda orbit, _: orbit.name),
     Column("", "largest modulus", lambda orbit, _: f"{orbit.multipliers.spectral_radius:.6g}"),
-    Column(
-        "multipliers=multipliers.values",
-        "multipliers",
-        lambda orbit, _: "   ".join(map(complex_words, orbit.multipliers.values)),
-    ),
+    Column("multipliers=multipliers.values", "multipliers", _multipliers),
 )
 ATTRACTOR = (
     "name outcome=name.outcome.label settled multiplicity=name.multiplicity period whirl count share_of_disturbances "
@@ -211,6 +211,10 @@ def _share(entry: Attractor, found: AttractorSet) -> str:
     return f"{100.0 * entry.share_of_disturbances:.3g} % ({low} to {high})"
 
 
+def _period(entry: Attractor, _: AttractorSet) -> str:
+    return format_quantity(entry.period, "time", entry.scales, 6) if entry.period else "-"
+
+
 def _impacts(entry: Attractor) -> int | None:
     return (entry.orbit.impacts if entry.orbit else entry.name.multiplicity) or None
 
@@ -223,11 +227,7 @@ SEEN = (
     Column("count"),
     Column("known_starts=known"),
     Column("", "impacts", lambda entry, _: str(_impacts(entry) or "-")),
-    Column(
-        "period",
-        "period",
-        lambda entry, _: format_quantity(entry.period, "time", entry.scales, 6) if entry.period else "-",
-    ),
+    Column("period", "period", _period),
     Column("words"),
 )
 
@@ -247,14 +247,19 @@ def _seen(entry: Attractor, total: int) -> dict[str, Any]:
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study, with all its results."""
-    case, rotor, say, scales = study.case, study.rotor, study.wording, study.rotor.scales
+    case, rotor, say, scales, reduced = (
+        study.case,
+        study.rotor,
+        study.wording,
+        study.rotor.scales,
+        study.rotor.finite_elements,
+    )
     return {
         "name": case.name,
         "carom": version("carom"),
         **orbits_document(rotor, study.equilibria, study.orbits, case),
         "scales_si": scales and record(scales, SCALES),
-        "reduction": study.reduced
-        and {**record(study.reduced, "vectors modes error"), "error_is": "an estimate, no bound"},
+        "reduction": reduced and {**record(reduced, "vectors modes error"), "error_is": "an estimate, no bound"},
         "zone_limits": list(case.zones.limits),
         "verdict": record(verdict, "level outcome reason headline"),
         "requirement": study.requirement_document(),

@@ -27,8 +27,6 @@ from carom.studies.verdict import proofs_of, verdict_facts
 from carom.studies.wording import Wording, counted, indentation_of_steel, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
-REDUCTION = "Linear results are of all modes, motions with contact of {vectors} vectors ({modes} modes of the free rotor): half as many more change the force of a first contact by {error} %.{damped}"
-DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
 ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
 BORNE = {
     True: ("{contacts:contact}, {force}, {contact_time} in contact",),
@@ -267,7 +265,7 @@ def drop_facts(study: StudyData) -> Iterator[Fact]:
 
 def accuracy_facts(study: StudyData) -> Iterator[Fact]:
     """What the reduction of a flexible machine leaves out, and how far the linear law of magnets holds."""
-    reduced = study.reduced
+    reduced = study.rotor.finite_elements
     if reduced is not None:
         values = {"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes}
         yield Fact("Accuracy", reduction_words(reduced), values=values)
@@ -281,13 +279,12 @@ def accuracy_facts(study: StudyData) -> Iterator[Fact]:
 
 def reduction_words(reduced: ReducedMachine) -> str:
     """What the reduction of a machine leaves out."""
-    ratio = reduced.damped.damping_ratio
-    return REDUCTION.format(
-        vectors=reduced.vectors,
-        modes=reduced.modes,
-        error=number(100.0 * reduced.error, 2),
-        damped=DAMPED.format(ratio=number(ratio)) if ratio else "",
-    )
+    ratio, error = reduced.damped.damping_ratio, number(100.0 * reduced.error, 2)
+    text = f"Linear results are of all modes, motions with contact of {reduced.vectors} vectors ({reduced.modes} modes of the free rotor): "
+    text += f"half as many more change the force of a first contact by {error} %."
+    if ratio:
+        text += f" The vectors that are no modes have a damping ratio of {number(ratio)}, without which one of them would grow."
+    return text
 
 
 def not_covered(study: StudyData) -> tuple[str, ...]:

@@ -21,15 +21,7 @@ from carom.models import Rotor
 from carom.parameters import Case
 from carom.parameters.fields import RPM
 from carom.parameters.formats import number
-from carom.rotors import (
-    Campbell,
-    FlexibleMachine,
-    Sensitivity,
-    WhirlMode,
-    campbell,
-    find_whirls,
-    sensitivity,
-)
+from carom.rotors import Campbell, FlexibleMachine, Sensitivity, WhirlMode, campbell, find_whirls, sensitivity
 from carom.rotors.collocation import Collocation, collocations
 from carom.rotors.loop_sensitivity import zone_of
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response

@@ -16,7 +16,6 @@ from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, Required
-from carom.rotors import ReducedMachine
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
 from carom.studies.drops import DropStudy
@@ -84,11 +83,6 @@ class StudyData(Result):
     def known(self) -> ExactResults:
         """Exact results of the model."""
         return exact_results(self.rotor)
-
-    @cached_property
-    def reduced(self) -> ReducedMachine | None:
-        """The flexible machine with its vectors; ``None`` of other machines."""
-        return self.rotor.finite_elements
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:
