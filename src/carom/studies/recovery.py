@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -20,6 +19,7 @@ from carom.base.arguments import Count, Positive, Seed, checked
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result
+from carom.base.roots import changes
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Rotor, Span, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
@@ -219,19 +219,10 @@ def _recovering(trial: Trial, span: Span, known: Sequence[Edge]) -> tuple[Span, 
     count = int(np.clip(math.ceil(math.log(high / low) / math.log1p(step)), FEWEST, MOST))
     # Downward: what is lost at one value is likely to be lost at the next.
     values = np.geomspace(high / inset, low * inset, count).tolist()
-    marks = [(value, trial.recovers(value)) for value in values]
-    for (upper, here), (lower, there) in list(pairwise(marks)):
-        while here != there and upper - lower > WIDTH * lower:
-            middle = math.sqrt(upper * lower)
-            back = trial.recovers(middle)
-            marks.append((middle, back))
-            upper, lower = (middle, lower) if back == here else (upper, middle)
-    marks.sort()
-    ends = [span.low] if marks[0][1] else []
-    for (value, here), (after, there) in pairwise(marks):
-        if here != there:
-            beyond, inside = (value, after) if there else (after, value)
-            lost = trial.checks[beyond].example
-            here_lost = Edge(inside, "simulated", motion=lost.motion if lost else None)
-            ends.append(next((edge for edge in known if edge.kind and value <= edge.value <= after), here_lost))
-    return paired([*ends, span.high] if marks[-1][1] else ends)
+    ends = [span.high] if trial.recovers(values[0]) else []
+    for upper, lower in changes(values, trial.recovers, WIDTH):
+        beyond, inside = (lower, upper) if trial.recovers(upper) else (upper, lower)
+        lost = trial.checks[beyond].example
+        here_lost = Edge(inside, "simulated", motion=lost.motion if lost else None)
+        ends.append(next((edge for edge in known if edge.kind and lower <= edge.value <= upper), here_lost))
+    return paired(([*ends, span.low] if trial.recovers(values[-1]) else ends)[::-1])

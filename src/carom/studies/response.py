@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, InputError
+from carom.base.roots import changes
 from carom.closed_forms import contact_changes, find_equilibria, rolling, rub_angles
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
@@ -234,23 +235,9 @@ def _stretches(found: UnbalanceResponse, model: Rotor, along: Axis) -> tuple[Spe
         return stretches_between(found.interval, contact_changes(found.case), steady)
     edges = found.reaching(1.0)
     if found.rubs is not None:
-        edges += _bisected(found.rubs.speeds.tolist(), lambda speed: steady(speed)[1:])
+        pairs = changes(found.rubs.speeds.tolist(), lambda speed: steady(speed)[1:], NARROWED)
+        edges += [0.5 * (low + high) for low, high in pairs]
     return stretches_between(found.interval, edges, steady)
-
-
-def _bisected(speeds: Iterable[float], what: Any) -> list[float]:
-    """Speeds at which something changes, between neighbouring ones at which it differs."""
-    edges, before = [], None
-    for speed in speeds:
-        here = what(speed)
-        if before is not None and before[1] != here:
-            low, high = before[0], speed
-            while high - low > NARROWED * high:
-                middle = 0.5 * (low + high)
-                low, high = (middle, high) if what(middle) == before[1] else (low, middle)
-            edges.append(0.5 * (low + high))
-        before = speed, here
-    return edges
 
 
 def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:
