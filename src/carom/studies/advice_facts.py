@@ -54,13 +54,6 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
     yield _fact(f"{_HOW_SURE}{of_now}.", "How sure")
 
 
-def _place(say: Wording, radius: float) -> str:
-    """Return a radius with the clearance beside it where lengths are known."""
-    if say.scales is None:
-        return f"{number(radius, 3)} of the clearance"
-    return f"a radius of {say.length(radius)} (clearance {say.length(1.0)})"
-
-
 def _change(study: StudyData, change: Change) -> str:
     """The change in the terms of the machine file, what it is in others, and how far beyond it was searched."""
     name, terms = change.parameter, change.terms
@@ -81,7 +74,7 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
     yield "Margin", text, None
     if change.zone == _LAST_ZONE:
         zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: less unbalance is needed too"
-    yield "Then", f"levitates at {_place(say, change.radius)}, {zone}", "closed form"
+    yield "Then", f"levitates at r = {say.radius(change.radius)}, {zone}", "closed form"
     yield "Tried", _tried(study, change), "sampled"
     if change.whirl is not None:
         fast = say.velocity(change.whirl.certain)

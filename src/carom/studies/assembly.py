@@ -190,12 +190,10 @@ class Asked:
     @property
     def needed(self) -> bool | None:
         """Whether a change is needed; ``None`` where too few disturbances could be followed."""
-        endured, present = self.found.get("survives"), self.found.get("present")
-        lost = endured is None or bool(
-            unrecovered_kinds(
-                self.required, endured, present, self.found["attractors"], self.found.get("full_size", ())
-            )
-        )
+        found = self.found
+        endured, present, full_size = found.get("survives"), found.get("present"), found.get("full_size", ())
+        kinds = unrecovered_kinds(self.required, endured, present, found["attractors"], full_size)
+        lost = endured is None or bool(kinds)
         return lost if lost or decides(present) else None
 
     def question(self, words: str) -> AbstractContextManager[Question]:

@@ -145,9 +145,8 @@ def response_curve(
             speeds.append(abs(whirl.exponent.imag) + abs(whirl.exponent.real) * np.linspace(-4.0, 4.0, 41))
 
     def inside(speeds: np.ndarray) -> SynchronousResponse:
-        return synchronous_response(
-            machine, np.unique(speeds[(speeds >= interval[0]) & (speeds <= interval[1])]).tolist()
-        )
+        kept = np.unique(speeds[(speeds >= interval[0]) & (speeds <= interval[1])])
+        return synchronous_response(machine, kept.tolist())
 
     found = inside(np.concatenate(speeds))
     criticals = _criticals(machine, found, operating)

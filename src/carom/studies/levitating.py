@@ -248,9 +248,8 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
     doubtful = [each for each in found.collocations if each.opposed or each.hardly]
     for each in doubtful:
         whirl = each.whirl
-        name = (
-            f"{whirl.sense} whirl of {number(whirl.frequency, 3)} Hz (damping ratio {number(whirl.damping_ratio, 2)})"
-        )
+        often, ratio = number(whirl.frequency, 3), number(whirl.damping_ratio, 2)
+        name = f"{whirl.sense} whirl of {often} Hz (damping ratio {ratio})"
         what = "at its sensors" if abs(each.sensor) <= abs(each.magnet) else "at its actuator"
         text = f"Bearing {each.bearing}: the {name} has a node {what}: the bearing cannot damp it."
         if each.opposed:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -130,8 +131,13 @@ def _contact(response: UnbalanceResponse) -> list[str]:
         ),
         f"Once begun, {STEADY_WORDS['rolling']} lasts {{}}.": lambda it: it.rolls,
     }
-    stretches = {text: [each for each in response.stretches if holds(each.what)] for text, holds in said.items()}
-    found = [text.format(_from_to(where)) for text, where in stretches.items() if where]
+    found = []
+    for text, holds in said.items():
+        parts = groupby(response.stretches, lambda each, holds=holds: bool(holds(each.what)))  # type: ignore[misc]
+        joined = [[*part] for there, part in parts if there]
+        if joined:
+            where = [SpeedStretch(part[0].low, part[-1].high, True) for part in joined]
+            found.append(text.format(_from_to(where)))
     if all(each.what.contact_free for each in response.stretches):
         found.insert(0, "Without a disturbance the rotor touches nowhere in this range.")
     if response.rubs is None:
@@ -142,14 +148,8 @@ def _contact(response: UnbalanceResponse) -> list[str]:
 
 
 def _from_to(stretches: list[SpeedStretch]) -> str:
-    """Ranges of speeds in words, with neighbours joined; empty where there are none."""
-    joined: list[tuple[float, float]] = []
-    for stretch in stretches:
-        if joined and joined[-1][1] == stretch.low:
-            joined[-1] = joined[-1][0], stretch.high
-        else:
-            joined.append((stretch.low, stretch.high))
-    return listed([f"from {rpm(low)} to {rpm(high)}" for low, high in joined]) if joined else ""
+    """Ranges of speeds in words."""
+    return listed([f"from {rpm(each.low)} to {rpm(each.high)}" for each in stretches])
 
 
 @checked

@@ -128,10 +128,8 @@ class StudyData(Result):
     def requirement_document(self) -> dict[str, object]:
         """What must be survived, as plain data for JSON."""
         requirement, scales = self.case.requirement, self.rotor.scales
-        document: dict[str, Any] = {
-            "source": requirement.source,
-            "frame": "fixed",
-            "blade_loss_node": self.required.blade_loss_node,
+        document = record(self, "source=case.requirement.source blade_loss_node=required.blade_loss_node") | {
+            "frame": "fixed"
         }
         stated: dict[str, Any] = {"": self.required, **({"_si": requirement.complete(scales)} if scales else {})}
         for unit, required in stated.items():

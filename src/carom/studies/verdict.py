@@ -276,9 +276,8 @@ def _reservations(study: StudyData) -> str:
     zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
     parts += [f"sensitivity of its loops in zone {max(zones)} (ISO 14839-3)"] if zones else []
     parts += [] if study.levitating.met else ["a critical speed is nearer than API 617 allows"]
-    return "; ".join(
-        [*parts, *(f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits)]
-    )
+    parts += [f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits]
+    return "; ".join(parts)
 
 
 def _lost_words(study: StudyData, kind: Kind, back: Share | None) -> str:

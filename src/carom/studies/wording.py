@@ -145,8 +145,6 @@ class Wording:
     length = partialmethod(write, kind="length")
     time = partialmethod(write, kind="time")
     velocity = partialmethod(write, kind="velocity")
-    acceleration = partialmethod(write, kind="acceleration")
-    unbalance = partialmethod(write, kind="unbalance")
     force = partialmethod(write, kind="force")
     impulse = partialmethod(write, kind="impulse")
     power = partialmethod(write, kind="power")
@@ -204,9 +202,10 @@ class Wording:
         """What a machine must survive: ``kicks of up to 166 mm/s``, and what else."""
         parts, shock = [f"kicks of up to {self.velocity(required.kick)}"], required.shock
         if shock:
-            parts.append(f"shocks of up to {self.acceleration(shock.peak)} over {self.time(shock.duration)}")
+            parts.append(f"shocks of up to {self.write(shock.peak, 'acceleration')} over {self.time(shock.duration)}")
         if required.blade_loss:
-            parts.append(f"the loss of a blade that changes the unbalance by {self.unbalance(required.blade_loss)}")
+            change = self.write(required.blade_loss, "unbalance")
+            parts.append(f"the loss of a blade that changes the unbalance by {change}")
         return parts
 
     def where(self, name: str, spans: tuple[Span, ...], searched: Span | None = None) -> str:
