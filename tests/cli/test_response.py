@@ -47,7 +47,7 @@ def test_text_and_files(carom, machine, tmp_path):
     assert code == 0
     assert "1,337 µm peak to peak" in out
     assert "No levitation is possible from 1,147 rpm to 1,725 rpm" in out
-    assert "virtual: the rotor touches" in out
+    assert "it touches" in out
     assert "add --out" not in out
     assert str(tmp_path / "out") in out
     files = {str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*.*")}

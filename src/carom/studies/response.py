@@ -48,11 +48,7 @@ def _rolls(stretch: SpeedStretch, _: object) -> str:
 STRETCH = (
     Column("", "from", lambda stretch, _: rpm(stretch.low)),
     Column("", "to", lambda stretch, _: rpm(stretch.high)),
-    Column(
-        "",
-        STEADY_WORDS["contact-free"],
-        lambda stretch, _: "possible" if stretch.what.contact_free else "virtual: the rotor touches",
-    ),
+    Column("", STEADY_WORDS["contact-free"], lambda each, _: "possible" if each.what.contact_free else "it touches"),
     Column("", f"{RUB}s", _rubs_of),
     Column("", STEADY_WORDS["rolling"], _rolls),
 )
@@ -100,11 +96,7 @@ def _present(response: UnbalanceResponse) -> str:
 
 def _limit(response: UnbalanceResponse) -> str:
     over = [stretch for stretch in response.exceeds_api_617 if stretch.what]
-    if not over:
-        return "The limit of API 617 is nowhere exceeded in this range."
-    if len(over) == len(response.exceeds_api_617) == 1:
-        return "The limit of API 617 is exceeded at every speed of this range."
-    return f"The limit of API 617 is exceeded {_from_to(over)}."
+    return f"The limit of API 617 is {f'exceeded {_from_to(over)}' if over else 'nowhere exceeded in this range'}."
 
 
 def _saturation(response: UnbalanceResponse) -> str:
@@ -120,24 +112,23 @@ def _saturation(response: UnbalanceResponse) -> str:
 
 def _contact(response: UnbalanceResponse) -> list[str]:
     """Where it touches, and which motions in contact are possible."""
-    said: dict[str, Callable[[Steady], Any]] = {
-        "No levitation is possible {}: the response calculated there is virtual.": lambda it: not it.contact_free,
-        f"In contact, a stable {RUB} can hold the rotor {{}}.": lambda it: not it.contact_free and it.stable_rubs,
-        f"No stable {RUB} exists there {{}}: the rotor bounces or whirls backward.": lambda it: (
-            not it.contact_free and it.stable_rubs == 0
+    said: dict[str, Callable[..., Any]] = {
+        "No levitation is possible {}: the response calculated there is virtual.": lambda free, *_: not free,
+        f"In contact, a stable {RUB} can hold the rotor {{}}.": lambda free, stable, *_: not free and stable,
+        f"No stable {RUB} exists there {{}}: the rotor bounces or whirls backward.": lambda free, stable, *_: (
+            not free and stable == 0
         ),
-        f"Levitation and a stable {RUB} are both possible {{}}: which of them the rotor takes depends on how it came there.": lambda it: (
-            it.contact_free and it.stable_rubs
+        f"Levitation and a stable {RUB} are both possible {{}}: which of them the rotor takes depends on how it came there.": lambda free, stable, *_: (
+            free and stable
         ),
-        f"Once begun, {STEADY_WORDS['rolling']} lasts {{}}.": lambda it: it.rolls,
+        f"Once begun, {STEADY_WORDS['rolling']} lasts {{}}.": lambda *steady: steady[-1],
     }
     found = []
     for text, holds in said.items():
-        parts = groupby(response.stretches, lambda each, holds=holds: bool(holds(each.what)))  # type: ignore[misc]
+        parts = groupby(response.stretches, lambda each, holds=holds: bool(holds(*each.what)))  # type: ignore[misc]
         joined = [[*part] for there, part in parts if there]
         if joined:
-            where = [SpeedStretch(part[0].low, part[-1].high, True) for part in joined]
-            found.append(text.format(_from_to(where)))
+            found.append(text.format(_from_to([each[0]._replace(high=each[-1].high) for each in joined])))
     if all(each.what.contact_free for each in response.stretches):
         found.insert(0, "Without a disturbance the rotor touches nowhere in this range.")
     if response.rubs is None:
