@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from carom.attractors.names import LEVITATION
 from carom.base.outcome import STEADY_WORDS, Outcome
 from carom.base.results import record
-from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
 from carom.motions.magnets import pull_words
@@ -23,7 +22,7 @@ from carom.studies.levitating import bearing_facts, levitation_facts
 from carom.studies.questions import LABELS, UNFINISHED
 from carom.studies.study_data import StudyData
 from carom.studies.summaries import ranges_along
-from carom.studies.verdict import proofs_of, verdict_facts
+from carom.studies.verdict import proven_words, verdict_facts
 from carom.studies.wording import Wording, counted, indentation_of_steel, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
@@ -63,7 +62,8 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     for found in study.recoveries:
         name, *rows = ranges_along(study.wording, found)
         yield Fact("What would change it", f"{name[0]} (this machine: {name[1]}): {'; '.join(map(' '.join, rows))}.")
-    yield from proofs_of(study)
+    if study.proof is not None:
+        yield Fact("Proven", proven_words(study.proof, study.rotor.scales), evidence="proven")
     yield from bearing_facts(study.levitating)
     if study.bearing_demand is not None:
         yield Fact("Magnetic bearings", study.bearing_demand.words, values=study.bearing_demand.document())
@@ -183,7 +183,7 @@ def _disturbances(study: StudyData) -> str:
 
 
 def _backward_whirl(study: StudyData) -> str:
-    say, known = study.wording, exact_results(study.rotor)
+    say, known = study.wording, study.known
     roll, runaway = known.rolls, known.whirl
     if roll is None or runaway is None:
         return _simulated_rolling(study)

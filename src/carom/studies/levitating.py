@@ -245,8 +245,8 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
     elif found.loops:
         shown = listed([f"{_peak(each)}, zone {each.zone}, of bearing {each.bearing}" for each in found.loops])
         yield Fact("Magnetic bearings", f"Largest sensitivity: {shown} ({SENSITIVITY_LIMITS}).", "Sensitivity")
-    doubtful = [each for each in found.collocations if each.opposed or each.hardly]
-    for each in doubtful:
+    texts = []
+    for each in (each for each in found.collocations if each.opposed or each.hardly):
         whirl = each.whirl
         often, ratio = number(whirl.frequency, 3), number(whirl.damping_ratio, 2)
         name = f"{whirl.sense} whirl of {often} Hz (damping ratio {ratio})"
@@ -254,10 +254,10 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
         text = f"Bearing {each.bearing}: the {name} has a node {what}: the bearing cannot damp it."
         if each.opposed:
             text = f"A node of the {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
-        yield Fact("Magnetic bearings", text, "Non-collocation")
-    if found.collocations and not doubtful:
-        text = f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet."
-        yield Fact("Magnetic bearings", text, "Non-collocation")
+        texts.append(text)
+    if found.collocations:
+        texts = texts or [f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet."]
+    yield from (Fact("Magnetic bearings", text, "Non-collocation") for text in texts)
 
 
 def _peak(loop: LoopPeak) -> str:

@@ -331,9 +331,9 @@ def _duration(rotor: Rotor, required: Required) -> float:
     """Duration of the shocks: that required, otherwise the usual one where times are known; else 0."""
     if required.shock:
         return required.shock.duration
-    if rotor.system.why_not_stationary is not None:
+    if rotor.system.why_not_stationary is not None or rotor.scales is None:
         return 0.0
-    usual = SHOCK_DURATION / rotor.scales.time if rotor.scales else 0.0
+    usual = SHOCK_DURATION / rotor.scales.time
     return usual if usual <= LONGEST_SHOCK else 0.0
 
 

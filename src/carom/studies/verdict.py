@@ -82,12 +82,6 @@ def proven_kicks_document(kicks: Any) -> dict[str, object]:
     }
 
 
-def proofs_of(study: StudyData) -> Iterator[Fact]:
-    """What was proven of the motions, if it was asked for; the verdict has what was proven of kicks."""
-    if study.proof is not None:
-        yield Fact("Proven", proven_words(study.proof, study.rotor.scales), evidence="proven")
-
-
 def is_proven(proof: Any, orbit: Orbit) -> bool:
     """Whether what a study says of an orbit is proven: that it is a motion or not, and stable or not."""
     if proof is None:

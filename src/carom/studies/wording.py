@@ -135,11 +135,11 @@ class Wording:
             return counted(value, kind)
         if kind in OTHER_KINDS:
             return OTHER_KINDS[kind](self.scales, value)
-        if not kind or (self.scales is not None and kind in _LEAST):
-            size = value if not kind else value * getattr(self.scales, kind)
-            return number(value) if not kind else _with_prefix(size, UNITS[kind][1], _LEAST[kind])
-        if kind == "force" and self.scales is not None and abs(value) * self.scales.force >= _MANY_NEWTONS:
-            return _with_prefix(value * self.scales.force, "N", least=1.0)
+        if not kind:
+            return number(value)
+        size = 0.0 if self.scales is None else value * getattr(self.scales, kind)
+        if (self.scales is not None and kind in _LEAST) or (kind == "force" and abs(size) >= _MANY_NEWTONS):
+            return _with_prefix(size, UNITS[kind][1], _LEAST.get(kind, 1.0))
         return format_quantity(value, "length" if kind == "unbalance" and self.scales is None else kind, self.scales)
 
     length = partialmethod(write, kind="length")
@@ -245,10 +245,7 @@ def machine_heading(case: Case) -> str:
 
 def _with_prefix(value: float, unit: str, least: float) -> str:
     """Write three digits with the largest prefix that leaves at least ``least``: ``0.668 mm``, not ``668 µm``."""
-    size = abs(value)
-    if size == 0:
-        return f"0 {unit}"
     for factor, prefix in _PREFIXES:
-        if size >= least * factor:
+        if abs(value) >= least * factor:
             return f"{number(value / factor, 3)} {prefix}{unit}"
     return f"{number(value, 3)} {unit}"
