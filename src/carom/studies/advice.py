@@ -29,7 +29,6 @@ from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.wording import Wording
 
 Kind = Literal["change", "no-change-needed", "no-change-found", "not-decided"]
-Bound = Literal["at least", "at most", "about"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
 """Relative distances of the advised damping or stiffness from the end of a range, tried until a check passes."""
@@ -108,7 +107,7 @@ class Change:
     whirl: Runaway | None
 
     @property
-    def bound(self) -> Bound:
+    def bound(self) -> str:
         """Whether nothing was lost farther away from the present value, up to the end of the search."""
         return "about" if _happens(self.far) else "at least" if self.value < self.far.value else "at most"
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, get_args
@@ -26,7 +26,7 @@ from carom.closed_forms.thresholds import Gain
 from carom.disturbances import Disturbance, Plan, Sample
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, axis, case_of, rotor_of
-from carom.motions.budget import Budget, Question
+from carom.motions.budget import Budget
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.parameters import Case, Field, Required, Requirement, read_quantity
 from carom.studies import questions
@@ -163,7 +163,8 @@ def study(
     tell, done, whole = Reporter.of(progress, "study"), 0.0, sum(each.share for each in contributors)
     for each in contributors:
         tell(done / whole, each.words)
-        with asked.question(each.question) if each.question else nullcontext():
+        events = questions.events_for(rotor, each.question) if each.question else 0
+        with asked.budget.question(each.question, events) if each.question else nullcontext():
             asked.found[each.name] = each.find(asked, tell.part(done / whole, (done + each.share) / whole))
         done += each.share
     return Study(case, rotor, unfinished=asked.budget.unfinished, **asked.found)
@@ -195,10 +196,6 @@ class Asked:
         kinds = unrecovered_kinds(self.required, endured, present, found["attractors"], full_size)
         lost = endured is None or bool(kinds)
         return lost if lost or decides(present) else None
-
-    def question(self, words: str) -> AbstractContextManager[Question]:
-        """Ask a question within its events."""
-        return self.budget.question(words, questions.events_for(self.rotor, words))
 
 
 class Contributor(NamedTuple):

@@ -92,11 +92,6 @@ class Levitating(Result):
     sensitivity: Sensitivity | None = None
     collocations: tuple[Collocation, ...] = ()
 
-    @property
-    def met(self) -> bool:
-        """Whether every separation that API 617 requires is kept."""
-        return all(each.separation.met for each in self.criticals)
-
     def document(self) -> dict[str, object]:
         """As plain data for JSON, in SI units; planes and bearings count from 1."""
         known, now = self.campbell, self.at_speed
@@ -129,8 +124,7 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
         response, criticals = response_curve(case, whirls, usual_range(whirls, run), run)
         found = replace(found, response=response, at_speed=synchronous_response(case, [speed]), criticals=criticals)
     if machine is None:
-        loop = _loop_of_mass(case.si)
-        return replace(found, loops=(loop,) if loop else ())
+        return replace(found, loops=_loop_of_mass(case.si))
     seen, speeds = sensitivity(machine) if machine.bearings else None, np.linspace(SLOWEST, FASTEST, FOLLOWED) * speed
     return replace(
         found,
@@ -153,10 +147,10 @@ def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[WhirlMode, ...]:
     return tuple([WhirlMode(complex(each), still, 0.0 * still) for each in slowest if turns(each)][:count])
 
 
-def _loop_of_mass(si: Mapping[str, float]) -> LoopPeak | None:
-    """Largest sensitivity of equal magnetic bearings that hold one mass; ``None`` where their negative stiffness is not stated."""
+def _loop_of_mass(si: Mapping[str, float]) -> tuple[LoopPeak, ...]:
+    """Largest sensitivity of equal magnetic bearings that hold one mass; nothing where their negative stiffness is not stated."""
     if "negative_stiffness" not in si:
-        return None
+        return ()
     mass, damping, stiffness = si["mass"], si["damping"], si["stiffness"]
     pull = si["magnetic_bearings"] * si["negative_stiffness"]
 
@@ -167,7 +161,7 @@ def _loop_of_mass(si: Mapping[str, float]) -> LoopPeak | None:
     below = mass * (2.0 * mass * (stiffness + pull) - damping**2)
     sizes = {square: size(square) for square in ([max(top, 0.0) / below, 0.0] if below > 0.0 else [0.0])}
     square, peak = max({**sizes, math.inf: 1.0}.items(), key=itemgetter(1))
-    return LoopPeak(1, peak, math.sqrt(square), zone_of(peak))
+    return (LoopPeak(1, peak, math.sqrt(square), zone_of(peak)),)
 
 
 def _loops(found: Sensitivity) -> tuple[LoopPeak, ...]:

@@ -180,7 +180,8 @@ def unbalance_response(
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)
     along, present, whirls = axis(case, "speed"), model.scales.speed, whirls_of(model, 4 * WHIRLS)
-    run = (present, present) if operating is None else _read_operating(along, operating)
+    ends = [read_quantity(along.field, end) for end in operating or (present, present)]
+    run = min(ends), max(ends)
     low, high = read_interval(along, interval or usual_range(whirls, run))
     whirl, criticals = response_curve(case, whirls, (low, high), run, (low, high, present, FULL_SPEED))
     exact = exact_results(model).rubs
@@ -229,11 +230,3 @@ def _stretches(found: UnbalanceResponse, model: Rotor, along: Axis) -> tuple[Spe
         pairs = changes(found.rubs.speeds.tolist(), lambda speed: steady(speed)[1:], NARROWED)
         edges += [0.5 * (low + high) for low, high in pairs]
     return stretches_between(found.interval, edges, steady)
-
-
-def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:
-    """Read the operating speeds; both may be the same."""
-    low, high = (read_quantity(along.field, end) for end in given)
-    if low > high:
-        raise InputError("operating", f"{low:g} to {high:g}", "the lowest operating speed, then the highest")
-    return low, high

@@ -269,7 +269,8 @@ def _reservations(study: StudyData) -> str:
         parts = ["proven for these kicks; no guarantee for other disturbances, which are samples"]
     zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
     parts += [f"sensitivity of its loops in zone {max(zones)} (ISO 14839-3)"] if zones else []
-    parts += [] if study.levitating.met else ["a critical speed is nearer than API 617 allows"]
+    near = not all(each.separation.met for each in study.levitating.criticals)
+    parts += ["a critical speed is nearer than API 617 allows"] if near else []
     parts += [f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits]
     return "; ".join(parts)
 
