@@ -74,7 +74,7 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
     yield "Margin", text, None
     if change.zone == _LAST_ZONE:
         zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: less unbalance is needed too"
-    yield "Then", f"levitates at r = {say.radius(change.radius)}, {zone}", "closed form"
+    yield "Then", f"levitates at a radius of {say.length(change.radius)}, {zone}", "closed form"
     yield "Tried", _tried(study, change), "sampled"
     if change.whirl is not None:
         fast = say.velocity(change.whirl.certain)

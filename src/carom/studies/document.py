@@ -247,13 +247,8 @@ def _seen(entry: Attractor, total: int) -> dict[str, Any]:
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study, with all its results."""
-    case, rotor, say, scales, reduced = (
-        study.case,
-        study.rotor,
-        study.wording,
-        study.rotor.scales,
-        study.rotor.finite_elements,
-    )
+    case, rotor, say = study.case, study.rotor, study.wording
+    scales, reduced = rotor.scales, rotor.finite_elements
     return {
         "name": case.name,
         "carom": version("carom"),

@@ -189,9 +189,9 @@ def levitation_facts(found: Levitating) -> Iterator[Fact]:
     if found.response is not None:
         low, high = (rpm(found.response.speeds[end]) for end in (0, -1))
         none = "" if found.criticals else "The response has no peak. "
-        yield Fact("Critical speeds", f"{none}Searched from {low} to {high}.")
-    if found.criticals:
-        yield Fact("Critical speeds", RULE)
+        yield Fact(
+            "Critical speeds", f"{none}Searched from {low} to {high}. {RULE if found.criticals else ''}".rstrip()
+        )
 
 
 def whirl_words(speed: float, whirls: Sequence[WhirlMode], *, dimensionless: bool = False) -> str:
@@ -255,6 +255,5 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
 
 
 def _peak(loop: LoopPeak) -> str:
-    decibels = number(20.0 * math.log10(loop.peak), 3)
     at = f" at {number(loop.hertz, 3)} Hz" if loop.frequency < math.inf else ", at high frequencies"
-    return f"{number(loop.peak, 3)} ({decibels} dB){at}"
+    return f"{number(loop.peak, 3)} ({number(20.0 * math.log10(loop.peak), 3)} dB){at}"

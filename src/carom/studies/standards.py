@@ -43,8 +43,7 @@ ASSUMPTIONS = (
 
 def vibration_limit(speeds: np.ndarray) -> np.ndarray:
     """Largest shaft vibration of API 617 at speeds in rad/s, in m peak to peak."""
-    limit: np.ndarray = LARGEST * np.minimum(1.0, np.sqrt(FULL_SPEED / np.asarray(speeds, float)))
-    return limit
+    return np.asarray(LARGEST * np.minimum(1.0, np.sqrt(FULL_SPEED / np.asarray(speeds, float))))
 
 
 def required_margin(factor: float | None, side: Side) -> float:

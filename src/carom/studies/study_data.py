@@ -128,9 +128,8 @@ class StudyData(Result):
     def requirement_document(self) -> dict[str, object]:
         """What must be survived, as plain data for JSON."""
         requirement, scales = self.case.requirement, self.rotor.scales
-        document = record(self, "source=case.requirement.source blade_loss_node=required.blade_loss_node") | {
-            "frame": "fixed"
-        }
+        document: dict[str, Any] = {"source": requirement.source, "frame": "fixed"}
+        document |= record(self.required, "blade_loss_node")
         stated: dict[str, Any] = {"": self.required, **({"_si": requirement.complete(scales)} if scales else {})}
         for unit, required in stated.items():
             document |= record(required, f"kick{unit}=kick blade_loss{unit}=blade_loss")
