@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import carom
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.whirl import runaway_speed
 from carom.studies import Wording
 from carom.studies.findings import _backward_whirl
@@ -17,8 +18,10 @@ SOURCE = carom.parameters.Parameters(
 
 
 def said_of(parameters: carom.parameters.Parameters) -> str:
+    rotor = carom.models.jeffcott(parameters)
     study = SimpleNamespace(
-        rotor=carom.models.jeffcott(parameters),
+        rotor=rotor,
+        known=exact_results(rotor),
         wording=Wording(parameters.scales),
         case=SimpleNamespace(parameters=parameters),
     )
