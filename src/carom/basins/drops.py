@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 
@@ -300,7 +300,7 @@ class Landing(Measure):
         kicked = isinstance(released.at, Single) and isinstance(released.at.model, VelocityKick)
         if (released.at is None or kicked) and rotor.system.rest_radius >= 1.0:
             return {}
-        scales: Any = rotor.scales
+        scales = cast("Scales", rotor.scales)
         until = None if self.longest is None else self.longest / scales.time
         found = follow_loads(rotor, released, until, settle=True, max_events=self.max_events, progress=False)
         return {"name": MotionName(found.outcome, found.multiplicity)} | _numbers(found, scales)

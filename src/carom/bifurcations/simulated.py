@@ -87,7 +87,7 @@ class SimulatedBranch(Result):
         return self.axis.name
 
     @property
-    def names(self) -> tuple[Any, ...]:
+    def names(self) -> tuple[object, ...]:
         """Name of each orbit."""
         return (self.name,) * len(self)
 

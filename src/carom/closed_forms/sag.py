@@ -54,9 +54,9 @@ class Levitation(Result):
     normal_force: ClassVar[float] = 0.0
 
     rotor: Rotor
-    sag: Any
-    whirl: Any
-    opposite: Any
+    sag: complex | np.ndarray
+    whirl: complex | np.ndarray
+    opposite: complex | np.ndarray
     sags: np.ndarray
     radii: np.ndarray
     eigenvalues: np.ndarray

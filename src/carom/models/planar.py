@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -147,7 +147,7 @@ class Planar(Definition):
     @cached_property
     def equations(self) -> LinearEquations:
         """The same by matrices."""
-        scales: Any = self.scales
+        scales = cast("Scales", self.scales)
         mass, damping, _, stiffness, forcing = self._row
         if not self.levitates:
             damping, stiffness = np.zeros_like(damping), np.zeros_like(stiffness)
@@ -181,7 +181,7 @@ class Planar(Definition):
         centre = self.bearing.centre if self.bearing else 0.0
         if not centre or not self.levitates:
             return ()
-        scales: Any = self.scales
+        scales = cast("Scales", self.scales)
         pull, row = np.zeros(len(self.equations.mass), complex), self._row
         pull[0] = -(row.stiffness[0, 0] / row.mass[0, 0]) * (centre / scales.length)
         return (Force(-1j, pull),)

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -213,7 +213,7 @@ class Rotor(Result):
     def listed_limits(self) -> tuple[Limit, ...]:
         """The limits in units of the equations."""
         if isinstance(self.limits, ControlLimit):
-            scales: Any = self.scales
+            scales = cast("Scales", self.scales)
             return limits_by(self.limits, self.matrices, scales)
         return self.limits
 

@@ -109,7 +109,7 @@ class ContactLog(LogTable):
     @classmethod
     def joined(cls, logs: Sequence[tuple[float, ContactLog]]) -> ContactLog:
         """Logs of several stages or pieces as one, each with the time from which its times count."""
-        columns: dict[str, Any] = {
+        columns: dict[str, np.ndarray] = {
             name: np.concatenate([getattr(log, name) for _, log in logs]) for name in cls.columns
         }
         begins = np.repeat([since for since, _ in logs], [len(log) for _, log in logs])
@@ -233,7 +233,7 @@ def _contacts_in_wall(motion: Trajectory, works: ContactWorks) -> ContactLog:
     )
 
 
-def _states(motion: Trajectory, planes: np.ndarray, before: np.ndarray, after: np.ndarray) -> dict[str, Any]:
+def _states(motion: Trajectory, planes: np.ndarray, before: np.ndarray, after: np.ndarray) -> dict[str, np.ndarray]:
     """Columns of angles and speeds in amplitudes (n, N) before and after contacts at planes (n,)."""
     system, slips = motion.rotor.system, np.zeros((2, len(planes)))
     angle, radial, angular = polar(*system.at_planes(before, planes))

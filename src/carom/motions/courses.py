@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -73,7 +72,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     parts = [part.seen_at(plane) for part in motion.parts]
     followed = [(part, end) for part in parts if (end := min(part.time, until - part.begins)) > 0.0]
     columns = [_sampled(part, end, int(samples * end / until)) for part, end in followed]
-    course: dict[str, Any] = {name: np.concatenate([each[name] for each in columns]) for name in columns[0]}
+    course: dict[str, np.ndarray] = {name: np.concatenate([each[name] for each in columns]) for name in columns[0]}
     impacts = ContactLog.joined([(part.begins, part.contacts) for part in parts])
     return Course(
         **course,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,7 @@ class Chunk(Result):
     number: int
     arrays: dict[str, np.ndarray]
     """One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension."""
-    failures: list[dict[str, Any]]
+    failures: list[dict[str, object]]
     """Of each point that could not be computed its index in the grid, the values of the parameters that vary, and the error, on one line."""
 
 

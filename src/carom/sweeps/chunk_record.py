@@ -7,7 +7,6 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 RECORDS = "records"
 """Directory of the records in a store."""
@@ -25,7 +24,7 @@ class ChunkRecord:
     number: int
     sums: Mapping[str, str]
     """Checksum of each file of the chunk, by the variable's name."""
-    failures: list[dict[str, Any]]
+    failures: list[dict[str, object]]
     """Index in the grid, parameters and error of each failed point."""
 
     @property

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError
@@ -52,7 +52,7 @@ class Tally:
     seconds: float
     read: Callable[[], xarray.Dataset] = field(repr=False, compare=False)
     damaged: tuple[int, ...] = ()
-    failures: list[dict[str, Any]] = field(default_factory=list, repr=False)
+    failures: list[dict[str, object]] = field(default_factory=list, repr=False)
 
     @property
     def dataset(self) -> xarray.Dataset:

@@ -76,7 +76,7 @@ class Rest:
     place: complex
     outward: complex
     translated: np.ndarray
-    moving: Any = 0.0
+    moving: complex | np.ndarray = 0.0
 
     def velocity(self, radial: float, tangential: float) -> complex:
         """Change of velocity by a kick, whose parts are in ``c_r Ω``."""
@@ -120,7 +120,14 @@ def rest_of(rotor: Rotor) -> Rest:
     return _rest(rotor, "rest on the bearing", rest / abs(place), on_wall, on_wall)
 
 
-def _rest(rotor: Rotor, words: str, position: Any, place: complex, outward: complex, moving: Any = 0.0) -> Rest:
+def _rest(
+    rotor: Rotor,
+    words: str,
+    position: complex | np.ndarray,
+    place: complex,
+    outward: complex,
+    moving: complex | np.ndarray = 0.0,
+) -> Rest:
     own, rates = (each if np.size(each) > 1 else complex(np.reshape(each, ())) for each in (position, moving))
     return Rest(words, rotor.system.levitates, own, place, outward, rotor.system.translated, rates)
 
