@@ -6,7 +6,7 @@ import heapq
 import signal
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
@@ -130,7 +130,7 @@ def _each(
 
 
 @contextmanager
-def _processes(workers: int) -> Iterator[Any]:
+def _processes(workers: int) -> Iterator[Executor]:
     """Processes that another program need not be written for, and that leave Ctrl-C to this one."""
     from loky import ProcessPoolExecutor
 

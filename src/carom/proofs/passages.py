@@ -19,7 +19,7 @@ does so first with ``g' ≥ 0``, before the last maximum.  With ``−g'' ≤ C``
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -244,7 +244,7 @@ def _centre_meets(departure: PatchDeparture, time: float) -> tuple[float | None,
     raise LeftOpenError(LONG, departure.weights(time))
 
 
-def _root(function: Any, low: float, high: float) -> float:
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
     """Zero of a function that is negative at one end and positive at the other, by bisection."""
     for _ in range(50):
         middle = 0.5 * (low + high)
@@ -309,7 +309,7 @@ def _first_inside(departure: PatchDeparture, last: float, peak: float, half: flo
     return next((end for end in times if departure.at(arb(end)).height < 1), None)
 
 
-def _curves(departure: PatchDeparture, begin: float, end: float) -> Iterator[Any]:
+def _curves(departure: PatchDeparture, begin: float, end: float) -> Iterator[arb]:
     """Second derivatives of ``g`` on steps that fill an interval."""
     count = max(1, math.ceil((end - begin) / 0.25))
     cuts = [begin + (end - begin) * k / count for k in range(count)] + [end]
