@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 
 import carom
+from carom.base.outcome import InputError
 from carom.cli import main
+from carom.closed_forms.sag import levitation
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAPER = str(EXAMPLES / "source-paper.toml")
@@ -32,12 +34,17 @@ def test_where_levitation_of_a_machine_without_closed_forms_is_lost(capsys, tmp_
     text = (tmp_path / "rigid.toml").read_text()
     (tmp_path / "late.toml").write_text(text.replace("filter_time =", 'delay = "50 us"\nfilter_time ='))
     words = ["bifurcations", str(tmp_path / "late.toml"), "--along", "delay", "--to", "1.5 ms"]
-    assert main([*words, "--from", "10 us"]) == 0
+    assert main([*words, "--from", "10 us", "--out", str(tmp_path)]) == 0
     shown = " ".join(capsys.readouterr().out.split())
-    # With 1.015 ms all eigenvalues are left of the imaginary axis, with 1.017 ms one is right of it.
-    assert "Levitation is lost above about 1.015 ms: a vibration grows." in shown
+    assert "levitation lost levitation above: a vibration grows Levitation is possible at some of the " in shown
+    (point,) = json.loads((tmp_path / "bifurcations-delay.json").read_text())["points"]
+    assert (point["kind"], point["branch"], point["period"]) == ("levitation-lost", "contact-free", None)
+    below, above = (f"delay={point['value'] * factor!r} s" for factor in (1.0 - 1e-9, 1.0 + 1e-9))
+    assert levitation(carom.load(tmp_path / "late.toml", [below])).stable
+    with pytest.raises(InputError, match="levitation = unstable: a forward whirl"):
+        carom.load(tmp_path / "late.toml", [above])
     assert main([*words, "--from", "1.2 ms"]) == 0
-    assert "Levitation is possible at none of the 3 values" in " ".join(capsys.readouterr().out.split())
+    assert "Levitation is possible at none of the 5 values" in " ".join(capsys.readouterr().out.split())
 
 
 def test_table_and_files(capsys, tmp_path):

@@ -1,16 +1,22 @@
 """The search for orbits with any number of impacts: what it finds is right, and what is known it finds."""
 
+import copy
+import math
+
 import numpy as np
 import pytest
 
+import carom as cm
 from carom import State, find_orbits, settle, simulate
 from carom.base.outcome import Outcome, Phase
 from carom.base.progress import Reporter
 from carom.models import rotor_of
 from carom.orbits import Orbit, orbit_of_motion
-from carom.orbits.orbit import same_orbit
+from carom.orbits.closing import close
+from carom.orbits.orbit import all_numbered, same_orbit
 from carom.orbits.search import OrbitSearch
 from carom.orbits.searched import random_starts
+from carom.orbits.simulated_search import periodic_of
 from carom.parameters import Parameters
 from tests.compilation import sized
 from tests.machines import PAPER
@@ -71,6 +77,28 @@ def test_an_orbit_with_lasting_contact_is_found():
     flying = motion.segment_phases[:, 0] == Phase.FLIGHT
     lifts = motion.segment_starts[1:][~flying[:-1] & flying[1:]]
     assert np.diff(lifts)[-5:] == pytest.approx(orbit.period, abs=1e-8)
+
+
+def _on_the_wall(friction, damping=0.05):
+    """One mass on a rigid wall, without unbalance."""
+    end = cm.models.Touchdown([1.0], cm.models.Rigid(0.9), friction=friction, surface_speed=21.0)
+    parts = {"stiffness": [[0.3]], "forcing": [0.0], "touchdowns": [end], "translation": [1.0]}
+    return cm.models.from_matrices(mass=[[1.0]], damping=[[damping]], **parts)
+
+
+@pytest.mark.jit_only
+def test_orbits_that_never_leave_the_wall_are_called_what_they_are():
+    """Rolling at 21 times the shaft, and whirl that slides where friction balances damping: ``μ(w² − k) = γw``."""
+    rolling = periodic_of(simulate(_on_the_wall(0.5), State(0.999, -22j), settle=True))
+    assert (rolling.name, rolling.segments) == ("rolling 1", "rolls throughout")
+    speed = 2.0 + math.sqrt(4.0 + 0.3)
+    sliding = simulate(_on_the_wall(0.25, 1.0), State(1.0, -1j * (speed + 1.0)), 3.0, settle=False)
+    whirl = close(sliding, 0.2, 2.0 * np.pi / (speed + 1.0), None)
+    assert (whirl.name, whirl.segments) == ("whirl 1", "slides forward throughout")
+    assert whirl.period == pytest.approx(2.0 * np.pi / (speed + 1.0), rel=1e-12)
+    names = [str(each.name) for each in all_numbered([rolling, whirl, rolling])]
+    assert sorted(names) == ["rolling 1", "rolling 2", "whirl 1"]
+    assert copy.deepcopy(whirl.name).kind == "whirl"
 
 
 @pytest.mark.jit_only

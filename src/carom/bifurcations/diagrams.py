@@ -19,6 +19,7 @@ from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
     equilibrium_branches,
+    levitation_along,
     rolling_branch,
     steady_points,
 )
@@ -146,7 +147,8 @@ def find_bifurcations(
     Each orbit that does not lie on a known branch is continued in both directions.
 
     Of other machines than the planar rotor in a rigid bearing orbits have no closed form: they are searched at 3 values and followed on the
-    flow of the simulator, and some may be missing.  Rolling, and special points of levitation and rubs, are left out there.
+    flow of the simulator, and some may be missing.  Rolling and special points of rubs are left out there; where levitation is lost is
+    a point of kind ``"levitation-lost"``, found between the values of ``equilibria[0]``.
 
     Parameters
     ----------
@@ -186,17 +188,12 @@ def find_bifurcations(
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     orbits, several, search = _branches(model, along, limits, tell, impacts, virtual=virtual)
-    return Diagram(
-        model=model,
-        axis=along,
-        interval=limits,
-        equilibria=equilibrium_branches(model, along, limits),
-        rolling=rolling_branch(model, along, limits),
-        orbits=orbits,
-        several=several,
-        search=search,
-        points=_points(model, along, limits, [*orbits, *several]),
-    )
+    equilibria, rolling = equilibrium_branches(model, along, limits), rolling_branch(model, along, limits)
+    points = _points(model, along, limits, [*orbits, *several])
+    if not model.has_closed_forms:
+        held, lost = levitation_along(model, along, limits)
+        equilibria, points = (held, *equilibria[1:]), sorted([*points, *lost], key=lambda point: point.value)
+    return Diagram(model, along, limits, equilibria, rolling, orbits, several, search, tuple(points))
 
 
 def special_points(
@@ -205,14 +202,14 @@ def special_points(
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter; what a search of simulated motions may take is limited."""
     along = axis(model, parameter)
     orbits, several, _ = _branches(model, along, interval, Reporter(), budget=budget, virtual=virtual)
-    return _points(model, along, interval, [*orbits, *several])
+    return tuple(_points(model, along, interval, [*orbits, *several]))
 
 
-def _points(model: Rotor, along: Axis, limits: tuple[float, float], branches: Sequence[Any]) -> tuple[Bifurcation, ...]:
+def _points(model: Rotor, along: Axis, limits: tuple[float, float], branches: Sequence[Any]) -> list[Bifurcation]:
     """Special points of all motions; where a branch ends by halving its period, in a doubling of another, it is one point."""
     points = steady_points(model.parameters, along, limits) if model.has_closed_forms else []
     points += [point for branch in branches for point in branch.special if point.kind != HALVING]
-    return tuple(sorted(points, key=lambda point: point.value))
+    return sorted(points, key=lambda point: point.value)
 
 
 def _branches(

@@ -25,7 +25,7 @@ HALVING = "period-halving"
 """Where both halves of a period become equal: the orbit is one of half the period there, at its period doubling."""
 HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
 """Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
-ONSET = "contact-onset"
+ONSET, LOST = "contact-onset", "levitation-lost"
 STEADY: dict[str, MotionKind] = {WALL: "contact-free", FOLD: "rub", ROLLING: "rolling"}
 """Special points of steady motions, and the motion of each."""
 
@@ -45,10 +45,10 @@ class Bifurcation(Result):
         ``"contact-change"`` (something else that happens in a period begins or ceases to), ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the
         period), or ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
         Of steady motions: ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl
-        begins or ceases to hold at every angle).
+        begins or ceases to hold at every angle); of machines without closed forms ``"levitation-lost"``.
     numbers : Numbers or None
         Parameters there, if the closed form gives it; with negative ``mu`` for orbits with backward slip.  ``None`` where
-        ``shot`` holds the orbit and its rotor.
+        ``shot`` holds the orbit and its rotor.  Where levitation is lost, the rotor.
     period, radial_speed : float
         Those of the orbit, in ``1/Ω`` and ``c_r Ω``; ``nan`` for steady motions.
     name : str
@@ -62,7 +62,7 @@ class Bifurcation(Result):
         Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one.
     detail : str
         For a boundary equilibrium ``"persistence"`` (levitation turns into a rub) or ``"non-smooth fold"``
-        (levitation and an unstable rub vanish together).
+        (levitation and an unstable rub vanish together); where levitation is lost, on which side of the value, and why.
     place : float
         Position on the branch: index of the point before it plus the fraction of the step; ``nan`` without a branch.
     shot : Orbit or None
@@ -98,7 +98,7 @@ class Bifurcation(Result):
     def line_of(self, name: str, value: object) -> str:
         """The value is stated in the unit of the parameter."""
         if name == "value" and self.parameter and isinstance(value, float):
-            known = self.shot.rotor.varied if self.shot is not None else {}
+            known = getattr(self.at, "varied", {})
             return format_entry(known.get(self.parameter, self.parameter), value, 6)
         return super().line_of(name, value)
 
@@ -143,7 +143,7 @@ class Bifurcation(Result):
         """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
         if self.shot is not None and not self.shot.flies:
             return "rubbing"
-        return STEADY.get(self.kind, "orbit")
+        return "contact-free" if self.kind == LOST else STEADY.get(self.kind, "orbit")
 
     @cached_property
     def orbit(self) -> Orbit:

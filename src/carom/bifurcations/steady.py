@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
 from carom.base.results import Result
 from carom.base.roots import bracketed_root
 from carom.bifurcations.conditions import TESTS
-from carom.bifurcations.points import STEADY, Bifurcation
+from carom.bifurcations.points import LOST, STEADY, Bifurcation
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.sag import levitation
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
@@ -18,12 +21,16 @@ from carom.closed_forms.whirl import rolling
 from carom.models import Axis, Rotor
 from carom.parameters import Numbers, Parameters
 
-SAMPLES, FEWER, FEWEST = 201, 21, 3
+SAMPLES, FEWER, FEWEST = 201, 21, 5
 """Values of the parameter; the others for rotors of several coordinates, and of many, whose equations take seconds to set up."""
 FEW = 4
 """Coordinates up to which they are several."""
-HALVINGS = 10
-"""Halvings of the step between two of these values, for the value at which levitation is lost."""
+PEAKS = 12
+"""Values between three of these at which the worst of levitation is looked for."""
+CLOSE = 1e-9
+"""Width at which the search for its loss ends, relative to the step."""
+WHY = ("a vibration grows", "it reaches the wall", "magnetic bearings would exceed a limit")
+"""Why it is lost."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -94,9 +101,8 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
 
 def _count(model: Rotor) -> int:
     """Number of values at which levitation and rubs are computed."""
-    if model.planar is not None:
-        return SAMPLES
-    return FEWER if len(model.system.rest) <= FEW else FEWEST
+    of_several = FEWER if len(model.system.rest) <= FEW else FEWEST
+    return SAMPLES if model.planar is not None else of_several
 
 
 def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
@@ -110,11 +116,8 @@ def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
         rotor = along.move(model, value)
-        if rotor.system.forced is not None or rotor.system.races is not None:
-            held = levitation(rotor)
-            table[0, column] = held.reach, 0.0, held.inside, held.stable
-            continue
-        found = find_equilibria(rotor)
+        moving = rotor.system.forced is not None or rotor.system.races is not None
+        found = [] if moving else find_equilibria(rotor)
         for equilibrium in sorted(found, key=lambda at: (at.status == "admissible", at.normal_force)):
             real = equilibrium.status == "admissible"
             attracts = equilibrium.stable if real else equilibrium.eigenvalues.real.max() < 0.0
@@ -126,36 +129,38 @@ def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float
     )
 
 
-def levitation_words(model: Rotor, along: Axis, branch: EquilibriumBranch) -> list[str]:
-    """Where a machine without closed forms levitates, one line for each value at which that changes; ``branch`` is its levitation."""
-    good = branch.admissible & branch.stable
-    changes = np.flatnonzero(good[:-1] != good[1:])
-    if not len(changes):
-        where = "stable and clear of the wall at all" if good[0] else "possible at none"
-        return [f"Levitation is {where} of the {len(good)} values looked at."]
-    values = branch.values.tolist()
-    return [_lost(model, along, values[at], values[at + 1], bool(good[at])) for at in changes.tolist()]
+def levitation_along(
+    model: Rotor, along: Axis, interval: tuple[float, float]
+) -> tuple[EquilibriumBranch, list[Bifurcation]]:
+    """Levitation of a machine without closed forms, and where it is lost.
 
+    It is looked at on a grid, where between three values of it small vibrations decay least or the rotor comes nearest to the wall, and in the
+    bisection of each step over which it is lost.
+    """
+    seen: dict[float, np.ndarray] = {}
 
-def _lost(model: Rotor, along: Axis, low: float, high: float, below: bool) -> str:
-    """Say between which values, and why, levitation is lost; ``below``: it is possible at the lower one."""
-    inner, outer = (low, high) if below else (high, low)
-    fails = levitation(along.move(model, outer))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (inner + outer)
-        held = levitation(along.move(model, middle))
-        if held.inside and held.stable:
-            inner = middle
-        else:
-            outer, fails = middle, held
-    unstable = fails.eigenvalues.real.max() >= 0.0
-    why = (
-        "a vibration grows"
-        if unstable
-        else "limits of the magnetic bearings"
-        if fails.inside
-        else "it reaches the wall"
-    )
-    field = along.field
-    shown = f"{field.in_usual_unit(inner):.4g} {field.usual_unit}".rstrip()
-    return f"Levitation is lost {'above' if below else 'below'} about {shown}: {why}."
+    def margins(value: float) -> np.ndarray:
+        """It is lost where any of these is not below zero."""
+        held = levitation(along.move(model, value))
+        growth = float(held.eigenvalues.real.max())
+        seen[value] = np.array([growth, held.reach - 1.0, 1.0 if growth < 0.0 and not held.stable else -1.0])
+        return seen[value]
+
+    grid = np.linspace(*interval, _count(model)).tolist()
+    found = np.array([margins(value) for value in grid])
+    peaks = (found[1:-1] >= np.maximum(found[:-2], found[2:])) & (found[1:-1].max(axis=1) < 0.0)[:, None]
+    for place, which in np.argwhere(peaks[:, :2]).tolist():
+        decay = partial(lambda which, value: -margins(float(value))[which], which)
+        minimize_scalar(decay, bounds=(grid[place], grid[place + 2]), options={"maxiter": PEAKS})
+    for low, high in pairwise(sorted(seen)):
+        if (seen[low].max() < 0.0) != (seen[high].max() < 0.0):
+            bracketed_root(lambda value: float(margins(value).max()), low, high, CLOSE * (high - low))
+    values, rows = np.array(sorted(seen)), np.array([seen[value] for value in sorted(seen)])
+    lost, points = rows.max(axis=1) >= 0.0, []
+    for place in np.flatnonzero(lost[:-1] != lost[1:]).tolist():
+        at = place + int(lost[place + 1])
+        detail, value = f"{'below' if lost[place] else 'above'}: {WHY[rows[at].argmax()]}", float(values[at])
+        there = along.move(model, value)
+        points.append(Bifurcation(LOST, there, name="contact-free", parameter=along.name, value=value, detail=detail))
+    inside, stable = rows[:, 1] < 0.0, rows[:, ::2].max(axis=1) < 0.0
+    return EquilibriumBranch("contact-free", values, 1.0 + rows[:, 1], np.zeros(len(rows)), inside, stable), points

@@ -65,7 +65,6 @@ def _shown(varied: Axis, value: float) -> str:
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.bifurcations.documents import POINT
-    from carom.bifurcations.steady import levitation_words
     from carom.cli.fitting import print_table
     from carom.parameters.columns import table_of
 
@@ -78,10 +77,11 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         styles = ["" if point.admissible else "dim" for point in diagram.points]
         print_table(screen, "", *table_of(POINT, diagram.points, diagram), styles=styles)
     else:
-        screen.print("No bifurcation on this range." if exact else "No bifurcation of orbits was found on this range.")
+        screen.print("No bifurcation on this range." if exact else "No bifurcation was found on this range.")
     if not exact:
-        for line in levitation_words(diagram.model, diagram.axis, diagram.equilibria[0]):
-            screen.print(line)
+        levitates = diagram.equilibria[0].admissible & diagram.equilibria[0].stable
+        share = "all" if levitates.all() else "some" if levitates.any() else "none"
+        screen.print(f"Levitation is possible at {share} of the {len(levitates)} values looked at.")
     for branch in diagram.orbits:
         screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
     for several in diagram.several:

@@ -10,7 +10,7 @@ from carom.base.outcome import Phase
 from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import Flow, FlowBudget, krylov, repeats_after
 from carom.orbits.happenings import happenings
-from carom.orbits.names import CountedName, RubbingName
+from carom.orbits.names import CountedName
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.stability import Multipliers
 
@@ -178,9 +178,20 @@ def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None)
     values, complete = _multipliers(flow, vector, motion, free=repeats is None)
     if values is None:
         return None
-    name = CountedName(contacts_begun, 1) if contacts_begun else RubbingName(0, 1)
+    name = CountedName(contacts_begun, 1, "" if contacts_begun else _in_contact(motion))
     state = flow.state(vector)
     return SimulatedOrbit(flow.rotor, name, state, period, Multipliers(values), complete, repeats, flow.rests)
+
+
+def _in_contact(motion: Trajectory) -> str:
+    """Kind of a name: what a plane that never leaves the wall does, if that is backward in the fixed frame all the time."""
+    phases = motion.segment_phases[np.diff(motion.segment_starts, append=motion.time) > 0.0]
+    plane = int(np.argmax(phases[0] != Phase.FLIGHT))
+    place, moving = motion.rotor.system.at_plane(motion.segment_amplitudes, plane)
+    backward = (place.conj() * moving).imag < -(np.abs(place) ** 2)
+    if not (phases == phases[0]).all() or not backward.all():
+        return "rubbing"
+    return "rolling" if phases[0, plane] == Phase.ROLLING else "whirl"
 
 
 def _touches(motion: Trajectory) -> bool:

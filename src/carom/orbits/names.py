@@ -91,25 +91,21 @@ class CountedName(Name):
     impacts : int
         Impacts per period, without those of a chatter.
     number : int
-        Number of the orbit among those of its search, by their periods, from 1.
+        Number of the orbit among those of its search and its kind, by their periods, from 1.
+    kind : str
+        Without impacts: ``"rolling"`` or, sliding, ``"whirl"``, if it goes round backward in contact all the time, otherwise ``"rubbing"``;
+        the name is ``"rolling 1"`` then.
     """
 
     impacts: int
     number: int
+    kind: str = ""
 
-    def __new__(cls, impacts: int, number: int) -> CountedName:
+    def __new__(cls, impacts: int, number: int, kind: str = "") -> CountedName:
         """Make the text from the parts."""
-        return super().__new__(cls, f"P{impacts},{number}")
+        return super().__new__(cls, f"{kind} {number}" if kind else f"P{impacts},{number}")
 
     @property
     def words(self) -> str:
         """What people call the motion: ``regular bouncing``, or with how many impacts it repeats."""
         return REGULAR_BOUNCING if self.impacts == 1 else f"bouncing with {self.impacts} impacts a period"
-
-
-class RubbingName(CountedName):
-    """Name of an orbit with lasting contact among those of its search, such as ``"rubbing 1"``."""
-
-    def __new__(cls, impacts: int, number: int) -> RubbingName:
-        """Make the text from the parts."""
-        return str.__new__(cls, f"rubbing {number}")

@@ -22,7 +22,7 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.admissibility import departure, why_virtual
 from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.maps import Section
-from carom.orbits.names import CountedName, OrbitName, RubbingName
+from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, ShootingStart, converged, links_of
 from carom.orbits.simulated import SimulatedOrbit, same_simulated
 from carom.orbits.stability import Multipliers, multipliers_of
@@ -342,15 +342,14 @@ def same_orbit(first: Orbit | SimulatedOrbit, second: Orbit | SimulatedOrbit) ->
 
 
 def numbered(orbit: Found, number: int) -> Found:
-    """The same orbit with its number among those found with as many impacts."""
-    made = CountedName if orbit.impacts else RubbingName
-    return replace(orbit, name=made(orbit.impacts, number))
+    """The same orbit with its number among those of its kind."""
+    return replace(orbit, name=replace(orbit.name, number=number))
 
 
 def all_numbered(orbits: Iterable[Found]) -> list[Found]:
     """Orbits in the order of lists, those with few impacts and a short period first, each with its number."""
-    counts, named = Counter[int](), list[Found]()
+    counts, named = Counter[str](), list[Found]()
     for orbit in sorted(orbits, key=lambda each: (each.impacts, each.period)):
-        counts[orbit.impacts] += 1
-        named.append(numbered(orbit, counts[orbit.impacts]))
+        counts[kind := str(numbered(orbit, 0).name)] += 1
+        named.append(numbered(orbit, counts[kind]))
     return named

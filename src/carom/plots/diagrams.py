@@ -38,6 +38,7 @@ POINTS = MappingProxyType(
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
         "boundary-equilibrium": Look("#009e73", f"{STEADY_WORDS['contact-free']} meets the wall", marker="p"),
+        "levitation-lost": Look("#cc79a7", f"{STEADY_WORDS['contact-free']} is lost", marker="4"),
         "rub-fold": Look(OUTCOMES["forward-rub"].colour, f"fold of {STEADY_WORDS['rub']}s", marker="X"),
         "contact-onset": Look(OUTCOMES["backward-whirl"].colour, "lasting contact begins", marker="^"),
         "rolling-limit": Look(OUTCOMES["rolling"].colour, "rolling no longer holds", marker="d"),
