@@ -21,7 +21,7 @@ LIMITS = {
     "motions disturbances": 3460,
     "orbits bifurcations closed_forms continuation": 6540,
     "basins attractors": 2245,
-    "studies": 3300,
+    "studies": 3299,
     "cli plots report": 5505,
     "rotors": 3260,
     "proofs": 6045,

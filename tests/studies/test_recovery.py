@@ -112,7 +112,7 @@ def test_what_is_required_decides_not_whether_a_rub_could_hold_the_rotor():
     small = [Sample(VelocityKick(0.5 * contact_free_kick(rotor)), 60)]
     found = find_recovery(rotor, "gamma", small, factor=2.0)
     assert found.range_of("rub").exists_at(SOURCE.gamma)
-    assert found.holds_present
+    assert found.span_at(SOURCE.gamma) is not None
     # No farther than the damping may be changed.
     (searched,) = found.searched
     assert searched.high.value == pytest.approx(2.0 * SOURCE.gamma)

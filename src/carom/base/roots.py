@@ -1,10 +1,9 @@
-"""Root of a function of one argument between two values of opposite sign, the search for such values, and where something changes."""
+"""Root of a function of one argument between two values of opposite sign, and the search for such values."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 
 import numpy as np
 
@@ -92,17 +91,6 @@ def narrowed(function: Callable[[float], float], places: Sequence[float]) -> tup
             break
         first, last = (middle, last) if sign == ends[0] else (first, middle)
     return places[first], places[last]
-
-
-def changes(places: Sequence[float], what: Callable[[float], object], width: float) -> list[tuple[float, float]]:
-    """Neighbours, at most a relative width apart, between which something changes that differs between neighbouring places, all above zero."""
-    values, found = list(map(what, places)), []
-    for (first, before), (last, after) in pairwise(zip(places, values, strict=True)):
-        while before != after and abs(last - first) > width * min(first, last):
-            middle = math.sqrt(first * last)
-            first, last = (middle, last) if what(middle) == before else (first, middle)
-        found += [(first, last)] if before != after else []
-    return found
 
 
 def _sign(value: float) -> float | None:

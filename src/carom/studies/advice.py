@@ -168,7 +168,8 @@ def recommend(
         margins = [_nearest(recovery) for recovery in recoveries]
         return Recommendation("no-change-needed", (), tuple(margin for margin in margins if margin))
     # Where the samples see no loss at the present value, they cannot say at which others there is none.
-    advisers = [_Adviser(case, tuple(disturbances), each) for each in recoveries if not each.holds_present]
+    lossy = [each for each in recoveries if each.span_at(each.along.value(each.rotor)) is None]
+    advisers = [_Adviser(case, tuple(disturbances), each) for each in lossy]
     found: list[Change] = []
     with suppress(BudgetSpentError):
         found.extend(change for adviser in advisers if (change := adviser.least()))  # what is found before stays

@@ -166,9 +166,8 @@ def _criticals(machine: Subject, found: SynchronousResponse, operating: tuple[fl
         inner = (sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:])
         for place in (np.flatnonzero(inner) + 1).tolist():
             low, middle, high = found.speeds[place - 1 : place + 2].tolist()
-            options = {"xatol": REFINED * middle}
             near = minimize_scalar(
-                lambda at, size=size: -size(at), bounds=(low, high), method="bounded", options=options
+                lambda at, size=size: -size(at), bounds=(low, high), options={"xatol": REFINED * middle}
             )
             peak = max(middle, float(near.x), key=size)
             half = _half_power(found.speeds, sizes, place, peak, size)

@@ -71,8 +71,7 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     yield from drop_facts(study)
     yield from accuracy_facts(study)
     yield from unfinished_facts(study)
-    for text in not_covered(study):
-        yield Fact("Not covered", text)
+    yield from (Fact("Not covered", text) for text in not_covered(study))
 
 
 def unfinished_facts(study: StudyData) -> Iterator[Fact]:
@@ -259,16 +258,14 @@ def drop_facts(study: StudyData) -> Iterator[Fact]:
         yield Fact("Drop", NO_DROP if study.levitates else "It does not levitate, so there is no drop.")
         return
     yield Fact("Drop", f"{drop.echo.words}. {drop.headline}")
-    for check in drop.checks:
-        yield Fact("Drop", f"{check.words}.")
+    yield from (Fact("Drop", f"{check.words}.") for check in drop.checks)
 
 
 def accuracy_facts(study: StudyData) -> Iterator[Fact]:
     """What the reduction of a flexible machine leaves out, and how far the linear law of magnets holds."""
     reduced = study.rotor.finite_elements
     if reduced is not None:
-        values = {"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes}
-        yield Fact("Accuracy", reduction_words(reduced), values=values)
+        yield Fact("Accuracy", reduction_words(reduced), values=record(reduced, "error vectors modes"))
     along = [(LABELS[each.kind], found) for each in study.full_size for found in (each.magnets, each.reduction)]
     if study.drop is not None:
         along.append(("Drop", study.drop.reduction))

@@ -9,8 +9,9 @@ is evidence, not proof: each value has a number of disturbances tried, and the e
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -19,7 +20,6 @@ from carom.base.arguments import Count, Positive, Seed, checked
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result
-from carom.base.roots import changes
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Rotor, Span, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
@@ -87,11 +87,6 @@ class Recovery(Result):
     def clear(self) -> tuple[Check, ...]:
         """The values at which nothing was lost."""
         return tuple(check for check in self.checks if check.recovers)
-
-    @property
-    def holds_present(self) -> bool:
-        """Whether every disturbance came back around the present value."""
-        return self.span_at(self.along.value(self.rotor)) is not None
 
     @checked
     def span_at(self, value: float) -> Span | None:
@@ -209,6 +204,17 @@ def _searched(
         reach = Span(*map(Edge, ends))
         edges += reach
     return spans_where(edges, lambda value: levitation.exists_at(value) and value in reach)
+
+
+def changes(places: Sequence[float], what: Callable[[float], object], width: float) -> list[tuple[float, float]]:
+    """Neighbours, at most a relative width apart, between which something changes that differs between neighbouring places, all above zero."""
+    values, found = list(map(what, places)), []
+    for (first, before), (last, after) in pairwise(zip(places, values, strict=True)):
+        while before != after and abs(last - first) > width * min(first, last):
+            middle = math.sqrt(first * last)
+            first, last = (middle, last) if what(middle) == before else (first, middle)
+        found += [(first, last)] if before != after else []
+    return found
 
 
 def _recovering(trial: Trial, span: Span, known: Sequence[Edge]) -> tuple[Span, ...]:

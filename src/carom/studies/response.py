@@ -12,7 +12,6 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, InputError
-from carom.base.roots import changes
 from carom.closed_forms import contact_changes, find_equilibria, rolling, rub_angles
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
@@ -22,6 +21,7 @@ from carom.parameters.columns import Column
 from carom.parameters.formats import number
 from carom.studies.critical_speeds import response_curve, usual_range
 from carom.studies.levitating import WHIRLS, whirls_of
+from carom.studies.recovery import changes
 from carom.studies.response_data import Rubs, SpeedStretch, Steady, UnbalanceResponse, stretches_between
 from carom.studies.standards import FULL_SPEED, vibration_limit
 from carom.studies.wording import listed, micrometres, rpm
@@ -74,9 +74,8 @@ def sentences(response: UnbalanceResponse) -> tuple[str, ...]:
 
 
 def _present(response: UnbalanceResponse) -> str:
-    speed, now = response.present, response.now
+    speed, now, worst = response.present, response.now, response.worst
     sizes, allowed = now.touchdowns.major[0], float(vibration_limit(np.array(speed)))
-    worst = response.worst
     width, several = 2.0 * float(sizes[worst]), len(sizes) > 1
     where = f" at touchdown bearing {worst + 1}" if several else ""
     sagging = f" beside a sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
@@ -184,8 +183,7 @@ def unbalance_response(
     run = min(ends), max(ends)
     low, high = read_interval(along, interval or usual_range(whirls, run))
     whirl, criticals = response_curve(case, whirls, (low, high), run, (low, high, present, FULL_SPEED))
-    exact = exact_results(model).rubs
-    found = UnbalanceResponse(case, whirl, (low, high), run, criticals, exact)
+    found = UnbalanceResponse(case, whirl, (low, high), run, criticals, exact_results(model).rubs)
     found = replace(found, rubs=_rubs(found, model, along))
     found = replace(found, stretches=_stretches(found, model, along))
     return replace(found, words=sentences(found))

@@ -139,8 +139,7 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
     """What must be survived, what of each kind is survived, shares, and what else may hold the rotor."""
     yield _fact(_required_words(study), "Must survive", values=study.requirement_document())
     if study.survives is not None:
-        for name, values in study.survives.document().items():
-            entry: SmallestUnrecovered = getattr(study.survives, name)
+        for (name, entry), values in zip(study.survives.items(), study.survives.document().values(), strict=True):
             yield _fact(_survived(study, name, entry), LABELS[name], None, values)
     if study.share is not None and study.share.total:
         words, values = f"{study.share.words}, weighted by area", study.share.document()
