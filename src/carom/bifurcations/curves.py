@@ -113,12 +113,12 @@ class ClosedFormCurve(CurveEquations):
 
     def __init__(self, point: Bifurcation, plane: Plane, _: FlowBudget | None = None) -> None:
         self.kind, self.base, self.plane = point.kind, point.numbers, plane
+        if self.kind not in KINDS:
+            raise InputError("kind", self.kind, f"one of: {', '.join(KINDS)}")
         if self.base.mu < 0.0:
             raise InputError("bifurcation", f"{self.kind} of {point.name}", "one of an orbit with forward slip")
         plane.axes(self.base.parameters)
         plane.start_at(self.base)
-        if self.kind not in KINDS:
-            raise InputError("kind", self.kind, f"one of: {', '.join(KINDS)}")
         self.guess, self.watches = [], [self._watch(name) for name in KINDS[self.kind]]
         if self.kind in STEADY:
             return
