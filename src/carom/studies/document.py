@@ -113,7 +113,7 @@ def found_orbits_document(found: OrbitSet) -> dict[str, Any]:
     }
 
 
-def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
+def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, object]:
     """With what happens in a period, and the largest radius, depth and force at any touchdown bearing."""
     return {
         **_orbit(orbit),
@@ -132,13 +132,13 @@ def _found_orbit(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
     }
 
 
-def _turns(orbit: Orbit | SimulatedOrbit | None) -> dict[str, Any]:
+def _turns(orbit: Orbit | SimulatedOrbit | None) -> dict[str, object]:
     return {} if orbit is None or orbit.turns is None else {"turns": orbit.turns}
 
 
 def attractors_document(
     rotor: Rotor, found: AttractorSet, exponents: Sequence[LyapunovExponents | None] | None = None
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Return the document of attractors, with the Lyapunov exponents of each member of ``found`` where they are given."""
     total, share = len(found.disturbances), share_of_kicks(found)
     entries = [_seen(entry, total) for entry in found]
@@ -232,7 +232,7 @@ SEEN = (
 )
 
 
-def _seen(entry: Attractor, total: int) -> dict[str, Any]:
+def _seen(entry: Attractor, total: int) -> dict[str, object]:
     orbit, lasts = entry.orbit, entry.survival
     return {
         **record(entry, keys_of(SEEN)),
@@ -245,7 +245,7 @@ def _seen(entry: Attractor, total: int) -> dict[str, Any]:
     }
 
 
-def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
+def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, object]:
     """Return the document of a study, with all its results."""
     case, rotor, say = study.case, study.rotor, study.wording
     scales, reduced = rotor.scales, rotor.finite_elements
@@ -275,20 +275,20 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
     }
 
 
-def _equilibrium(entry: SteadyMotion, rotor: Rotor) -> dict[str, Any]:
+def _equilibrium(entry: SteadyMotion, rotor: Rotor) -> dict[str, object]:
     columns = "kind U=position radius: normal_force: status stable eigenvalues"
     document = record(entry, f"{columns} sag whirl" if isinstance(entry, Levitation) else columns, rotor.scales)
     return document | _wall(rotor, force=entry.normal_force) if entry.kind == "rub" else document
 
 
-def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
+def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, object]:
     document, own = record(entry, keys_of((*ORBIT, *MULTIPLIERS)), entry.scales), entry.scales
     if own is not None:
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
     return document | _wall(entry.rotor, impulse=entry.impulse)
 
 
-def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
+def _recovery(entry: Recovery, say: Wording) -> dict[str, object]:
     return {
         **record(entry, "parameter=along.name searched spans complete"),
         "ends": [[edge.motion or edge.kind for edge in span] for span in entry.spans],
@@ -296,7 +296,7 @@ def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
     }
 
 
-def _check(check: Check) -> dict[str, Any]:
+def _check(check: Check) -> dict[str, object]:
     lost = check.example
     return {
         **record(check, "value tried asked"),
@@ -306,12 +306,12 @@ def _check(check: Check) -> dict[str, Any]:
     }
 
 
-def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, Any]:
+def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, object]:
     document = record(entry, ATTRACTOR, rotor.scales) | document_of(entry.survival)
     return document | _wall(rotor, entry.largest_impulse, entry.largest_force)
 
 
-def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, Any]:
+def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, object]:
     hardest, touched = hardest_impulse(found), touching(found)
     return {
         "seed": getattr(found.sample, "seed", None),
@@ -332,13 +332,13 @@ def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, Any]:
     }
 
 
-def _wall(rotor: Rotor, impulse: float = 0.0, force: float = 0.0) -> dict[str, Any]:
+def _wall(rotor: Rotor, impulse: float = 0.0, force: float = 0.0) -> dict[str, object]:
     """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid; nothing if unknown."""
     indentation = indentation_of_steel(rotor, impulse, force)
     return {} if math.isnan(indentation) else {"indentation": indentation, "rigid_wall": not is_compliant(indentation)}
 
 
-def _rolling(study: StudyData) -> dict[str, Any] | None:
+def _rolling(study: StudyData) -> dict[str, object] | None:
     """Return whether rolling backward whirl sustains itself, with its speed and force; ``None`` without a closed form."""
     roll, rotor = study.known.rolls, study.rotor
     if roll is None:

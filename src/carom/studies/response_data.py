@@ -128,7 +128,7 @@ class UnbalanceResponse(Result):
         ends = " to ".join(f"{speed / RPM:,.6g}" for speed in self.interval)
         return [("case", self.case.name), ("speeds", f"{ends} rpm"), *(("", in_a_line(line)) for line in self.words)]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Return the response as ``carom response --json`` prints it."""
         rubs, highest = self.rubs, max(self.criticals, key=lambda each: each.amplitude, default=None)
         return {
@@ -272,7 +272,7 @@ def stretches_between(
     return tuple(found)
 
 
-def _at(response: UnbalanceResponse, speed: float) -> dict[str, Any]:
+def _at(response: UnbalanceResponse, speed: float) -> dict[str, object]:
     """Contact-free response at a speed: that of the touchdown bearing where the rotor comes closest, then those of all."""
     found = response.at(speed)
     worst = int(found.reach[0].argmax())
@@ -291,7 +291,7 @@ def _at(response: UnbalanceResponse, speed: float) -> dict[str, Any]:
     }
 
 
-def _bearings(found: SynchronousResponse, lags: np.ndarray) -> list[dict[str, Any]]:
+def _bearings(found: SynchronousResponse, lags: np.ndarray) -> list[dict[str, object]]:
     """Amplitudes 0-to-peak at each touchdown bearing, from 1 on, over the speeds of a response."""
     places = zip(found.clearances.tolist(), found.sags.tolist(), strict=True)
     return [
