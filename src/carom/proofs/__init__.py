@@ -29,7 +29,6 @@
 ``proven_kicks``    what a proof shows of a disc of kicks, for figures and studies
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name
-``headlines``       a theorem in one sentence, and the numbers of a claim, for people
 ``proving``         prove, at a precision that rises by itself
 ``patches``         patches of states, and the flights that leave them
 ``moments``         all flights of a patch at a time
