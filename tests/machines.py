@@ -12,10 +12,12 @@ import mpmath
 import numpy as np
 from scipy.linalg import expm
 
-from carom.parameters import Machine, Parameters
+from carom.parameters import Machine, Parameters, Scales
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 """The machine of the source paper at a damping in the middle of its range."""
+SCALES = Scales(50.0, 0.7e-3, 184.2)
+"""Those of the machine of the examples."""
 DECIMAL = {
     "gamma": "0.1",
     "omega": "0.76",
@@ -26,6 +28,13 @@ DECIMAL = {
     "radius_ratio": "400/7",
 }
 """The same by the exact numbers of the paper."""
+
+
+def dimensionless(text: str) -> dict[str, str]:
+    """A machine by its exact numbers in the order of their names."""
+    return dict(zip(DECIMAL, text.split(), strict=True))
+
+
 REAL = Machine(
     mass="50 kg",
     damping="1400 N s/m",

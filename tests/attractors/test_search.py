@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
+from machines import PAPER
 
 from carom import State, find_attractors, find_equilibria, find_orbits, kick
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.motions import settling
-from carom.parameters import Parameters
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 
 def random_starts(count, fastest, seed=0):
@@ -26,7 +24,7 @@ def shares(rotor, starts):
 
 @pytest.fixture(scope="module")
 def found():
-    return find_attractors(jeffcott(SOURCE))
+    return find_attractors(jeffcott(PAPER))
 
 
 # ------------------------------------------------------------------------------------------------ the source's machine
@@ -50,7 +48,7 @@ def test_all_attractors_of_the_source_machine(found):
 @pytest.mark.jit_only
 @pytest.mark.parametrize("seed", [0, 1])
 def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
-    rotor = jeffcott(SOURCE.replace(gamma=0.2))
+    rotor = jeffcott(PAPER.replace(gamma=0.2))
 
     assert find_equilibria(rotor)[0].stable
     assert shares(rotor, random_starts(100, 1.0, seed)) == {"synchronous rub": 1.0}
@@ -60,7 +58,7 @@ def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
 @pytest.mark.parametrize("gamma", [0.05, 0.077])
 @pytest.mark.parametrize("fastest", [0.5, 1.0])
 def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
-    ends = shares(jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
+    ends = shares(jeffcott(PAPER.replace(gamma=gamma)), random_starts(100, fastest))
 
     assert set(ends) <= {"rolling backward whirl", "synchronous rub"}
     assert ends["rolling backward whirl"] > 0.9
@@ -68,7 +66,7 @@ def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
+    found = find_attractors(jeffcott(PAPER.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
 
     impacts = np.array([ending.impacts for ending in found.endings])
     assert {member.name for member in found} == {"rolling backward whirl", "synchronous rub"}
@@ -78,7 +76,7 @@ def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_at_gamma_0_082_lasts():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
+    found = find_attractors(jeffcott(PAPER.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
     irregular = found["irregular bouncing"]
     followed = [ending.impacts for ending in found.ending_on("irregular bouncing")]
 
@@ -99,7 +97,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
     """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %; one interval of 95 % in twenty misses them."""
     intervals = []
     for seed in range(3):
-        found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000, seed=seed)
+        found = find_attractors(jeffcott(PAPER.replace(gamma=gamma)), count=60, patience=4000, seed=seed)
         assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling backward whirl"}
         transient = found.transient
         assert transient is not None
@@ -112,7 +110,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
 
 @pytest.mark.jit_only
 def test_two_impacts_a_period_beyond_the_period_doubling():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.0832)), count=40)
+    found = find_attractors(jeffcott(PAPER.replace(gamma=0.0832)), count=40)
 
     assert found["2-impact bouncing"].name.multiplicity == 2
     assert "irregular bouncing" not in found
@@ -123,7 +121,7 @@ def test_two_impacts_a_period_beyond_the_period_doubling():
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     monkeypatch.setattr(settling, "longest_time", lambda rotor: 5.0)
-    found = find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
+    found = find_attractors(jeffcott(PAPER), [kick(0.001), kick(0.3), kick(0.4)], known=False)
     last = found.members[-1]
 
     assert last.name == "unresolved: time-reached"

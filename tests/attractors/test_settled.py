@@ -3,14 +3,13 @@
 import dataclasses
 
 import pytest
+from machines import PAPER
 
 from carom import State, find_equilibria, find_orbits, simulate
 from carom.attractors.settled import forces_on, same_motion, settled_motion, whirl_of
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.parameters import Parameters
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 
 def settled(rotor, state):
@@ -19,13 +18,13 @@ def settled(rotor, state):
 
 @pytest.fixture(scope="module")
 def bouncing():
-    rotor = jeffcott(SOURCE)
+    rotor = jeffcott(PAPER)
     return settled(rotor, State(0.2 + 0.1j, -1.0 + 0.5j))
 
 
 @pytest.fixture(scope="module")
 def doubled():
-    rotor = jeffcott(SOURCE.replace(gamma=0.0832))
+    rotor = jeffcott(PAPER.replace(gamma=0.0832))
     leaving = find_orbits(rotor)["B1,d"].departure
     return [settled(rotor, State(leaving.position, factor * leaving.velocity)) for factor in (0.999, 1.001, 1.01, 0.99)]
 
@@ -56,7 +55,7 @@ def test_bouncing_with_rub_repeats_an_orbit_with_lasting_contact():
 
 @pytest.mark.jit_only
 def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
-    rotor = jeffcott(SOURCE.replace(gamma=0.2))
+    rotor = jeffcott(PAPER.replace(gamma=0.2))
     rub = find_equilibria(rotor)[1]
     motion = settled(rotor, State(rub.position, 0.05j * rub.position))
     ended = settled_motion(motion)

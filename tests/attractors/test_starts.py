@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from linear_rotors import bending, single, tilting
+from machines import PAPER
 from scipy.stats import chi2_contingency, chisquare, ks_2samp
 
 from carom import find_orbits, settle
@@ -10,9 +11,6 @@ from carom.attractors import DisturbanceSet, known_starts
 from carom.attractors.starts import disturbances_of
 from carom.closed_forms import runaway_speed
 from carom.models import jeffcott
-from carom.parameters import Parameters
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 
 def disturbances(rotor, *chosen, **named):
@@ -21,8 +19,8 @@ def disturbances(rotor, *chosen, **named):
 
 
 ROTORS = {
-    "planar": jeffcott(SOURCE),
-    "planar, cannot levitate": jeffcott(SOURCE.replace(gamma=0.05)),
+    "planar": jeffcott(PAPER),
+    "planar, cannot levitate": jeffcott(PAPER.replace(gamma=0.05)),
     "one coordinate of two": single(2).model.replace(translation=[2.0]),
     "two planes": tilting().model,
     "four masses": bending().model,
@@ -55,7 +53,7 @@ def test_speeds_seen_in_the_room_are_bounded(name, fastest):
 @pytest.mark.parametrize("kind", ["kick", "start"])
 def test_velocities_are_uniform_over_the_area_of_a_disc(kind, seed):
     """Chi-square over 8 rings of equal area times 12 sectors, seen in the room; positions likewise."""
-    rotor = jeffcott(SOURCE)
+    rotor = jeffcott(PAPER)
     chosen = [start.state for start in disturbances(rotor, 20_000, seed, 0.6) if start.kind == kind]
     positions, velocities = (np.array([getattr(one, name) for one in chosen]) for name in ("position", "velocity"))
     discs = [velocities / 0.6] if kind == "kick" else [(velocities + 1j * positions) / 0.6, positions]
@@ -68,7 +66,7 @@ def test_velocities_are_uniform_over_the_area_of_a_disc(kind, seed):
 
 def test_velocity_does_not_depend_on_the_place():
     """Someone in the room sees the same velocities near the wall as in the middle; in the turning frame they differ."""
-    sample = [start.state for start in disturbances(jeffcott(SOURCE), 20_000, 5, 0.6) if start.kind == "start"]
+    sample = [start.state for start in disturbances(jeffcott(PAPER), 20_000, 5, 0.6) if start.kind == "start"]
     positions, velocities = (np.array([getattr(one, name) for one in sample]) for name in ("position", "velocity"))
     along = (positions.conj() * (velocities + 1j * positions)).imag / np.abs(positions)
     outside = np.abs(positions) > np.sqrt(0.5)
@@ -80,10 +78,10 @@ def test_velocity_does_not_depend_on_the_place():
 @pytest.mark.jit_only
 def test_ends_do_not_depend_on_the_direction_of_the_real_axis():
     """Machine and starts turned together end alike; so do samples of the machine turned alone, within their spread."""
-    turned = jeffcott(SOURCE.replace(phi=SOURCE.phi + 2.0))
+    turned = jeffcott(PAPER.replace(phi=PAPER.phi + 2.0))
     chosen, turn = DisturbanceSet(2000, 3, 1.0), np.exp(2.0j)
-    starts = chosen.starts(jeffcott(SOURCE))
-    ends = settle(jeffcott(SOURCE), *starts[:2])
+    starts = chosen.starts(jeffcott(PAPER))
+    ends = settle(jeffcott(PAPER), *starts[:2])
     again = settle(turned, starts.positions * turn, starts.velocities * turn)
     alone = settle(turned, *DisturbanceSet(2000, 4, 1.0).starts(turned)[:2])
 
@@ -93,7 +91,7 @@ def test_ends_do_not_depend_on_the_direction_of_the_real_axis():
 
 
 def test_known_motions_are_approached_from_both_sides():
-    rotor = jeffcott(SOURCE)
+    rotor = jeffcott(PAPER)
     sample = known_starts(rotor, find_orbits(rotor))
     kinds = [start.kind for start in sample]
 
@@ -105,7 +103,7 @@ def test_known_motions_are_approached_from_both_sides():
 
 
 def test_whirl_starts_beyond_the_runaway_speed_and_at_rolling():
-    rotor = jeffcott(SOURCE)
+    rotor = jeffcott(PAPER)
     speeds = [-1.0 - start.state.velocity.imag for start in known_starts(rotor, ()) if start.kind == "whirl"]
 
     assert speeds == pytest.approx([1.001 * runaway_speed(rotor).certain, 400 / 7])

@@ -5,7 +5,7 @@ from dataclasses import asdict
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES
 
 import carom
 from carom.base.outcome import InputError, Outcome
@@ -14,7 +14,6 @@ from carom.disturbances import AnyState, BaseShock, BladeLoss, ContactRelease, G
 
 pytestmark = pytest.mark.jit_only
 
-SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
 """Levitation, B1,d and the synchronous rub coexist, each with a basin of some size."""
 

@@ -11,7 +11,6 @@ from carom.base.outcome import InputError
 from carom.basins import DropMap, map_drops
 from carom.basins.document import drop_map_document
 from carom.basins.drops import MEASURES
-from carom.disturbances import Drop
 from carom.disturbances.following import NO_START
 from carom.motions import drop_loads
 
@@ -79,25 +78,6 @@ def test_it_says_where_a_force_still_grows(balls):
     assert not growing.all()
     assert drop_map_document(falls)["still_growing"] == growing.tolist()
     assert (", still growing at speed" in falls.worst) == growing.flat[falls.dataset["force"].values.argmax()]
-
-
-def test_a_fall_on_a_spring_in_closed_form(balls):
-    """From rest in the centre on a spring, ``F = mg (1 + √(1 + 2kc_r/(mg)))`` whatever the speed of the shaft."""
-    spring = balls.replace(
-        touchdown_law="kelvin-voigt",
-        touchdown_exponent=1,
-        touchdown_stiffness=1e8,
-        touchdown_dissipation=None,
-        touchdown_damping=0,
-        eccentricity=0,
-        friction=0,
-    )
-    names = ("touchdown_stiffness", "speed")
-    falls = map_drops(spring, Drop(cm.State(0)), names, ranges=((2e7, 2e8), None), shape=(3, 2), until="9 ms")
-    weight = 5 * 9.81
-    stiffness = falls.dataset["touchdown_stiffness"].values[:, None]
-    expected = weight * (1.0 + np.sqrt(1.0 + 2.0 * stiffness * 0.25e-3 / weight))
-    assert falls.dataset["force"].values == pytest.approx(np.broadcast_to(expected, (3, 2)), rel=1e-9)
 
 
 def test_machines_that_cannot_levitate_are_not_dropped():

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES
 
 import carom
 from carom.base.outcome import InputError, Outcome
@@ -13,7 +13,6 @@ from carom.disturbances import Grid, Sample, VelocityKick
 
 pytestmark = pytest.mark.jit_only
 
-SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.152, scales=SCALES)
 KICKS = Grid(VelocityKick.of(MACHINE, "20 mm/s"), (10, 10))
 RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))

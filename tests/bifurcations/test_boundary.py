@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from machines import PAPER
 
 from carom import State, find_equilibria, find_orbits, simulate
 from carom.base.outcome import Outcome
@@ -10,8 +11,6 @@ from carom.bifurcations import boundary_equilibria
 from carom.closed_forms import PeriodCondition
 from carom.models import jeffcott
 from carom.parameters import Parameters
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 machines = st.builds(
     Parameters,
@@ -81,7 +80,7 @@ def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
 
 
 def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_cycles():
-    (boundary,) = boundary_equilibria(jeffcott(SOURCE))
+    (boundary,) = boundary_equilibria(jeffcott(PAPER))
 
     assert boundary.value == pytest.approx(0.0724686787, abs=5e-11)
     assert boundary.levitates == "above"
@@ -94,7 +93,7 @@ def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_
 
 @pytest.mark.jit_only
 def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
-    below, above = boundary_equilibria(jeffcott(SOURCE), "omega")
+    below, above = boundary_equilibria(jeffcott(PAPER), "omega")
 
     assert (below.kind, below.levitates) == ("non-smooth fold", "below")
     assert (above.kind, above.levitates) == ("persistence", "above")

@@ -2,7 +2,6 @@
 
 import json
 import re
-from pathlib import Path
 
 import pytest
 
@@ -11,9 +10,8 @@ from carom.base.outcome import InputError
 from carom.cli import main
 from carom.closed_forms.sag import levitation
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-PAPER = str(EXAMPLES / "source-paper.toml")
-MACHINE = str(EXAMPLES / "keogh-cole.toml")
+PAPER = "examples/source-paper.toml"
+MACHINE = "examples/keogh-cole.toml"
 
 
 def test_points_as_json(capsys):

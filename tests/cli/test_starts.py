@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
+from machines import SCALES
 
 from carom import State, kick, load
 from carom.base.outcome import InputError
@@ -12,7 +13,7 @@ from carom.cli.starts import check_exact, read_one, read_positive, read_range, r
 from carom.disturbances import BladeLoss, Single
 from carom.disturbances.single import read_single
 from carom.models import axis, jeffcott
-from carom.parameters import Parameters, Requirement, Scales, Shock
+from carom.parameters import Parameters, Requirement, Shock
 
 
 def read_kick(text, scales):
@@ -28,9 +29,6 @@ def read_start(text, scales):
 
 def read_blade_loss(text, scales):
     return read_single(BladeLoss, text, scales, "--blade-loss")
-
-
-SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 
 
 def test_plain_starts_and_times_are_dimensionless_with_and_without_scales():

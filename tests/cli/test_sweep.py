@@ -57,18 +57,6 @@ def test_same_command_goes_on(carom, sweep_file, store):
     assert "Nothing was left to compute." in out
 
 
-def test_damaged_chunk_is_computed_again_and_told(carom, sweep_file, store):
-    carom("sweep", sweep_file, "--out", store, "--threads")
-    file = store / "levitates" / "c" / "1" / "0"
-    whole = file.read_bytes()
-    file.write_bytes(whole[:5])
-    code, out, err = carom("sweep", sweep_file, "--out", store, "--threads")
-
-    assert (code, err) == (0, "")
-    assert "Files of 1 chunk (1) were damaged or missing: computed again\n" in out
-    assert file.read_bytes() == whole
-
-
 def test_json_is_one_object(carom, sweep_file, store):
     code, out, err = carom("sweep", sweep_file, "--out", store, "--threads", "--json")
     document = json.loads(out)

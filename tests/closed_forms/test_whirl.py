@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from machines import PAPER
 
 from carom.base.outcome import Outcome, Phase
 from carom.closed_forms import find_equilibria, rolling, runaway_speed
@@ -13,8 +14,6 @@ from carom.closed_forms.whirl import hastening_speed
 from carom.models import jeffcott
 from carom.motions import State, settle, simulate
 from carom.parameters import Parameters
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 damped = st.builds(
     Parameters,
@@ -99,8 +98,8 @@ def test_rotor_faster_than_rolling_slows_to_it_where_rolling_holds(parameters, a
 
 def test_bound_is_reached_at_the_worst_angle():
     # At sin x + μ cos x = −√(1 + μ²) the whirl at the certain speed neither gains nor loses.
-    rotor = jeffcott(SOURCE)
-    worst = SOURCE.phi + math.atan2(-1.0, -SOURCE.mu)
+    rotor = jeffcott(PAPER)
+    worst = PAPER.phi + math.atan2(-1.0, -PAPER.mu)
     speed = runaway_speed(rotor).certain
 
     def gain(angle, whirl_speed):
@@ -113,7 +112,7 @@ def test_bound_is_reached_at_the_worst_angle():
 
 
 def test_average_threshold_is_the_simulated_one_without_unbalance():
-    rotor = jeffcott(SOURCE.replace(rho=0.0, gamma=0.3))
+    rotor = jeffcott(PAPER.replace(rho=0.0, gamma=0.3))
     threshold = runaway_speed(rotor).average
 
     outcomes = [
@@ -150,7 +149,7 @@ def test_forces_of_rolling(parameters, angle):
 
 @pytest.mark.parametrize(("factor", "rolls_on"), [(0.9999, True), (1.0001, False)])
 def test_rolling_ends_at_the_largest_damping(factor, rolls_on):
-    parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0, gamma=0.3)
+    parameters = PAPER.replace(radius_ratio=5.0, rho=1.0, gamma=0.3)
     limit = rolling(jeffcott(parameters)).largest_damping
     rotor = jeffcott(parameters.replace(gamma=factor * limit))
 
@@ -163,7 +162,7 @@ def test_rolling_ends_at_the_largest_damping(factor, rolls_on):
 
 @pytest.mark.jit_only
 def test_interrupted_rolling_lives_between_the_limits_only():
-    parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0)
+    parameters = PAPER.replace(radius_ratio=5.0, rho=1.0)
     roll = rolling(jeffcott(parameters))
     lasting = {}
     for share in (0.1, 1.001):
@@ -182,7 +181,7 @@ def test_no_backward_whirl_repeats_beyond_the_bound_of_damping():
     kept = 0
     for case in range(40):
         speed, omega, mu = random.uniform(0.3, 6.0), random.uniform(0.1, 1.2), random.uniform(0.05, 0.8)
-        machine = SOURCE.replace(
+        machine = PAPER.replace(
             omega=omega, mu=mu, rho=random.uniform(0.0, 2.0), d=random.uniform(0.0, 0.9), radius_ratio=speed
         )
         bound = rolling(jeffcott(machine)).damping_bound
@@ -203,7 +202,7 @@ def test_sliding_forward_goes_over_to_the_rub_or_leaves_the_wall():
     random = np.random.default_rng(12)
     slid = 0
     for _ in range(150):
-        machine = SOURCE.replace(
+        machine = PAPER.replace(
             gamma=random.uniform(0.01, 1.0),
             omega=random.uniform(0.0, 0.9),
             rho=random.uniform(0.2, 1.5),

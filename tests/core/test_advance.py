@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from flights import parameters, task_from_state
 from flint import acb, arb
+from machines import PAPER
 from reference import first_crossing, jeffcott_flight, unit
 
 from carom.base.outcome import Outcome
@@ -18,8 +19,6 @@ from carom.core.table import flight_table
 from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.parameters import Parameters
-
-PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 
 class Run:

@@ -4,13 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from machines import PAPER, rest_position
+from machines import PAPER, SCALES, rest_position
 
 import carom
 from carom.base.outcome import InputError
 from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, KickPlane, Sample, StateSlice, VelocityKick
 
-SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(scales=SCALES)
 QUIET = PAPER.replace(rho=0.2)
 GROUNDED = PAPER.replace(gamma=0.05)

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -14,7 +14,6 @@ from carom.basins.document import basin_document
 from carom.disturbances import Coordinate, Disturbance, Grid, Sample, Starts, VelocityKick
 from carom.parameters import own_size
 
-SCALES = cm.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
 TURN = Coordinate("direction", "direction of the shift", 0.0, 2.0 * np.pi, periodic=True)
 

@@ -1,7 +1,5 @@
 """The page in a real browser: loaded, dragged, typed into, copied from, restarted, and attacked."""
 
-from pathlib import Path
-
 import pytest
 from browsing import DESK, SOON, answered, drag, fits, painted, said, served
 from playwright.sync_api import expect
@@ -12,7 +10,7 @@ from carom.explorer.computing.planes import planes_of
 from carom.models import jeffcott
 
 pytestmark = pytest.mark.jit_only
-MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+MACHINE = "examples/keogh-cole.toml"
 
 
 def shown_of(page, case):

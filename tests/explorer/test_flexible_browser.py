@@ -1,14 +1,13 @@
 """The page of a flexible machine, in a real browser."""
 
 import re
-from pathlib import Path
 
 import pytest
 from browsing import answered, drag, painted, said
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.jit_only
-MACHINE = Path(__file__).parents[2] / "examples" / "tum-flexible-rotor.toml"
+MACHINE = "examples/tum-flexible-rotor.toml"
 
 
 @pytest.fixture

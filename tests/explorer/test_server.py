@@ -8,7 +8,6 @@ import socket
 import threading
 import weakref
 from contextlib import contextmanager, suppress
-from pathlib import Path
 
 import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
@@ -20,7 +19,7 @@ from carom.explorer import server as servers
 from carom.explorer.computing.exports import Origin
 from carom.explorer.server import LEFT, Explorer
 
-MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
+MACHINE = "examples/keogh-cole.toml"
 
 
 @contextmanager

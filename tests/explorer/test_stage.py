@@ -1,13 +1,11 @@
 """The pictures of the page in a real browser: two flights, the ring, the range, what is undone and kept, and what moves by itself."""
 
-from pathlib import Path
-
 import pytest
 from browsing import answered, flown, point, said
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.jit_only
-MACHINE = Path(__file__).parents[2] / "examples" / "balanced-rotor.toml"
+MACHINE = "examples/balanced-rotor.toml"
 
 
 def test_pointing_and_clicking_fly_what_comes_back_as_1_and_what_is_lost_as_2(page):

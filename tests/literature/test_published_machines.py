@@ -1,7 +1,6 @@
 """Machines of published work, entered in their own units, against numbers that the sources print."""
 
 import math
-from pathlib import Path
 
 import pytest
 from flexible_machines import munich, munich_rotor
@@ -13,8 +12,6 @@ from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.parameters import ENTRIES, Machine, read_quantity
 from carom.rotors import Material, find_whirls
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 # The rotor-stator rig of DTU (github.com/SV3A/masterproject-contact-code): settings.toml, in kg, m, s and N.
 TRANSVERSE_INERTIA, POLAR_INERTIA = 7.085371e-2, 0.106132e-2
@@ -31,7 +28,7 @@ MEASURED_RESTITUTION = 0.63, 0.87
 
 def test_the_machine_of_keogh_and_cole_has_the_printed_numbers_in_other_terms_too():
     """Section 2 of the source paper: m = 50 kg, k = 9.8e5 N/m, omega = 0.76, rho = 3/7."""
-    printed = load(EXAMPLES / "keogh-cole.toml")
+    printed = load("examples/keogh-cole.toml")
     rest = {
         "mass": "50 kg",
         "speed": "184.2 rad/s",
@@ -55,7 +52,7 @@ def test_the_machine_of_keogh_and_cole_has_the_printed_numbers_in_other_terms_to
 
 def test_the_test_rig_of_munich_has_nearly_the_natural_frequency_that_was_measured():
     """Abschaetzung_ML_k.m: m = 3.2740 kg, 52.013 Hz measured with P = 5000 A/m, k = (2 pi 52.013 Hz)^2 m/2 for a bearing."""
-    machine = load(EXAMPLES / "tum-test-rig.toml").machine
+    machine = load("examples/tum-test-rig.toml").machine
     found = math.sqrt(machine.stiffness / machine.mass) / (2 * math.pi)
 
     # Two bearings of ki P + kx = 50 N/A 5000 A/m - 1e5 N/m = 1.5e5 N/m; ki D = 250 N s/m.
@@ -79,7 +76,7 @@ def test_the_flexible_shaft_of_munich_has_whirls_on_both_sides_of_what_was_measu
 
 
 def test_the_test_rig_levitates_within_its_limit_of_current():
-    case = load(EXAMPLES / "tum-test-rig.toml")
+    case = load("examples/tum-test-rig.toml")
     levitation = find_equilibria(jeffcott(case.parameters)).members[0]
     machine, gains = case.machine, case.machine.controller_gains
 
@@ -93,7 +90,7 @@ def test_the_test_rig_levitates_within_its_limit_of_current():
 
 @pytest.fixture
 def danish():
-    return load(EXAMPLES / "dtu-test-rig.toml")
+    return load("examples/dtu-test-rig.toml")
 
 
 def test_the_test_rig_of_denmark_is_the_published_rotor_seen_where_it_touches(danish):

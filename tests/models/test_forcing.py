@@ -1,6 +1,5 @@
 """Forces that change with time, against the matrix exponential and known motions."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -99,23 +98,6 @@ def test_a_free_rotor_of_two_coordinates_falls(pushes):
         fixed = (state[:2] - rest) + (state[2:] + 1j * (state[:2] - rest)) * time + 0.5 * np.array(pushes) * time**2
         position, _ = system.state(system.fly(system.amplitudes(state[:2], state[2:]), np.array(time)))
         assert np.allclose((position - rest) * np.exp(1j * time), fixed, rtol=0, atol=1e-12)
-
-
-def dropped():
-    """A balanced rotor in a clearance of 0.25 mm whose levitation is lost at 18,000 rpm: nothing but its weight acts on it."""
-    scales = cm.parameters.Scales(5.0, 0.25e-3, 600.0 * math.pi)
-    rotor = planar_rotor(0.0, 0.0, 0.0, touchdowns([[1.0]], [0.1], [0.5], [100.0]), scales=scales)
-    weight = 9.81 / (scales.length * scales.speed**2)
-    return rotor.under(Force(-1j, np.array([-1j * weight])))
-
-
-def test_a_drop_from_the_centre_touches_after_the_time_of_free_fall():
-    rotor = dropped()
-    motion = cm.simulate(rotor, cm.State(0.0), 200.0)
-    first = motion.contacts.time[0] * rotor.scales.time
-    assert first == pytest.approx(7.139215615e-3, abs=5e-13)
-    assert motion.at_plane(motion.contacts.time[0])[0] * np.exp(1j * motion.contacts.time[0]) == pytest.approx(-1j)
-    assert math.isinf(rotor.system.rest_radius)
 
 
 def test_what_needs_rest_or_repetition_is_refused():

@@ -4,14 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES
 
 import carom as cm
 from carom.base.outcome import InputError
 from carom.models import jeffcott, rotor_from
-from carom.parameters import Scales, TouchdownBearing
+from carom.parameters import TouchdownBearing
 
-SCALES = Scales(50.0, 0.7e-3, 184.2)
 ROTOR = jeffcott(dataclasses.replace(PAPER, scales=SCALES))
 STIFFNESS = 1e4 * SCALES.stiffness
 

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 from linear_rotors import planar_rotor, touchdowns
-from machines import PAPER
+from machines import PAPER, SCALES
 
 from carom.base.outcome import InputError
 from carom.models import Rotor, axis, from_matrices, jeffcott
 from carom.parameters import Scales
 
-SCALES = Scales(50.0, 0.7e-3, 184.2)
 MASS = np.array([[2.0, 0.3], [0.3, 1.5]])
 DAMPING = np.array([[0.4, 0.1j], [-0.1j, 0.6]])
 STIFFNESS = np.array([[1.2, 0.2], [0.2, 2.0]])

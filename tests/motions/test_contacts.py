@@ -11,17 +11,16 @@ from drawn_motions import EVENTS, MANY
 from hypothesis import given
 from hypothesis import strategies as st
 from linear_rotors import single
-from machines import PAPER
+from machines import PAPER, SCALES
 from yielding_walls import with_walls
 
 from carom import State, find_equilibria, kick, simulate
 from carom.base.outcome import Phase
 from carom.models import HuntCrossley, KelvinVoigt, jeffcott
 from carom.motions import Trajectory, energy_ledger
-from carom.parameters import Parameters, Scales
+from carom.parameters import Parameters
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
-SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 EPSILON = 2.0**-52
 INSTANTS = sized(400, 12)
 

@@ -30,9 +30,7 @@ def assert_same(first: Endings, second: Endings) -> None:
 
 @pytest.fixture
 def machine() -> carom.parameters.Parameters:
-    return carom.parameters.Parameters(
-        gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7
-    )
+    return PAPER
 
 
 @pytest.mark.jit_only

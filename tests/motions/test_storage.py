@@ -5,14 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 import xarray
-from machines import PAPER
+from machines import PAPER, SCALES
 
 from carom import State, drop, load, simulate
 from carom.base.outcome import InputError
 from carom.motions import Trajectory
-from carom.parameters import Scales
-
-SCALES = Scales(50.0, 0.7e-3, 184.2)
 
 
 @pytest.fixture(scope="module")

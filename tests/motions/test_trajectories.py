@@ -149,22 +149,6 @@ class TestLastingContact:
         assert {stretch.kind for stretch in stretches} <= {"slide", "roll"}
         assert all(stretch.phase is not Phase.FLIGHT for stretch in stretches)
 
-    def test_the_rotor_stays_on_the_wall(self, rubbing):
-        longest = max(rubbing.lasting_contacts, key=lambda stretch: stretch.end - stretch.start)
-        times = np.linspace(longest.start, longest.end, 500, endpoint=False)
-        position, velocity = rubbing.at(times)
-        assert np.allclose(np.abs(position), 1.0, rtol=0, atol=1e-13)
-        assert np.allclose((position.conj() * velocity).real, 0.0, rtol=0, atol=1e-12)
-        normal, friction = rubbing.forces(times)
-        assert np.all(normal >= -1e-12)
-        assert np.all(np.abs(friction) <= RUBBING.mu * normal + 1e-12)
-
-    def test_there_is_no_force_in_flight(self, rubbing):
-        first = rubbing.lasting_contacts[0].start
-        normal, friction = rubbing.forces(np.linspace(0.0, first, 50, endpoint=False))
-        assert not normal.any()
-        assert not friction.any()
-
     def test_landings_are_no_impacts(self, rubbing):
         assert rubbing.is_landing.any()
         assert not (rubbing.is_landing & rubbing.is_impact).any()

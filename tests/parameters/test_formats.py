@@ -1,17 +1,14 @@
 """Sizes as people write them: one text for a size, wherever it is stated."""
 
 import pytest
+from machines import PAPER, SCALES
 
 from carom.attractors import DisturbanceSet
 from carom.basins import Population
 from carom.disturbances import Single, VelocityKick
 from carom.models import jeffcott
-from carom.parameters import Parameters, Scales
 from carom.parameters.formats import format_quantity, number, rounded_down
 from carom.studies import Wording
-
-SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-NUMBERS = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +44,7 @@ def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
     assert Wording(scales).velocity(speed) == text
     assert VelocityKick(speed).coordinates[0].stated(speed, scales) == text
     assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
-    rotor = jeffcott(NUMBERS.replace(scales=scales))
+    rotor = jeffcott(PAPER.replace(scales=scales))
     kick = Single(VelocityKick(speed), (speed, 0.0))
     assert kick.echo(rotor).words.startswith(f"Kick: {text} at 0°; angles count from ")
     assert f"at up to {text} in the fixed frame" in DisturbanceSet(10, fastest=speed).words(rotor)

@@ -4,13 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES
 from scipy.integrate import solve_ivp
 
 from carom.parameters import Scales
 from carom.parameters.indentation import LARGEST, STEEL, indentation_of_force, indentation_of_impact, is_compliant
 
-SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(scales=SCALES)
 RADIUS = MACHINE.radius_ratio * SCALES.clearance
 

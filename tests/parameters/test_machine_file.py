@@ -2,7 +2,6 @@
 
 import math
 import warnings
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -14,9 +13,8 @@ from carom.base.outcome import CaromWarning, InputError
 from carom.loading import load
 from carom.parameters import Case, Scales, Zones
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-REAL = EXAMPLES / "keogh-cole.toml"
-PAPER = EXAMPLES / "source-paper.toml"
+REAL = "examples/keogh-cole.toml"
+PAPER = "examples/source-paper.toml"
 ENTRIES = {
     "mass": '"50 kg"',
     "damping": '"1400 N s/m"',

@@ -11,7 +11,7 @@ from refusals import error_of
 from carom.loading import load
 from carom.parameters import MACHINE_FIELDS, TERMS, Machine
 
-REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+REAL = Path("examples/keogh-cole.toml")
 
 
 # ------------------------------------------------------------------------------------------ settings

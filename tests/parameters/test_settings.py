@@ -1,7 +1,6 @@
 """Settings `name=value` on top of a machine file."""
 
 import math
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -10,9 +9,8 @@ from hypothesis import strategies as st
 from carom.base.outcome import InputError
 from carom.loading import load
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-REAL = EXAMPLES / "keogh-cole.toml"
-PAPER = EXAMPLES / "source-paper.toml"
+REAL = "examples/keogh-cole.toml"
+PAPER = "examples/source-paper.toml"
 
 
 def error_of(path, *settings):

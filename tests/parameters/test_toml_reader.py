@@ -7,7 +7,7 @@ import pytest
 from carom.base.outcome import InputError, MultipleInputError
 from carom.loading import load
 
-REAL = (Path(__file__).parents[2] / "examples" / "keogh-cole.toml").read_text(encoding="utf-8")
+REAL = Path("examples/keogh-cole.toml").read_text(encoding="utf-8")
 
 
 @pytest.fixture

@@ -3,23 +3,20 @@
 from types import SimpleNamespace
 
 import pytest
+from machines import PAPER, SCALES
 
 import carom
 
 
 def _motions(gamma: float) -> SimpleNamespace:
-    scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-    parameters = carom.parameters.Parameters(
-        gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=scales
-    )
-    rotor = carom.models.jeffcott(parameters)
+    rotor = carom.models.jeffcott(PAPER.replace(gamma=gamma, scales=SCALES))
     return SimpleNamespace(
         rotor=rotor,
         orbits=carom.find_orbits(rotor),
         equilibria=carom.find_equilibria(rotor),
-        scales=scales,
-        mm=1e3 * scales.length,
-        ms=1e3 * scales.time,
+        scales=SCALES,
+        mm=1e3 * SCALES.length,
+        ms=1e3 * SCALES.time,
     )
 
 

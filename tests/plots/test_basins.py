@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from drawn_legends import fits, legend_words
+from machines import PAPER, SCALES
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
 
@@ -14,10 +15,7 @@ from carom.disturbances import AnyState, Grid, KickPlane, VelocityKick
 
 pytestmark = pytest.mark.jit_only
 
-SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-MACHINE = carom.parameters.Parameters(
-    gamma=0.15, omega=0.76, rho=0.3, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=SCALES
-)
+MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ import random
 import numpy as np
 import pytest
 from compilation import sized
+from machines import DECIMAL, dimensionless
 
 from carom.base.outcome import InputError
 from carom.models import jeffcott
@@ -14,13 +15,7 @@ from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.kick_cells import IMPACTS, leaves, read
 from carom.proofs.seeds import doubles_of
 
-NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
 SPINDLE = "examples/spindle.toml"
-
-
-def dimensionless(text):
-    """A machine by its numbers in the order of their names."""
-    return dict(zip(NAMES, text.split(), strict=True))
 
 
 CASES = {
@@ -133,8 +128,8 @@ def test_any_letter_that_matters_is_refused(document):
         (SPINDLE, "120", "has no unit"),
         (SPINDLE, "0 mm/s", "kicks_up_to"),
         (SPINDLE, "[100 mm/s, 120 mm/s]", "must be one velocity"),
-        ({**dict.fromkeys(NAMES, "0.1"), "rho": "2"}, "1", "must levitate inside the wall"),
-        ({**dict.fromkeys(NAMES, "0.1"), "gamma": "0"}, "1", "must levitate inside the wall"),
+        ({**dict.fromkeys(DECIMAL, "0.1"), "rho": "2"}, "1", "must levitate inside the wall"),
+        ({**dict.fromkeys(DECIMAL, "0.1"), "gamma": "0"}, "1", "must levitate inside the wall"),
     ],
 )
 def test_what_cannot_be_proven_is_refused_at_once(machine, largest, words):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from compilation import sized
 from flint import arb
+from machines import DECIMAL
 from rub_bounces import Bouncing
 from scipy.integrate import solve_ivp
 
@@ -16,8 +17,7 @@ from carom.proofs.rotor import ProvenRotor
 from carom.proofs.rub_traps import Bounces, ends_in_rub
 from carom.proofs.rubs import Rub
 
-NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
-PAPER = dict(zip(NAMES, (0.3, 0.76, 3 / 7, 0.0, 0.15, 0.95, 57.0), strict=True))
+PAPER = dict(zip(DECIMAL, (0.3, 0.76, 3 / 7, 0.0, 0.15, 0.95, 57.0), strict=True))
 DIFFERENCE = 1e-5
 """Steps of differences of functions along flights: their error is about its square."""
 
@@ -26,7 +26,7 @@ def drawn(random):
     """A machine, often one that has a stable rub."""
     gamma, omega, rho = random.uniform(0.01, 1.0), random.uniform(0.1, 1.2), random.uniform(0.1, 2.0)
     mu, d = random.choice((0.0, 0.02, 0.2, 0.6)), random.choice((0.0, 0.3, 0.7, 0.95))
-    return dict(zip(NAMES, (gamma, omega, rho, 0.0, mu, d, random.uniform(0.5, 20.0)), strict=True))
+    return dict(zip(DECIMAL, (gamma, omega, rho, 0.0, mu, d, random.uniform(0.5, 20.0)), strict=True))
 
 
 def held_of(machine):

@@ -6,6 +6,7 @@ import json
 import numpy as np
 import pytest
 from compilation import sized
+from machines import dimensionless
 from scipy.linalg import expm
 
 import carom as cm
@@ -18,14 +19,6 @@ from carom.proofs.forms import Surface
 from carom.proofs.impact_states import limits_of, read_forms, traps_of
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import doubles_of
-
-NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
-
-
-def dimensionless(text):
-    """A machine by its numbers in the order of their names."""
-    return dict(zip(NAMES, text.split(), strict=True))
-
 
 CASES = {
     # What a machine is, and a speed up to which all states return.

@@ -1,7 +1,5 @@
 """What the report begins with: the basin now and after the change that was checked."""
 
-from pathlib import Path
-
 import pytest
 from studies import study_once
 
@@ -9,7 +7,7 @@ from carom import load, map_basins
 from carom.disturbances import KickPlane
 from carom.report import basins
 
-KEOGH_COLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+KEOGH_COLE = "examples/keogh-cole.toml"
 
 pytestmark = pytest.mark.jit_only
 

@@ -4,19 +4,16 @@ import html.parser
 import json
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from machines import PAPER
 from studies import study_once
 
 from carom.loading import load
-from carom.parameters import Parameters
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
 from carom.studies.facts import about
 from carom.studies.summaries import survived_rows
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 pytestmark = pytest.mark.jit_only
 
@@ -60,7 +57,7 @@ class Page(html.parser.HTMLParser):
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    example = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+    example = "examples/keogh-cole.toml"
     result = study_once(load(example))
     shown = []
     path = write_report(
@@ -71,7 +68,7 @@ def written(tmp_path_factory):
 
 
 def test_every_symbol_of_a_report_is_a_formula(written):
-    for page in (written[2], report_page(study_once(SOURCE), [])):
+    for page in (written[2], report_page(study_once(PAPER), [])):
         page = re.sub(r"<code>--set.*?</code>", "", page)  # to be pasted as it is
         words = " ".join(Page(page).words)
         assert not re.search(r"[ceFik]_(max|[rcis])|Omega", words)
@@ -114,7 +111,7 @@ def test_page_shows_the_study(written):
 
 @pytest.mark.parametrize("gamma", [3.0, pytest.param(0.1, marks=pytest.mark.deep)])
 def test_same_study_gives_the_same_bytes(gamma, tmp_path):
-    result = study_once(SOURCE.replace(gamma=gamma))
+    result = study_once(PAPER.replace(gamma=gamma))
     places = [write_report(result, str(tmp_path / name)).parent for name in ("once", "again")]
 
     once, again = ({file.name: file.read_bytes() for file in place.rglob("*") if file.is_file()} for place in places)

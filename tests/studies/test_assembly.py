@@ -6,18 +6,17 @@ import re
 
 import numpy as np
 import pytest
-from machines import REAL
+from machines import PAPER, REAL
 from studies import ORBIT_KEYS, study_once
 
 from carom.base.files import as_json
 from carom.base.outcome import Outcome
-from carom.parameters import Case, Parameters, Zones
+from carom.parameters import Case, Zones
 from carom.studies.facts import about
 from carom.studies.findings import LONGER_MOTIONS, PLANAR, RIGID_WALL, SAMPLED
 from carom.studies.summaries import motion_rows
 
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
-QUIET = SOURCE.replace(gamma=0.5, mu=0.0)
+QUIET = PAPER.replace(gamma=0.5, mu=0.0)
 """Damped enough that no rub and no bounce is left, with too little friction to roll."""
 
 RUB_FOLD = 3407.846808
@@ -83,18 +82,18 @@ def test_changes_are_checked_by_fresh_disturbances(real):
 @pytest.mark.parametrize(
     "parameters",
     [
-        SOURCE,
-        SOURCE.replace(gamma=0.05),
-        pytest.param(SOURCE.replace(rho=0.0), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(gamma=0.0), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(d=0.0), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(gamma=0.25), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(gamma=0.4), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(gamma=-0.1), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(d=1.0), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(mu=0.0), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(gamma=0.3, omega=1.3), marks=pytest.mark.deep),
-        pytest.param(SOURCE.replace(gamma=5.0, omega=0.3), marks=pytest.mark.deep),
+        PAPER,
+        PAPER.replace(gamma=0.05),
+        pytest.param(PAPER.replace(rho=0.0), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(gamma=0.0), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(d=0.0), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(gamma=0.25), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(gamma=0.4), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(gamma=-0.1), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(d=1.0), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(mu=0.0), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(gamma=0.3, omega=1.3), marks=pytest.mark.deep),
+        pytest.param(PAPER.replace(gamma=5.0, omega=0.3), marks=pytest.mark.deep),
     ],
 )
 def test_words_never_promise_recovery(parameters):
@@ -128,7 +127,7 @@ def test_best_verdict_is_still_no_guarantee(quiet):
 
 
 def test_machine_that_cannot_levitate():
-    result = study_once(SOURCE.replace(gamma=0.05))
+    result = study_once(PAPER.replace(gamma=0.05))
 
     assert result.verdict.level == "no-contact-free-motion"
     assert result.zone is None
@@ -136,7 +135,7 @@ def test_machine_that_cannot_levitate():
 
 
 def test_machine_on_the_boundary():
-    result = study_once(SOURCE.replace(gamma=math.sqrt((3 / 7) ** 2 - (1 - 0.76**2) ** 2)))
+    result = study_once(PAPER.replace(gamma=math.sqrt((3 / 7) ** 2 - (1 - 0.76**2) ** 2)))
 
     assert result.equilibria[0].status == "boundary"
     assert result.verdict.level == "no-contact-free-motion"

@@ -1,20 +1,18 @@
 """What became of disturbances: counts against the endings themselves."""
 
 import pytest
+from machines import PAPER
 
 from carom import find_attractors, simulate
 from carom.models import jeffcott
-from carom.parameters import Parameters
 from carom.studies.endings import hardest_impulse, shown_example, touching
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 pytestmark = pytest.mark.jit_only
 
 
 @pytest.fixture(scope="module")
 def found():
-    return find_attractors(jeffcott(SOURCE))
+    return find_attractors(jeffcott(PAPER))
 
 
 def test_touching_are_those_whose_motion_reaches_the_wall(found):

@@ -4,6 +4,7 @@ import math
 from types import SimpleNamespace
 
 import numpy as np
+from machines import PAPER, SCALES
 
 import carom
 from carom.closed_forms.exact_results import exact_results
@@ -11,10 +12,7 @@ from carom.closed_forms.whirl import runaway_speed
 from carom.studies import Wording
 from carom.studies.findings import _backward_whirl
 
-SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-SOURCE = carom.parameters.Parameters(
-    gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=SCALES
-)
+SOURCE = PAPER.replace(scales=SCALES)
 
 
 def said_of(parameters: carom.parameters.Parameters) -> str:

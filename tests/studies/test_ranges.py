@@ -7,6 +7,7 @@ import pytest
 from compilation import sized
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from machines import PAPER
 
 from carom import State, find_equilibria, load, simulate
 from carom.closed_forms import rolling
@@ -16,8 +17,6 @@ from carom.orbits import orbits_within_reach
 from carom.parameters import Parameters
 from carom.studies import MotionRange
 from carom.studies.ranges import motion_ranges
-
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 planar = st.builds(
     Parameters,
@@ -88,7 +87,7 @@ def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
-    parameters = SOURCE.replace(radius_ratio=5.0, gamma=0.3)
+    parameters = PAPER.replace(radius_ratio=5.0, gamma=0.3)
     (threshold,) = steady_range(parameters, "rolling", gain).thresholds
     rotor = jeffcott(parameters.replace(**{gain: factor * threshold.edge.value}))
 
@@ -101,9 +100,9 @@ def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
 
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
 def test_without_friction_nothing_rolls_and_without_unbalance_nothing_rubs(gain):
-    assert steady_range(SOURCE.replace(mu=0.0), "rolling", gain).spans == ()
-    assert steady_range(SOURCE.replace(rho=0.0), "rub", gain).spans == ()
-    assert steady_range(SOURCE.replace(rho=0.0), "contact-free", gain).spans == (Span(Edge(0.0), Edge(math.inf)),)
+    assert steady_range(PAPER.replace(mu=0.0), "rolling", gain).spans == ()
+    assert steady_range(PAPER.replace(rho=0.0), "rub", gain).spans == ()
+    assert steady_range(PAPER.replace(rho=0.0), "contact-free", gain).spans == (Span(Edge(0.0), Edge(math.inf)),)
 
 
 # ------------------------------------------------------------------------------------------------ orbits
@@ -149,7 +148,7 @@ def test_no_orbit_of_the_readme_machine_above_the_stiffness_at_which_levitation_
 
 def test_ranges_agree_with_the_certified_orbits():
     random = np.random.default_rng(3)
-    machines = [SOURCE, SOURCE.replace(gamma=0.1779), SOURCE.replace(omega=0.4, gamma=0.3), SOURCE.replace(d=1.0)]
+    machines = [PAPER, PAPER.replace(gamma=0.1779), PAPER.replace(omega=0.4, gamma=0.3), PAPER.replace(d=1.0)]
     for parameters in machines[: sized(4, 1, 4)]:
         for gain, low, high in (("gamma", 0.02, 1.0), ("omega", 0.5 * parameters.omega, 2.0 * parameters.omega)):
             check(parameters, gain, np.exp(random.uniform(math.log(low), math.log(high), sized(10, 2, 40))))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from linear_rotors import planar_rotor, touchdowns
+from machines import PAPER
 
 import carom as cm
 from carom.base.outcome import InputError
@@ -10,10 +11,8 @@ from carom.closed_forms import contact_free_kick
 from carom.disturbances import AnyState, Sample, VelocityKick
 from carom.models import jeffcott
 from carom.motions import settle
-from carom.parameters import Parameters
 from carom.studies import check_recovery, find_recovery
 
-SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 SPEED = 1.3
 
 pytestmark = pytest.mark.jit_only
@@ -39,7 +38,7 @@ def fresh(rotor, count, seed, fastest=SPEED):
 
 @pytest.fixture(scope="module")
 def along_damping():
-    return find_recovery(SOURCE, "gamma", tried(), within=(0.1, 4.0), seed=3)
+    return find_recovery(PAPER, "gamma", tried(), within=(0.1, 4.0), seed=3)
 
 
 def test_nothing_fresh_is_lost_inside_a_range(along_damping):
@@ -47,7 +46,7 @@ def test_nothing_fresh_is_lost_inside_a_range(along_damping):
     assert span.low.kind == "simulated"
     assert (span.high.value, span.high.kind) == (4.0, "")
     for number, gamma in enumerate(np.geomspace(1.05 * span.low.value, span.high.value, 5)):
-        rotor = jeffcott(SOURCE.replace(gamma=float(gamma)))
+        rotor = jeffcott(PAPER.replace(gamma=float(gamma)))
         lost = ~settle(rotor, *fresh(rotor, 2000, 100 + number)).recovered
         assert lost.sum() == 0
 
@@ -59,7 +58,7 @@ def test_something_is_lost_just_beyond_its_end(along_damping):
     (check,) = [check for check in along_damping.checks if check.value == beyond]
     lost = check.example
     assert lost.motion == span.low.motion
-    rotor = jeffcott(SOURCE.replace(gamma=beyond))
+    rotor = jeffcott(PAPER.replace(gamma=beyond))
     starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
     (outcome,) = settle(rotor, starts.positions, starts.velocities).outcomes
     assert outcome == lost.motion.outcome
@@ -108,14 +107,14 @@ def test_without_a_range_it_is_looked_for_wherever_the_rotor_levitates():
 
 def test_what_is_required_decides_not_whether_a_rub_could_hold_the_rotor():
     """Nothing comes back from a rub, but small kicks never reach it."""
-    rotor = jeffcott(SOURCE)
+    rotor = jeffcott(PAPER)
     small = [Sample(VelocityKick(0.5 * contact_free_kick(rotor)), 60)]
     found = find_recovery(rotor, "gamma", small, factor=2.0)
-    assert found.range_of("rub").exists_at(SOURCE.gamma)
-    assert found.span_at(SOURCE.gamma) is not None
+    assert found.range_of("rub").exists_at(PAPER.gamma)
+    assert found.span_at(PAPER.gamma) is not None
     # No farther than the damping may be changed.
     (searched,) = found.searched
-    assert searched.high.value == pytest.approx(2.0 * SOURCE.gamma)
+    assert searched.high.value == pytest.approx(2.0 * PAPER.gamma)
 
 
 @pytest.mark.parametrize(
@@ -130,4 +129,4 @@ def test_what_is_required_decides_not_whether_a_rub_could_hold_the_rotor():
 def test_what_cannot_be_searched_is_refused(options, message):
     given = {"along": "gamma", "disturbances": tried(10)} | options
     with pytest.raises(InputError, match=message):
-        find_recovery(SOURCE, **given)
+        find_recovery(PAPER, **given)

@@ -1,7 +1,6 @@
 """Sweeps planned in Python: the same as those of files, in memory as in a store."""
 
 import shutil
-from pathlib import Path
 
 import pytest
 import xarray
@@ -12,7 +11,7 @@ from carom.base.outcome import InputError
 from carom.disturbances import Sample, VelocityKick
 from carom.sweeps import GridAxis, StudyTask, load_sweep, open_sweep, plan_sweep, run_sweep
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+EXAMPLE = "examples/keogh-cole.toml"
 FILE = """
 machine = "machine.toml"
 seed = 3

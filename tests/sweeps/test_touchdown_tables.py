@@ -10,7 +10,6 @@ from carom.base.outcome import InputError
 from carom.parameters import Gravity, TouchdownBearing
 from carom.sweeps import GridAxis, load_sweep, plan_sweep
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 SOFT = """
 [touchdown]
 law = "kelvin-voigt"
@@ -23,7 +22,7 @@ KICKS = cm.disturbances.Sample(cm.disturbances.VelocityKick(0.5), 10)
 
 @pytest.fixture
 def machine(tmp_path):
-    rigid = (EXAMPLES / "keogh-cole.toml").read_text(encoding="utf-8")
+    rigid = Path("examples/keogh-cole.toml").read_text(encoding="utf-8")
     lines = [line for line in rigid.splitlines() if not line.startswith("restitution")]
     path = tmp_path / "machine.toml"
     path.write_text("\n".join(lines) + SOFT, encoding="utf-8")
@@ -61,7 +60,7 @@ def test_another_bearing_gravity_or_drive_is_another_plan(machine):
 
 
 def test_what_cannot_be_varied_is_refused(machine, tmp_path):
-    rigid = cm.load(EXAMPLES / "keogh-cole.toml")
+    rigid = cm.load("examples/keogh-cole.toml")
     with pytest.raises(InputError, match=r"axes.touchdown_stiffness = .*no table \[touchdown\]"):
         plan_sweep(rigid, [STIFFNESS], KICKS)
     with pytest.raises(InputError, match=r"axes.restitution = .*vary touchdown_restitution"):

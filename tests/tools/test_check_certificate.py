@@ -16,7 +16,7 @@ from machines import DECIMAL as PAPER
 from carom.proofs import prove, prove_kicks, prove_states
 
 PROGRAM = Path(__file__).parents[2] / "tools" / "check_certificate.py"
-KEOGH = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+KEOGH = Path("examples/keogh-cole.toml")
 
 
 def loaded():

@@ -1,7 +1,6 @@
 """Controls of a machine, and what people type into their boxes."""
 
 import math
-from pathlib import Path
 
 import pytest
 
@@ -9,18 +8,16 @@ import carom
 from carom.base.outcome import InputError
 from carom.explorer.computing.controls import controls_of, in_options, unit_of, values_of, with_settings
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
-
 
 @pytest.fixture(scope="module")
 def case():
-    return carom.load(EXAMPLES / "keogh-cole.toml")
+    return carom.load("examples/keogh-cole.toml")
 
 
 def test_settings_are_those_of_the_command_line(case):
     settings = {"damping": "2000 N s/m", "speed": "1500 rpm", "eccentricity": "0.2 mm"}
     texts = [f"{name}={text}" for name, text in settings.items()]
-    assert with_settings(case, settings) == carom.load(EXAMPLES / "keogh-cole.toml", texts)
+    assert with_settings(case, settings) == carom.load("examples/keogh-cole.toml", texts)
 
 
 def test_a_number_without_a_unit_is_in_the_unit_beside_its_box(case):
@@ -50,13 +47,13 @@ def test_every_wrong_value_is_named_in_a_line_of_its_own(case):
     ],
 )
 def test_what_engineers_state_instead_is_read_too(name, text, setting):
-    path = EXAMPLES / "tum-test-rig.toml"
+    path = "examples/tum-test-rig.toml"
     assert with_settings(carom.load(path), {name: text}).machine == carom.load(path, [setting]).machine
 
 
 @pytest.fixture(scope="module")
 def flexible():
-    return carom.load(EXAMPLES / "tum-flexible-rotor.toml")
+    return carom.load("examples/tum-flexible-rotor.toml")
 
 
 def test_parts_have_controls_of_all_together_and_of_each(flexible):
@@ -76,7 +73,7 @@ def test_parts_have_controls_of_all_together_and_of_each(flexible):
 def test_settings_of_parts_are_those_of_the_command_line(flexible):
     settings = {"derivative": "7", "unbalance": "G 2.5", "touchdown_stiffness": "2e7"}
     texts = [f"{name}={text}" for name, text in in_options(flexible, settings).items()]
-    again = carom.load(EXAMPLES / "tum-flexible-rotor.toml", texts)
+    again = carom.load("examples/tum-flexible-rotor.toml", texts)
     assert values_of(again) == values_of(with_settings(flexible, settings))
     # e ω = 2.5 mm/s of the whole rotor, in one part.
     machine = again.parameters.finite_elements.machine

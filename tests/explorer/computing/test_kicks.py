@@ -1,7 +1,5 @@
 """Pictures of kicks: the basin of the library, with the look of its figures."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from compilation import sized
@@ -14,7 +12,6 @@ from carom.explorer.computing.planes import DisturbancePlane, planes_of
 from carom.explorer.computing.rest import RestKick
 from carom.models import jeffcott
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
 CELLS = sized(24, 3)
 ROTOR = jeffcott(PAPER.replace(gamma=0.2))
 KICKS = DisturbancePlane("kick", "velocity", FASTEST, FASTEST)
@@ -57,10 +54,10 @@ def test_a_kick_from_the_wall_starts_there_with_its_velocity():
 
 
 def test_sizes_stay_in_si_units_where_the_speed_changes():
-    case = carom.load(EXAMPLES / "keogh-cole.toml")
+    case = carom.load("examples/keogh-cole.toml")
     kicks = planes_of(case)[0]
     faster = jeffcott(case.replace(speed="3000 rpm", damping="3000 N s/m").parameters)
     shown = map_kicks(faster, kicks, sized(4, 2), kicks.usual)
     assert shown.largest * faster.scales.velocity == pytest.approx(kicks.usual, rel=1e-14)
     assert kicks.usual == pytest.approx(np.sqrt(4.0 * 9.80665 * case.parameters.scales.clearance))
-    assert planes_of(carom.load(EXAMPLES / "source-paper.toml"))[0].usual == 1.0
+    assert planes_of(carom.load("examples/source-paper.toml"))[0].usual == 1.0

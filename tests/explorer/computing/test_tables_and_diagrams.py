@@ -1,7 +1,5 @@
 """Table of motions, and diagram along a slider."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.motions import table_of
 from carom.models import jeffcott
 
-MACHINE = Path(__file__).parents[3] / "examples" / "keogh-cole.toml"
+MACHINE = "examples/keogh-cole.toml"
 
 
 @pytest.fixture(scope="module")

@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES
 
 import carom
 from carom.explorer.computing.walls import RIGID, contact_peaks
 from carom.models import jeffcott
-from carom.parameters import Parameters, Scales, TouchdownBearing
+from carom.parameters import Parameters, TouchdownBearing
 
-SCALES = Scales(50.0, 0.7e-3, 184.2)
 PLANAR = Parameters(**{**PAPER.as_dict(), "gamma": 0.3}, scales=SCALES)
 SOFT = jeffcott(PLANAR, TouchdownBearing("kelvin-voigt", 1e8, restitution=0.8))
 

@@ -19,8 +19,7 @@ from carom.explorer.page.questions import Questions
 from carom.explorer.page.scripts import PAGE
 from carom.explorer.page.view import SLOTS
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
-MACHINE, OF_ROTOR = str(EXAMPLES / "keogh-cole.toml"), str(EXAMPLES / "tum-flexible-rotor.toml")
+MACHINE, OF_ROTOR = "examples/keogh-cole.toml", "examples/tum-flexible-rotor.toml"
 KINDS = {"planar": MACHINE, "flexible": OF_ROTOR}
 FILES = Path(documents.__file__).parent / "files"
 

@@ -2,7 +2,6 @@
 
 import queue
 import threading
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -13,7 +12,7 @@ from carom.explorer.computing.judgement import Loss
 from carom.explorer.page import questions
 from carom.explorer.page.session import Session
 
-MACHINE = str(Path(__file__).parents[3] / "examples" / "keogh-cole.toml")
+MACHINE = "examples/keogh-cole.toml"
 SOON = 120.0
 """Seconds after which an answer is taken to be missing."""
 
