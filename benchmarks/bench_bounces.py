@@ -10,7 +10,8 @@ from statistics import median
 
 import numba
 import pytest
-from against_peers.bouncing import HeyokaFlights, ScipyFlights, bounces
+from against_peers.bouncing import HeyokaFlights, bounces
+from scipy_flights import ScipyFlights
 from workload import MOST_IMPACTS, UNTIL, Bounces, amplitudes_of, source_paper_machine
 
 from carom.core.events import INSIDE, first_crossing

@@ -10,7 +10,8 @@ from pathlib import Path
 from statistics import median
 
 import pytest
-from against_peers.bouncing import HeyokaFlights, ScipyFlights, bounces
+from against_peers.bouncing import HeyokaFlights, bounces
+from scipy_flights import ScipyFlights
 from workload import MOST_IMPACTS, UNTIL, source_paper_machine
 
 from carom.core.processors import available_cores

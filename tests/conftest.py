@@ -83,35 +83,3 @@ def pytest_collection_modifyitems(config, items):
         left_out = {item for item in items if item.get_closest_marker("deep")}
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
-
-
-def pytest_terminal_summary(terminalreporter):
-    """Say how many flights were tried against the high-precision reference and went wrong, and where motions ended."""
-    totals, outcomes = {}, {}
-    reports = [report for key in ("passed", "failed") for report in terminalreporter.stats.get(key, [])]
-    for report in reports:
-        for name, value in getattr(report, "user_properties", []):
-            if name == "flights" and report.when == "call":
-                _add(totals.setdefault(value["scenario"], {}), value)
-            if name == "outcomes" and report.when == "call":
-                _add(outcomes, value)
-    if outcomes:
-        terminalreporter.section("outcomes of random starts")
-        counts = ", ".join(f"{count} {label}" for label, count in sorted(outcomes.items()))
-        terminalreporter.write_line(f"{sum(outcomes.values())} starts: {counts}")
-    if totals:
-        terminalreporter.section("flights against the high-precision reference")
-    for scenario, total in totals.items():
-        terminalreporter.write_line(
-            f"{scenario}: {total['tried']} tried, {total['missed']} missed, {total['spurious']} spurious; "
-            f"{total['contact']} hit, {total['clear']} clear, {total['grazing']} grazing; worst time error "
-            f"{total['worst_time_error']:.1e} ({total['worst_share_of_bound']:.2f} of the rounding bound)"
-        )
-
-
-def _add(total, tally):
-    for name, value in tally.items():
-        if isinstance(value, int):
-            total[name] = total.get(name, 0) + value
-        elif isinstance(value, float):
-            total[name] = max(total.get(name, 0.0), value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
 import numpy as np
 from flint import acb
@@ -53,11 +53,6 @@ class Tally:
     worst_time_error: float = 0.0
     worst_share_of_bound: float = 0.0
     examples: list[str] = field(default_factory=list)
-
-    def as_property(self) -> dict[str, object]:
-        """Plain Python values for the report of the test run, as parallel runs can send no others."""
-        values = {name: value for name, value in asdict(self).items() if name != "examples"}
-        return {name: value.item() if isinstance(value, np.generic) else value for name, value in values.items()}
 
     def check(self) -> None:
         """Fail if any flight went wrong."""

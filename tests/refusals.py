@@ -25,3 +25,10 @@ def error_of(call):
         call()
     assert str(caught.value).isprintable()
     return caught.value
+
+
+def assert_refused(call, says):
+    """A call raises an input error of one line that says this, as a regular expression."""
+    with pytest.raises(InputError, match=says) as caught:
+        call()
+    assert "\n" not in str(caught.value)

@@ -34,7 +34,6 @@ class Found(Result):
         return len(self.pairs)
 
 
-FEW = carom.Grid(carom.disturbances.VelocityKick(0.5), (2, 3))
 FOUND = Found("<one>", np.arange(1e6), (Pair("a", 1.0), Pair("b", 2.0)))
 
 

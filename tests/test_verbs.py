@@ -29,7 +29,6 @@ SUBJECTS = {
 }
 KICKS = Grid(VelocityKick(fastest=0.5), (2, 2))
 FEW = Sample(VelocityKick(fastest=0.5), 2)
-START = cm.State(0.4 + 0.1j, 0.2j)
 
 
 def settled(machine):

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 from machines import flight_matrix, rest_position, strike
-from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from carom.models import Rotor
@@ -44,65 +43,6 @@ class Impact(NamedTuple):
 def stiffness_and_force(parameters: Parameters) -> tuple[complex, complex]:
     """``ω² − 1 + iγ`` and ``ρe^{iφ}``."""
     return complex(parameters.omega**2 - 1.0, parameters.gamma), cmath.rect(parameters.rho, parameters.phi)
-
-
-class ScipyFlights:
-    """Explicit Runge–Kutta of order 8 (Dormand and Prince); the event is a root of its dense output, by Brent's method.
-
-    Parameters
-    ----------
-    parameters : Parameters
-    rtol : float
-        Relative and absolute tolerance.
-    longest_step : float
-        An excursion over the wall that is shorter goes unseen.
-    careful : bool
-        Leave the wall before the event is looked for; integrate once more up to the event, which dense output of order 7
-        finds only roughly, and move from there to the wall by Newton's method.
-    """
-
-    def __init__(
-        self, parameters: Parameters, rtol: float, longest_step: float = np.inf, careful: bool = False
-    ) -> None:
-        stiffness, force = stiffness_and_force(parameters)
-        damping = complex(parameters.gamma, 2.0)
-        self.settings = {"method": "DOP853", "rtol": rtol, "atol": rtol, "max_step": longest_step}
-        self.longest_step, self.careful = longest_step, careful
-        # The integrator keeps the root mean square of both components' errors below rtol times one plus their size.
-        self.step_error = np.sqrt(2.0) * rtol
-
-        def rate(_, state):
-            return np.array([state[1], force - damping * state[1] - stiffness * state[0]])
-
-        def wall(_, state):
-            return state[0].real ** 2 + state[0].imag ** 2 - 1.0
-
-        wall.terminal, wall.direction = True, 1
-        self.rate, self.wall = rate, wall
-
-    def __call__(self, position: complex, velocity: complex, horizon: float) -> Flight:
-        """Fly from a state to the wall or to the horizon."""
-        start = np.array([position, velocity], complex)
-        lead = self._lead(start) if self.careful else 0.0
-        if 0.0 < lead < horizon:
-            ready = solve_ivp(self.rate, (0.0, lead), start, **self.settings).y[:, -1]
-        else:
-            lead, ready = 0.0, start
-        flight = solve_ivp(self.rate, (lead, horizon), ready, events=self.wall, **self.settings)
-        time, state, hit = flight.t[-1], flight.y[:, -1], flight.status == 1
-        if hit and self.careful:
-            state = solve_ivp(self.rate, (0.0, time), start, **self.settings).y[:, -1]
-            for _ in range(2):
-                step = -self.wall(time, state) / (2.0 * (state[0].conjugate() * state[1]).real)
-                time, state = time + step, state + step * self.rate(time, state)
-        return Flight(hit, float(time), complex(state[0]), complex(state[1]), len(flight.t) + 1)
-
-    def _lead(self, start: np.ndarray) -> float:
-        """An eighth of the shortest flight that starts on the wall like this, were its acceleration constant."""
-        if self.wall(0.0, start) < -1e-12:
-            return 0.0
-        departure = -(start[0].conjugate() * start[1]).real
-        return float(0.25 * departure / (abs(self.rate(0.0, start)[1]) + abs(start[1]) ** 2))
 
 
 @cache

@@ -21,6 +21,8 @@ from carom.rotors import (
 )
 from carom.rotors.synchronous import synchronous_response
 
+from .ross_springs import OnSprings
+
 ROTORS = json.loads(Path(__file__).with_name("ross_rotors.json").read_text())
 
 
@@ -35,45 +37,12 @@ def rotor_of(ross):
     return FlexibleRotor(sections, [Disc(*each) for each in ross["discs"]], ModalDamping(0.0), longest_element=100.0)
 
 
-def on_springs(ross):
-    """Mass, damping, stiffness and gyroscopic matrix of the rotor on its springs."""
+def test_mass_eigenvalues_at_speed_and_response_to_unbalance(ross):
     rotor = rotor_of(ross)
-    stiffness, damping = rotor.matrices.stiffness.copy(), np.zeros_like(rotor.matrices.mass)
-    for node, spring, damper in ross["springs"]:
-        place = 2 * rotor.place_of(node)
-        stiffness[place, place] += spring
-        damping[place, place] += damper
-    return rotor, rotor.matrices.mass, damping, stiffness, rotor.matrices.gyroscopic
-
-
-def test_mass(ross):
-    assert rotor_of(ross).mass == pytest.approx(ross["mass"], rel=1e-12)
-
-
-def test_eigenvalues_at_speed(ross):
-    """Forward whirls are those with positive imaginary part here; backward ones have a negative one, and ROSS lists their conjugates."""
-    _, mass, damping, stiffness, gyroscopic = on_springs(ross)
-    n = len(mass)
-    for at in ross["eigenvalues"]:
-        spin = damping - 1j * at["speed"] * gyroscopic
-        accelerations = -np.linalg.solve(mass, np.concatenate([stiffness, spin], axis=1))
-        values = np.linalg.eigvals(np.concatenate([np.eye(n, 2 * n, n), accelerations]))
-        values = np.where(values.imag < 0.0, values.conj(), values)
-        for expected in (complex(*pair) for pair in at["values"]):
-            # Eigenvalues of pencils whose largest are 1e4 times as large.
-            assert np.abs(values - expected).min() < 1e-8 * abs(expected)
-
-
-def test_response_to_unbalance(ross):
-    rotor, mass, damping, stiffness, gyroscopic = on_springs(ross)
-    asked = ross["unbalance"]
-    for number, speed in enumerate(asked["speeds"]):
-        push = np.zeros(len(mass))
-        push[2 * rotor.place_of(asked["node"])] = speed**2
-        dynamic = stiffness - speed**2 * mass + 1j * speed * (damping - 1j * speed * gyroscopic)
-        found = np.linalg.solve(dynamic, push)
-        for node, x in zip(asked["at_nodes"], asked["x"], strict=True):
-            assert found[2 * rotor.place_of(node)] == pytest.approx(complex(*x[number]), rel=1e-8)
+    assert rotor.mass == pytest.approx(ross["mass"], rel=1e-12)
+    on_springs = OnSprings(rotor, ross["springs"], np.zeros_like(rotor.matrices.mass))
+    on_springs.assert_eigenvalues(ross["eigenvalues"])
+    on_springs.assert_response(ross["unbalance"])
 
 
 def test_response_on_magnetic_bearings():

@@ -27,6 +27,8 @@ from carom.rotors.ross_import import USUAL, ImportedRotor
 from carom.rotors.starter import starter_text
 from carom.rotors.synchronous import synchronous_response
 
+from .ross_springs import OnSprings
+
 FOLDER = Path(__file__).with_name("ross_imports")
 COMPUTED = json.loads((FOLDER / "computed.json").read_text())
 PYTHON = os.environ.get("CAROM_ROSS_PYTHON") or (sys.executable if find_spec("ross") else None)
@@ -38,44 +40,14 @@ def rotor_of(name):
         return read_rotor(FOLDER / f"{name}.npz", None if "D" in arrays else USUAL)
 
 
-def on_springs(name):
-    """Mass, damping, stiffness and gyroscopic matrix of the rotor on its springs."""
-    rotor = rotor_of(name)
-    stiffness = rotor.matrices.stiffness.copy()
-    damping = np.zeros_like(stiffness) if rotor.own_damping else rotor.damping_matrix.copy()
-    for node, spring, damper in COMPUTED[name]["springs"]:
-        place = 2 * rotor.place_of(node)
-        stiffness[place, place] += spring
-        damping[place, place] += damper
-    return rotor, rotor.matrices.mass, damping, stiffness, rotor.matrices.gyroscopic
-
-
 @pytest.mark.parametrize("name", COMPUTED)
-def test_mass_and_eigenvalues_at_speed(name):
-    rotor, mass, damping, stiffness, gyroscopic = on_springs(name)
-    assert rotor.mass == pytest.approx(COMPUTED[name]["mass"], rel=1e-12)
-    n = len(mass)
-    for at in COMPUTED[name]["eigenvalues"]:
-        spin = damping - 1j * at["speed"] * gyroscopic
-        accelerations = -np.linalg.solve(mass, np.concatenate([stiffness, spin], axis=1))
-        values = np.linalg.eigvals(np.concatenate([np.eye(n, 2 * n, n), accelerations]))
-        values = np.where(values.imag < 0.0, values.conj(), values)  # ROSS has backward whirls as their conjugates
-        for expected in (complex(*pair) for pair in at["values"]):
-            # Eigenvalues of pencils whose largest are 1e4 times as large.
-            assert np.abs(values - expected).min() < 1e-8 * abs(expected)
-
-
-@pytest.mark.parametrize("name", COMPUTED)
-def test_response_to_unbalance(name):
-    rotor, mass, damping, stiffness, gyroscopic = on_springs(name)
-    asked = COMPUTED[name]["unbalance"]
-    for number, speed in enumerate(asked["speeds"]):
-        push = np.zeros(len(mass))
-        push[2 * rotor.place_of(asked["node"])] = speed**2
-        dynamic = stiffness - speed**2 * mass + 1j * speed * (damping - 1j * speed * gyroscopic)
-        found = np.linalg.solve(dynamic, push)
-        for node, x in zip(asked["at_nodes"], asked["x"], strict=True):
-            assert found[2 * rotor.place_of(node)] == pytest.approx(complex(*x[number]), rel=1e-8)
+def test_mass_eigenvalues_at_speed_and_response_to_unbalance(name):
+    rotor, ross = rotor_of(name), COMPUTED[name]
+    assert rotor.mass == pytest.approx(ross["mass"], rel=1e-12)
+    damping = np.zeros_like(rotor.damping_matrix) if rotor.own_damping else rotor.damping_matrix
+    on_springs = OnSprings(rotor, ross["springs"], damping)
+    on_springs.assert_eigenvalues(ross["eigenvalues"])
+    on_springs.assert_response(ross["unbalance"])
 
 
 def magnetic(name):

@@ -22,16 +22,12 @@ def shares(rotor, starts):
     return {member.name: member.share_of_disturbances for member in found}
 
 
-@pytest.fixture(scope="module")
-def found():
-    return find_attractors(jeffcott(PAPER))
-
-
 # ------------------------------------------------------------------------------------------------ the source's machine
 
 
 @pytest.mark.jit_only
-def test_all_attractors_of_the_source_machine(found):
+def test_all_attractors_of_the_source_machine():
+    found = find_attractors(jeffcott(PAPER))
     orbit = find_orbits(found.rotor)["B1,d"]
     rub = find_equilibria(found.rotor)[1]
 

@@ -23,11 +23,6 @@ def rotor():
     return carom.models.jeffcott(MACHINE)
 
 
-@pytest.fixture(scope="module")
-def kicks(rotor):
-    return map_basins(rotor, Grid(VelocityKick(1.0), (10, 12)), source={"machine_file": "machine.toml"})
-
-
 def test_motions_have_the_names_of_the_attractors(rotor):
     basin = map_basins(rotor, Grid(StateSlice(), (24, 24)))
     assert set(basin.fractions) == {"levitation", "B1,d", "synchronous rub"}
@@ -66,7 +61,8 @@ def test_a_file_holds_all_it_takes_to_do_it_again(rotor, plan, tmp_path):
     assert map_basins(read.rotor, read.plan).dataset.identical(basin.dataset)
 
 
-def test_the_dataset_follows_the_conventions(kicks):
+def test_the_dataset_follows_the_conventions(rotor):
+    kicks = map_basins(rotor, Grid(VelocityKick(1.0), (10, 12)), source={"machine_file": "machine.toml"})
     dataset = kicks.dataset
     outcome = dataset["outcome"]
     flags = dict(zip(outcome.attrs["flag_values"].tolist(), outcome.attrs["flag_meanings"].split(), strict=True))

@@ -18,12 +18,8 @@ KICKS = Grid(VelocityKick.of(MACHINE, "20 mm/s"), (10, 10))
 RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))
 
 
-@pytest.fixture(scope="module")
-def found():
-    return map_gains(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, source={"machine_file": "machine.toml"})
-
-
-def test_each_node_is_the_basin_of_its_machine(found):
+def test_each_node_is_the_basin_of_its_machine():
+    found = map_gains(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, source={"machine_file": "machine.toml"})
     levitates = found.dataset["levitates"].values > 0.0
     assert levitates.any()
     assert not levitates.all()

@@ -9,8 +9,9 @@ from linear_rotors import as_matrices, single
 import carom as cm
 from carom.motions.starts import State
 
+pytestmark = pytest.mark.jit_only
 
-@pytest.mark.jit_only
+
 def test_a_diagram_shows_equilibria(monkeypatch):
     monkeypatch.setattr("carom.bifurcations.steady.SAMPLES", 5)
     monkeypatch.setattr("carom.bifurcations.followed.VALUES", 2)
@@ -31,7 +32,6 @@ def test_a_diagram_shows_equilibria(monkeypatch):
     diagram.plot()
 
 
-@pytest.mark.jit_only
 def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_rotor(monkeypatch):
     monkeypatch.setattr("carom.bifurcations.followed.VALUES", 3)
     monkeypatch.setattr("carom.bifurcations.followed.GUESSES", 150)
@@ -51,7 +51,6 @@ def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_ro
     found.plot()
 
 
-@pytest.mark.jit_only
 def test_rolling_that_closes_from_any_angle_is_no_branch(monkeypatch):
     """125 clearances of radius roll 126 times round in a turn: Newton's method finds such a motion at every angle and at every speed."""
     monkeypatch.setattr("carom.bifurcations.followed.PLACES", (0.5,))

@@ -5,7 +5,7 @@ import pytest
 from machines import PAPER
 
 from carom import State, continue_curve, continue_orbit, find_orbits, simulate
-from carom.bifurcations import Bifurcation, Curve, Plane
+from carom.bifurcations import Bifurcation, Plane
 from carom.models import jeffcott
 from carom.orbits import Orbit
 
@@ -23,11 +23,6 @@ def torus() -> Bifurcation:
     branch = continue_orbit(orbit_at(0.1), "gamma", (0.05, 0.13))
     (point,) = [point for point in branch.special if point.kind == "neimark-sacker"]
     return point
-
-
-@pytest.fixture(scope="module")
-def curve(torus) -> Curve:
-    return continue_curve(torus, PLANE)
 
 
 def growth_an_impact(gamma: float) -> tuple[float, float]:
@@ -60,7 +55,8 @@ def test_disturbances_spiral_out_before_and_in_after(torus):
     assert torus.value - 1e-4 + 2e-4 * low / (low - high) == pytest.approx(torus.value, abs=2e-6)
 
 
-def test_curve_ends_in_a_resonance_or_at_the_edge(curve):
+def test_curve_ends_in_a_resonance_or_at_the_edge(torus):
+    curve = continue_curve(torus, PLANE)
     assert set(curve.stops) <= {"edge of the plane", "resonance-1:2"}
     for kind, angle in (("1:3", 120.0), ("1:4", 90.0), ("1:2", 180.0)):
         for point in curve.codimension2:

@@ -53,3 +53,16 @@ def carom(capsys):
         return code, out, err
 
     return run
+
+
+@pytest.fixture
+def refused(carom):
+    """Run a command that ends with one line of error, which has these words in it."""
+
+    def run(words, *arguments):
+        code, out, err = carom(*arguments)
+        assert (code, out, err.count("\n")) == (2, "", 1)
+        assert err.startswith("carom: ")
+        assert words in err
+
+    return run

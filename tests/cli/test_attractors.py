@@ -4,8 +4,9 @@ import json
 
 import pytest
 
+pytestmark = pytest.mark.jit_only
 
-@pytest.mark.jit_only
+
 def test_json(carom, dimensionless):
     code, out, err = carom("attractors", dimensionless, "--starts", "24", "--seed", "3", "--exponents", "--json")
     assert (code, err) == (0, "")
@@ -28,7 +29,6 @@ def test_json(carom, dimensionless):
     assert sum(entry["count"] for entry in found.values()) == 24
 
 
-@pytest.mark.jit_only
 def test_text_and_files(carom, dimensionless, tmp_path):
     arguments = ("--set", "gamma=0.0815", "--starts", "24", "--out", tmp_path / "out")
     code, out, _ = carom("attractors", dimensionless, *arguments)

@@ -17,22 +17,11 @@ from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
 MACHINE = machine_text("small")
 
 
-def assert_refused(answer, *names):
-    code, out, err = answer
-    assert code == BAD_INPUT
-    assert out == ""
-    assert err.count("\n") == 1
-    assert err.startswith("carom: ")
-    assert "Traceback" not in err
-    for name in names:
-        assert name in err
-
-
-def test_unreadable_files(carom, tmp_path):
+def test_unreadable_files(refused, tmp_path):
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"\xff\xfe\x00")
     for path in (tmp_path, tmp_path / "none.toml", binary, tmp_path / "a" / "b.toml", "\0", ""):
-        assert_refused(carom("study", path))
+        refused("", "study", path)
 
 
 @pytest.mark.parametrize(
@@ -41,23 +30,20 @@ def test_unreadable_files(carom, tmp_path):
         ((), "--start"),
         (("--start", "0,0,0,0", "--kick", "1"), "--kick"),
         (("--start", "1,2,3"), "RE,IM,VRE,VIM"),
-        (("--start", "a,0,0,0"), "--start = a"),
         (("--start", "1.1,0,0,0"), "inside the wall"),
-        (("--start", "0,0,inf,0"), "--start = inf"),
         (("--start", "0,0,1 mm,0"), "--start = 1 mm"),
-        (("--kick", "fast"), "--kick = fast"),
         (("--kick", "13 mm/s", "--set", "gamma=0.01"), "--kick = 13 mm/s"),
         (("--kick", "1 m/s", "--until", "0"), "--until = 0"),
         (("--kick", "1 m/s", "--until", "2 m"), "--until = 2 m"),
     ],
 )
-def test_wrong_start(carom, machine, arguments, words):
-    assert_refused(carom("simulate", machine, *arguments), words)
+def test_wrong_start(refused, machine, arguments, words):
+    refused(words, "simulate", machine, *arguments)
 
 
-def test_units_need_a_machine(carom, dimensionless):
+def test_units_need_a_machine(refused, dimensionless):
     for arguments in (("--start", "0.1 mm,0,0,0"), ("--kick", "1 mm/s"), ("--kick", "1 m/s", "--until", "1 s")):
-        assert_refused(carom("simulate", dimensionless, *arguments), "no scales")
+        refused("no scales", "simulate", dimensionless, *arguments)
 
 
 @pytest.mark.parametrize(
@@ -72,8 +58,8 @@ def test_units_need_a_machine(carom, dimensionless):
         (("orbits", "MACHINE", "--longest-period", "0"), "--longest-period"),
     ],
 )
-def test_wrong_usage(carom, machine, arguments, words):
-    assert_refused(carom(*(machine if word == "MACHINE" else word for word in arguments)), words)
+def test_wrong_usage(refused, machine, arguments, words):
+    refused(words, *(machine if word == "MACHINE" else word for word in arguments))
 
 
 def test_all_errors_of_a_file_are_told_a_line_each_or_as_objects_of_json(carom, tmp_path):
@@ -188,19 +174,19 @@ def test_wrong_usage_is_an_object_of_json(carom, machine):
 
 
 @pytest.mark.parametrize("option", ["--csv", "--netcdf"])
-def test_logs_that_cannot_be_written(carom, machine, option, tmp_path, monkeypatch):
+def test_logs_that_cannot_be_written(refused, machine, option, tmp_path, monkeypatch):
     monkeypatch.setattr("carom.motions.simulation.simulate", _raise(AssertionError("simulated in vain")))
     special = [path for path in ("/dev/null", "/proc/log") if Path(path).parent.is_dir()]
     for path in (tmp_path, tmp_path / "none" / "log", tmp_path / ("x" * 300), "", "a\0b", *special):
-        assert_refused(carom("simulate", machine, "--kick", "1 mm/s", "--until", "1", option, path), option)
+        refused(option, "simulate", machine, "--kick", "1 mm/s", "--until", "1", option, path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_directories_that_cannot_be_written(carom, machine, tmp_path):
+def test_directories_that_cannot_be_written(refused, machine, tmp_path):
     file = tmp_path / "file"
     file.write_text("mine", encoding="utf-8")
     for path in (file, file / "below", "", " ", "a\0b"):
-        assert_refused(carom("study", machine, "--out", path), "--out")
+        refused("--out", "study", machine, "--out", path)
     assert file.read_text(encoding="utf-8") == "mine"
     assert list(tmp_path.iterdir()) == [file]
 

@@ -1,7 +1,6 @@
 """``carom bifurcations`` and ``carom regions`` as a user calls them."""
 
 import json
-import re
 
 import pytest
 
@@ -96,17 +95,12 @@ def test_plane_as_json(capsys):
         (["--along", "gamma", "--from", "0.1", "--to", "0.2", "--out", "\0"], "directory"),
     ],
 )
-def test_inputs_that_cannot_be_used(capsys, words, complaint):
-    assert main(["bifurcations", PAPER, *words]) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert len(captured.err.strip().splitlines()) == 1
-    assert re.search(complaint, captured.err)
+def test_inputs_that_cannot_be_used(refused, words, complaint):
+    refused(complaint, "bifurcations", PAPER, *words)
 
 
 @pytest.mark.parametrize(
     "words", [["--plane", "gamma"], ["--plane", "gamma,gamma"], ["--x", "0.1"], ["--x", "0.1,0.1"], ["--plane", "a,b"]]
 )
-def test_planes_that_cannot_be_used(capsys, words):
-    assert main(["regions", PAPER, *words]) == 2
-    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+def test_planes_that_cannot_be_used(refused, words):
+    refused("", "regions", PAPER, *words)

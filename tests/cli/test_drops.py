@@ -56,8 +56,5 @@ def test_a_drop_as_a_document(carom):
         ),
     ],
 )
-def test_bad_drops_get_one_line(carom, arguments, words):
-    code, out, err = carom(*arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith(f"carom: {words}")
-    assert err.count("\n") == 1
+def test_bad_drops_get_one_line(refused, arguments, words):
+    refused(f"carom: {words}", *arguments)

@@ -26,12 +26,9 @@ def test_without_bokeh_one_line_says_how_to_install_it(carom, monkeypatch):
         (["--port", "high"], "Invalid value for '--port'"),
     ],
 )
-def test_wrong_input_is_one_line(carom, given, said):
+def test_wrong_input_is_one_line(refused, given, said):
     pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
-    code, out, err = carom("explore", "--no-browser", *given)
-    assert (code, out) == (2, "")
-    assert err.startswith(f"carom: {said}")
-    assert err.count("\n") == 1
+    refused(f"carom: {said}", "explore", "--no-browser", *given)
 
 
 def test_the_address_is_the_first_line_and_an_interrupt_ends_it():

@@ -54,15 +54,12 @@ def test_as_json(folder, capsys):
         (["empty.py", "--name", "number"], "name = number, a int: a rotor of ROSS"),
     ],
 )
-def test_what_cannot_be_used_is_refused_in_one_line(folder, capsys, monkeypatch, words, says):
+def test_what_cannot_be_used_is_refused_in_one_line(folder, refused, words, says):
     """A package called ``ross`` stands in for ROSS where the program only has to begin with it."""
     (folder / "ross.py").write_text("class Rotor: pass\n")
     for name, text in {"model.py": "", "broken.py": "1 / 0\n", "empty.py": "number = 3\n"}.items():
         (folder / name).write_text(text)
-    assert main(["import-rotor", *(["-o", "rotor.npz"] if "-o" not in words else []), *words]) == BAD_INPUT
-    lines = capsys.readouterr().err.strip().split("\n")
-    assert len(lines) == 1
-    assert says in lines[0]
+    refused(says, "import-rotor", *(["-o", "rotor.npz"] if "-o" not in words else []), *words)
 
 
 def test_without_ross_it_says_how_to_get_it(folder, capsys):

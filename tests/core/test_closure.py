@@ -32,15 +32,6 @@ def test_equations_without_a_solution_are_told():
     assert not solved(np.array([[np.nan, 1.0]]))
 
 
-@pytest.fixture
-def parts():
-    """Nodes, arrivals, values and slopes of segments that follow from their nodes by given slopes."""
-    random = np.random.default_rng(4)
-    nodes = random.normal(size=(SEGMENTS, ENTRIES, 2)) @ [1.0, 1j]
-    slopes = random.normal(size=(SEGMENTS, WIDTH, WIDTH))
-    return nodes, np.ones(SEGMENTS), slopes
-
-
 def residual(nodes, durations, slopes):
     ends = [
         slope @ np.concatenate([node.real, node.imag, [duration]])
@@ -50,7 +41,12 @@ def residual(nodes, durations, slopes):
     return shooting_equations(nodes, arrivals, np.array([end[-1] for end in ends]), slopes)
 
 
-def test_the_matrix_is_the_derivative_of_the_left_sides(parts):
+def test_the_matrix_is_the_derivative_of_the_left_sides():
+    # Nodes, arrivals, values and slopes of segments that follow from their nodes by given slopes.
+    random = np.random.default_rng(4)
+    nodes = random.normal(size=(SEGMENTS, ENTRIES, 2)) @ [1.0, 1j]
+    slopes = random.normal(size=(SEGMENTS, WIDTH, WIDTH))
+    parts = nodes, np.ones(SEGMENTS), slopes
     nodes, durations, slopes = parts
     matrix = residual(nodes, durations, slopes)[:, :-1]
     step, columns = 1e-6, []

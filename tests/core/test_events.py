@@ -45,19 +45,18 @@ def count(flights: int, by_day: float = 0.1, interpreted: float = 0.03) -> int:
 
 
 @pytest.mark.parametrize("batch", range(4))
-def test_random_flights(batch, record_property):
+def test_random_flights(batch):
     tally = Tally("random flights")
     for rotor, rng in rotors(100 + batch, count(1_000, *FEW)):
         for _ in range(25):
             compare(inside_task(rotor, rng), HORIZON, tally)
-    record_property("flights", tally.as_property())
     tally.check()
     assert tally.tried >= count(25_000, *FEW)
     assert min(tally.contact, tally.clear) > 0.2 * tally.tried
 
 
 @pytest.mark.parametrize("batch", range(2))
-def test_near_grazing_flights(batch, record_property):
+def test_near_grazing_flights(batch):
     tally, passes = Tally("near-grazing flights"), 0
     wanted = count(6_000, *FEW)
     for rotor, rng in rotors(200 + batch, 10 * wanted):
@@ -70,7 +69,6 @@ def test_near_grazing_flights(batch, record_property):
             passes += expected is None or expected.time > time - 0.5
         if passes >= wanted:
             break
-    record_property("flights", tally.as_property())
     tally.check()
     assert passes >= wanted
     # Peaks stand out by 2e-12 and more; rounding stays below that.
@@ -78,7 +76,7 @@ def test_near_grazing_flights(batch, record_property):
 
 
 @pytest.mark.parametrize("kind", range(4), ids=["fast", "late-chatter", "slow", "along-the-wall"])
-def test_starts_on_the_wall(kind, record_property):
+def test_starts_on_the_wall(kind):
     tally = Tally("starts on the wall")
     wanted = count(3_000)
     for rotor, rng in rotors(300 + kind, wanted):
@@ -88,13 +86,12 @@ def test_starts_on_the_wall(kind, record_property):
                 compare(task, HORIZON, tally)
         if tally.tried >= wanted:
             break
-    record_property("flights", tally.as_property())
     tally.check()
     assert tally.tried >= wanted
     assert tally.grazing == 0
 
 
-def test_near_resonance(record_property):
+def test_near_resonance():
     """An equilibrium far outside the wall costs digits: where they are gone the outcome says so."""
     tally = Tally("near resonance")
     rng = np.random.default_rng(400)
@@ -107,12 +104,11 @@ def test_near_resonance(record_property):
             drawn = near_grazing_task(rotor, rng)
             if drawn is not None:
                 compare(drawn[0], drawn[1] + 1.0, tally)
-    record_property("flights", tally.as_property())
     tally.check()
     assert tally.grazing < 0.1 * tally.tried
 
 
-def test_high_speeds(record_property):
+def test_high_speeds():
     """The time of contact is as exact, relative to the duration of a flight, at a thousand clearances a turn."""
     tally = Tally("high speeds")
     for rotor, rng in rotors(500, count(100)):
@@ -120,11 +116,10 @@ def test_high_speeds(record_property):
             position = rng.uniform(0.0, 0.99) * np.exp(2j * math.pi * rng.uniform())
             velocity = 10.0 ** rng.uniform(1.0, 3.0) * np.exp(2j * math.pi * rng.uniform())
             compare(task_from_state(rotor, complex(position), complex(velocity)), 3.0, tally)
-    record_property("flights", tally.as_property())
     tally.check()
 
 
-def test_extreme_parameters(record_property):
+def test_extreme_parameters():
     """Damping and stiffness over six decades, some of the damping negative, starts as fast as the modes."""
     tally = Tally("extreme parameters")
     rng = np.random.default_rng(550)
@@ -142,7 +137,6 @@ def test_extreme_parameters(record_property):
             leaving = -fastest * 10.0 ** rng.uniform(-6.0, 1.0)
             task = wall_task(rotor, 2.0 * math.pi * rng.uniform(), leaving, fastest * rng.normal())
             compare(task, 10.0 / fastest, tally)
-    record_property("flights", tally.as_property())
     tally.check()
     assert min(tally.contact, tally.clear) > 0.1 * tally.tried
 
@@ -174,7 +168,7 @@ def general_rotor(rng, kind):
 
 
 @pytest.mark.parametrize("kind", ["free-standing", "pair", "near pair", "degenerate pair", "growing"])
-def test_rotors_with_many_modes_and_planes(kind, record_property):
+def test_rotors_with_many_modes_and_planes(kind):
     tally = Tally("general rotors")
     rng = np.random.default_rng([600, len(kind)])
     while tally.tried < count(1_500):
@@ -187,7 +181,6 @@ def test_rotors_with_many_modes_and_planes(kind, record_property):
             )
             if flight.level(0.0)[0] < -1e-3:
                 compare(Task(flight, arrays, table, amplitudes, plane), 6.0, tally)
-    record_property("flights", tally.as_property())
     tally.check()
     assert min(tally.contact, tally.clear) > 0.03 * tally.tried
 

@@ -31,36 +31,33 @@ def count(flights: int) -> int:
     return sized(math.ceil(0.1 * flights), math.ceil(0.002 * flights), flights)
 
 
-def test_random_flights(record_property):
+def test_random_flights():
     tally, undecided = Tally("random flights in lanes"), []
     for number, (rotor, rng) in enumerate(rotors(900, count(1_000))):
         for _ in range(20):
             compare(inside_task(rotor, rng), HORIZON, tally, by_lane(number % LANES, undecided))
-    record_property("flights", tally.as_property())
     tally.check()
     assert len(undecided) < 0.1 * tally.tried
 
 
-def test_starts_on_the_wall(record_property):
+def test_starts_on_the_wall():
     tally, undecided = Tally("starts on the wall in lanes"), []
     for number, (rotor, rng) in enumerate(rotors(901, count(1_000))):
         for kind in range(10):
             task = random_wall_task(rotor, rng, kind % 3)
             if task is not None:
                 compare(task, HORIZON, tally, by_lane(number % LANES, undecided))
-    record_property("flights", tally.as_property())
     tally.check()
     assert len(undecided) < 0.5 * tally.tried
 
 
-def test_near_grazing_flights(record_property):
+def test_near_grazing_flights():
     tally, undecided = Tally("near-grazing flights in lanes"), []
     for number, (rotor, rng) in enumerate(rotors(902, count(1_000))):
         for _ in range(20):
             drawn = near_grazing_task(rotor, rng)
             if drawn is not None:
                 compare(drawn[0], drawn[1] + 5.0, tally, by_lane(number % LANES, undecided))
-    record_property("flights", tally.as_property())
     tally.check()
     assert tally.tried >= count(2_000)
     assert len(undecided) < 0.9 * tally.tried

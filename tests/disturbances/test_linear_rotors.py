@@ -11,6 +11,8 @@ from linear_rotors import FixedFrame, random_rotor, single, tilting
 
 from carom.disturbances.shocks import states_after_shocks
 
+pytestmark = pytest.mark.jit_only
+
 
 @dataclass(frozen=True, eq=False)
 class Shaken(FixedFrame):
@@ -57,7 +59,6 @@ def three_masses():
     )
 
 
-@pytest.mark.jit_only
 @pytest.mark.parametrize(
     "rotor",
     [single(), three_masses(), pytest.param(tilting(), marks=pytest.mark.deep)],
@@ -77,7 +78,6 @@ def test_state_after_a_shock_is_that_of_the_matrices(rotor, peak, duration, dire
     assert np.allclose(velocities[0], speed, rtol=0, atol=1e-9)
 
 
-@pytest.mark.jit_only
 def test_random_rotors_and_shocks():
     checked = 0
     for seed in range(sized(4, 1, 60)):

@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from machines import PAPER, rest_position, strike
-from scipy.integrate import solve_ivp
+from limited_reference import follow, struck
+from machines import PAPER, rest_position
 
 import carom
 from carom.disturbances.following import follow_machines
@@ -21,36 +21,23 @@ def followed(parameters, peak, duration, direction, weight=0j):
 
     Under a weight, an acceleration in the fixed frame, the rotor sags by what its spring gives.
     """
-    gamma, omega = parameters.gamma, parameters.omega
 
-    def rate(time, state):
-        place, speed = complex(state[0], state[1]), complex(state[2], state[3])
+    def rates(time, state):
         push = weight + parameters.rho * cmath.exp(1j * (time + parameters.phi))
         push -= peak * math.sin(math.pi * time / duration) * cmath.rect(1.0, direction)
-        force = push - gamma * speed - omega**2 * place
-        return [speed.real, speed.imag, force.real, force.imag]
+        return np.array([state[1], push - parameters.gamma * state[1] - parameters.omega**2 * state[0]])
 
-    def wall(time, state):
-        return math.hypot(state[0], state[1]) - 1.0
+    def rebound(_, state):
+        speed = struck(*state, parameters.d, parameters.mu, parameters.radius_ratio)
+        return np.array([state[0] / abs(state[0]), speed])
 
-    wall.terminal, wall.direction = True, 1.0
-    place, time, impacts = rest_position(parameters), 0.0, 0
-    speed = 1j * place
-    place += weight / omega**2
-    while time < duration:
-        state = [place.real, place.imag, speed.real, speed.imag]
-        found = solve_ivp(rate, (time, duration), state, method="DOP853", rtol=1e-12, atol=1e-13, events=wall)
-        time = float(found.t[-1])
-        place, speed = complex(*found.y[:2, -1]), complex(*found.y[2:, -1])
-        if found.status == 1:
-            impacts += 1
-            local = speed * place.conjugate() / abs(place)
-            # The law of contact takes the angular speed of the co-rotating frame.
-            radial, angular = strike(parameters, local.real, local.imag - 1.0)
-            place /= abs(place)
-            speed = complex(radial, angular + 1.0) * place
+    rest = rest_position(parameters)
+    start = [rest + weight / parameters.omega**2, 1j * rest]
+    (place, speed), impacts = follow(
+        rates, start, duration, ends=lambda _, state: abs(state[0]) - 1.0, after=rebound, longest=duration
+    )
     turn = cmath.exp(-1j * duration)
-    return place * turn, (speed - 1j * place) * turn, impacts
+    return place * turn, (speed - 1j * place) * turn, len(impacts)
 
 
 def after(parameters, peak, duration, direction):

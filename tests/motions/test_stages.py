@@ -32,11 +32,6 @@ def touching(motion):
     return sorted(times + [(each.start, each.end) for each in motion.lasting_contacts])
 
 
-def persisted(motion, gap, least):
-    """See :func:`persisted_at`."""
-    return persisted_at(touching(motion), gap, least)
-
-
 def persisted_at(touches, gap, least):
     """Time at which contact has lasted for so long, with flights up to ``gap``; infinite if it never has.
 
@@ -61,7 +56,7 @@ def test_contact_that_persists_triggers_when_the_log_says_so(least, gap):
     triggered = 0
     for position, kick in zip(positions, kicks, strict=True):
         whole = cm.simulate(ROTOR, cm.State(position, kick), 200.0)
-        expected = persisted(whole, gap, least)
+        expected = persisted_at(touching(whole), gap, least)
         first = cm.simulate(staged, cm.State(position, kick), 200.0).parts[0]
         if expected == math.inf:
             assert first.outcome is not Outcome.TRIGGERED

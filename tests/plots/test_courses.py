@@ -24,13 +24,9 @@ def test_long_motions_stay_small_files(damped, tmp_path):
     assert svg.stat().st_size < 300_000
 
 
-@pytest.fixture(scope="module")
-def rub(damped):
-    """A kick that ends in the stable rub."""
-    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=45.0)
-
-
-def test_forces_are_drawn_in_contact_only_and_in_newtons(rub, damped):
+def test_forces_are_drawn_in_contact_only_and_in_newtons(damped):
+    # A kick that ends in the stable rub.
+    rub = carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=45.0)
     drawn = [line for axes in plots.touchdown(rub).axes for line in axes.lines]
     line = [line for line in drawn if "normal force" in line.get_label()][-1]
     times, values = line.get_data()

@@ -10,19 +10,15 @@ from carom import plots
 pytestmark = pytest.mark.jit_only
 
 
-@pytest.fixture(scope="module")
-def found():
-    return cm.basins.map_drops(
-        cm.load("examples/touchdown-balls.toml"), cm.drop(regained_after="12 ms"), shape=(6, 4), until="40 ms"
-    )
-
-
 def mesh(axes):
     (cells,) = [each for each in axes.collections if each.get_gid() == "cells"]
     return cells
 
 
-def test_both_panels_show_the_cells(found):
+def test_both_panels_show_the_cells():
+    found = cm.basins.map_drops(
+        cm.load("examples/touchdown-balls.toml"), cm.drop(regained_after="12 ms"), shape=(6, 4), until="40 ms"
+    )
     figure = plots.drop_map(found)
     left, right = figure.axes[:2]
     shown = np.ma.filled(mesh(right).get_array(), np.nan).reshape(4, 6)

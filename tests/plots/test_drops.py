@@ -15,11 +15,6 @@ def soft():
     return cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(regained_after="20 ms"), "60 ms")
 
 
-@pytest.fixture(scope="module")
-def rigid():
-    return cm.simulate(cm.load("examples/dropped-rotor.toml", ["restitution=0.1"]), cm.drop())
-
-
 def words(figure):
     return " ".join(text.get_text() for legend in figure.legends for text in legend.get_texts())
 
@@ -60,7 +55,8 @@ def test_force_slip_and_race_over_time(soft):
     assert gap.get_xlim()[1] == pytest.approx(1e3 * (soft.begins + soft.time) * soft.rotor.scales.time)
 
 
-def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole(rigid):
+def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole():
+    rigid = cm.simulate(cm.load("examples/dropped-rotor.toml", ["restitution=0.1"]), cm.drop())
     (plane,) = drop_loads(rigid).planes
     figure = plots.touchdown(rigid)
     beside = [axes for axes in figure.axes if axes.get_ylabel().startswith("impulse")]

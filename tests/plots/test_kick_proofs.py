@@ -15,14 +15,10 @@ from carom.proofs.proving import proof_at
 pytestmark = pytest.mark.jit_only
 
 
-@pytest.fixture(scope="module")
-def kicks():
-    """The slower half is proven, and nothing of the others."""
+def test_cells_have_the_colour_of_their_part():
+    # The slower half is proven, and nothing of the others.
     machine, options = hypotheses_of("examples/spindle.toml"), {"kicks_up_to": "150 mm/s", "most_impacts": 2}
-    return ProvenKicks.of(proof_at(BITS, KICKS.about, machine, options, Evidence({"cells": "v0vagmx"})))
-
-
-def test_cells_have_the_colour_of_their_part(kicks):
+    kicks = ProvenKicks.of(proof_at(BITS, KICKS.about, machine, options, Evidence({"cells": "v0vagmx"})))
     figure = kicks.plot()
     (axes,) = figure.axes
     drawn = [cells for cells in axes.collections if isinstance(cells, PolyCollection) and cells.get_gid()]

@@ -16,16 +16,6 @@ MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
 DAMPED = MACHINE.replace(gamma=0.4)
 
 
-@pytest.fixture(scope="module")
-def before():
-    return map_basins(MACHINE, Grid(KickPlane(1.0), (24, 24)))
-
-
-@pytest.fixture(scope="module")
-def after():
-    return map_basins(DAMPED, Grid(KickPlane(1.0), (24, 24)))
-
-
 def painted(axes):
     """Colours of the cells, in the order of the second coordinate, then of the first."""
     (mesh,) = [entry for entry in axes.collections if isinstance(entry, QuadMesh)]
@@ -33,7 +23,9 @@ def painted(axes):
     return mesh.get_facecolors().reshape(-1, 4)
 
 
-def test_both_have_the_same_range_and_colours(before, after):
+def test_both_have_the_same_range_and_colours():
+    after = map_basins(DAMPED, Grid(KickPlane(1.0), (24, 24)))
+    before = map_basins(MACHINE, Grid(KickPlane(1.0), (24, 24)))
     figure = plots.basin_pair([("now", before), ("then", after)], 0.8)
     now, then = figure.axes
     assert now.get_xlim() == then.get_xlim() == now.get_ylim()

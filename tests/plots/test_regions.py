@@ -10,11 +10,6 @@ from carom.bifurcations import motions_at
 from carom.bifurcations.documents import regions_document
 
 
-@pytest.fixture(scope="module")
-def figure(corner):
-    return plots.region_map(corner)
-
-
 def test_no_curve_leaves_the_plane(corner):
     """The machine lies on an edge: a curve of grazing passes through the edge beside it."""
     points = np.concatenate([curve.points for curve in corner.curves])
@@ -24,7 +19,8 @@ def test_no_curve_leaves_the_plane(corner):
     assert (points <= highs + 1e-12).all()
 
 
-def test_each_region_has_its_number_in_the_document(corner, figure):
+def test_each_region_has_its_number_in_the_document(corner):
+    figure = plots.region_map(corner)
     (axes,) = figure.axes
     document = regions_document(corner)
     numerals = [int(text.get_text()) for text in axes.texts if text.get_gid() == "numeral"]

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-import pytest
 from drawn_legends import fits, legend_words
 
 import carom as cm
@@ -14,16 +13,12 @@ from carom.studies import unbalance_response
 RPM = math.pi / 30.0
 
 
-@pytest.fixture(scope="module")
-def real():
-    return unbalance_response(cm.load("examples/keogh-cole.toml"), ("500 rpm", "4000 rpm"))
-
-
 def lines_in(axes, look):
     return [line for line in axes.lines if line.get_color() == look.colour and line.get_linestyle() == look.line]
 
 
-def test_levitation_is_solid_only_where_it_is_possible(real):
+def test_levitation_is_solid_only_where_it_is_possible():
+    real = unbalance_response(cm.load("examples/keogh-cole.toml"), ("500 rpm", "4000 rpm"))
     figure = plots.unbalance_response(real)
     upper, lower = figure.axes
     for axes in (upper, lower):

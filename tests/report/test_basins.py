@@ -12,11 +12,6 @@ KEOGH_COLE = "examples/keogh-cole.toml"
 pytestmark = pytest.mark.jit_only
 
 
-@pytest.fixture(scope="module")
-def real():
-    return study_once(load(KEOGH_COLE))
-
-
 def drawn(monkeypatch, result):
     """The panels and the size with which the pair is drawn."""
     kept = []
@@ -27,7 +22,8 @@ def drawn(monkeypatch, result):
     return kept[0]
 
 
-def test_the_change_is_the_one_that_was_checked(real, monkeypatch):
+def test_the_change_is_the_one_that_was_checked(monkeypatch):
+    real = study_once(load(KEOGH_COLE))
     ((now, here), (after, there)), required = drawn(monkeypatch, real)
     change = real.recommendation.changes[0]
     assert here.rotor.parameters == real.case.parameters

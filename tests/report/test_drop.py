@@ -24,11 +24,6 @@ def dropped():
 
 
 @pytest.fixture(scope="module")
-def found(dropped):
-    return dropped[0]
-
-
-@pytest.fixture(scope="module")
 def page(dropped, tmp_path_factory):
     path = write_drop_report(*dropped, str(tmp_path_factory.mktemp("drop") / "out"))
     return path.read_text(encoding="utf-8")
@@ -43,7 +38,8 @@ def test_it_needs_no_other_file(page):
     assert len(identifiers) == len(set(identifiers))
 
 
-def test_it_says_what_was_found(found, page):
+def test_it_says_what_was_found(page, dropped):
+    found = dropped[0]
     text = re.sub(r"<[^>]+>", "", page).replace("\N{NO-BREAK SPACE}", " ")
     assert found.headline in text
     for _, rows in found.tables:

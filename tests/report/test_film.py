@@ -22,13 +22,9 @@ def balls():
     return case, cm.simulate(case, cm.drop(), "60 ms")
 
 
-@pytest.fixture(scope="module")
-def played(balls):
+def test_the_samples_are_those_of_the_motion(balls):
     _, motion = balls
-    return motion, film_of(motion), json.loads(film_of(motion).data)
-
-
-def test_the_samples_are_those_of_the_motion(played):
+    played = motion, film_of(motion), json.loads(film_of(motion).data)
     motion, film, data = played
     times = np.array(data["t"]) / (1e3 * motion.rotor.scales.time)
     # Times are written to 1e-5 ms, in which the rotor moves by less than the last digit of a place, or twice that.

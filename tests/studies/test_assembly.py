@@ -30,11 +30,6 @@ def real():
     return study_once(Case("real", REAL.parameters, REAL, Zones()))
 
 
-@pytest.fixture(scope="module")
-def quiet():
-    return study_once(QUIET)
-
-
 def finding(result, topic):
     return "\n".join(fact.text for fact in about(result.facts, topic))
 
@@ -117,7 +112,8 @@ def test_words_never_promise_recovery(parameters):
         assert result.present.drawn.total == (10_000 if result.present.recovers else 2000)
 
 
-def test_best_verdict_is_still_no_guarantee(quiet):
+def test_best_verdict_is_still_no_guarantee():
+    quiet = study_once(QUIET)
     assert quiet.verdict.level == "all-tried-came-back"
     assert {ending.attractor.outcome for ending in quiet.attractors.disturbances} == {Outcome.LEVITATED}
     assert "no guarantee" in quiet.verdict.headline

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
+from machines import PAPER
 
 import carom
 from carom.studies.findings import _bouncing
@@ -17,10 +18,7 @@ from carom.studies.findings import _bouncing
     ],
 )
 def test_completeness_is_claimed_only_where_it_is_proven(radius_ratio, longest, words):
-    parameters = carom.parameters.Parameters(
-        gamma=0.3, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=radius_ratio
-    )
-    orbits = carom.find_orbits(carom.models.jeffcott(parameters), longest)
+    orbits = carom.find_orbits(PAPER.replace(gamma=0.3, radius_ratio=radius_ratio), longest)
     study = SimpleNamespace(
         orbits=orbits, rotor=orbits.rotor, stable_orbits=(), wording=SimpleNamespace(time=lambda time: f"{time}")
     )

@@ -8,6 +8,7 @@ import pytest
 from sweep_tasks import Drawn, Failing, basins_plan, plan_of
 
 from carom.basins import share_of_kicks
+from carom.loading import load
 from carom.sweeps.chunk import compute_chunk, failed_chunk
 from carom.sweeps.plan import cut
 from carom.sweeps.studies import StudyTask
@@ -72,7 +73,8 @@ def test_chunk_lost_with_its_worker_fails_at_all_points():
 
 
 @pytest.mark.jit_only
-def test_study_tells_what_the_functions_tell(source_paper):
+def test_study_tells_what_the_functions_tell():
+    source_paper = load("examples/source-paper.toml")
     import carom
 
     task = StudyTask(24, source_paper.zones.limits, has_scales=False)
@@ -89,7 +91,8 @@ def test_study_tells_what_the_functions_tell(source_paper):
     assert found["recovered"] == share_of_kicks(attractors).fraction
 
 
-def test_si_variables_are_there_with_scales(keogh_cole):
+def test_si_variables_are_there_with_scales():
+    keogh_cole = load("examples/keogh-cole.toml")
     task = StudyTask(0, keogh_cole.zones.limits, has_scales=True)
     found = task.evaluate(keogh_cole, np.random.SeedSequence(3))
     names = {variable.name: variable for variable in task.variables}

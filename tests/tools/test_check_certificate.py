@@ -107,13 +107,11 @@ def test_it_is_run_with_a_file_and_prints_a_line_for_each_claim(tmp_path, paper)
     )
 
 
-@pytest.fixture(scope="module")
-def kinds(paper, doubled, along, kicks, box, states):
-    """A certificate of each kind."""
-    return {document["theorem"]: document for document in (paper, doubled, along, kicks, box, states)}
-
-
-def test_claims_options_and_lists_that_are_not_known_are_refused_in_every_kind(kinds):
+def test_claims_options_and_lists_that_are_not_known_are_refused_in_every_kind(
+    paper, doubled, along, kicks, box, states
+):
+    # A certificate of each kind.
+    kinds = {document["theorem"]: document for document in (paper, doubled, along, kicks, box, states)}
     assert set(kinds) | {"shocks", "unbalance steps"} == set(PROGRAM_OF.THEOREMS) == set(PROGRAM_OF.FORMS)
     for document in kinds.values():
         unknown = {**document["claims"][0], "kind": "recovers at once"}

@@ -33,17 +33,6 @@ def look_up():
     )
 
 
-@pytest.fixture(scope="module")
-def holds():
-    return program(
-        "a, b",
-        [
-            "a, b = load(a, 0), load(b, 0)",
-            "return lanes_of(a < b), lanes_of(~(a < b)), lanes_of((a < b) | (b <= 0.0))",
-        ],
-    )
-
-
 def test_lanes_go_where_they_belong_and_nowhere_else(moves):
     source = np.random.default_rng(40).normal(size=WIDTH + BEYOND)
     for first in range(BEYOND + 1):
@@ -79,7 +68,14 @@ def test_rows_are_looked_up_at_every_place(look_up, shift):
         np.testing.assert_array_equal(out, [row[places], few[levels]])
 
 
-def test_lanes_in_which_a_condition_holds(holds):
+def test_lanes_in_which_a_condition_holds():
+    holds = program(
+        "a, b",
+        [
+            "a, b = load(a, 0), load(b, 0)",
+            "return lanes_of(a < b), lanes_of(~(a < b)), lanes_of((a < b) | (b <= 0.0))",
+        ],
+    )
     random = np.random.default_rng(60)
     everywhere = (1 << WIDTH) - 1
     drawn = [random.random(WIDTH) < share for share in (0.1, 0.5, 0.9)]

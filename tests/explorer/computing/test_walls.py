@@ -1,7 +1,6 @@
 """How hard a rotor strikes: impulses at a rigid wall, peak forces and depths in a compliant one."""
 
 import numpy as np
-import pytest
 from machines import PAPER, SCALES
 
 import carom
@@ -11,11 +10,6 @@ from carom.parameters import Parameters, TouchdownBearing
 
 PLANAR = Parameters(**{**PAPER.as_dict(), "gamma": 0.3}, scales=SCALES)
 SOFT = jeffcott(PLANAR, TouchdownBearing("kelvin-voigt", 1e8, restitution=0.8))
-
-
-@pytest.fixture(scope="module")
-def motion():
-    return carom.simulate(SOFT, carom.kick("160 mm/s"), settle=True)
 
 
 def test_impacts_of_a_rigid_wall_are_those_of_its_log():
@@ -28,7 +22,8 @@ def test_impacts_of_a_rigid_wall_are_those_of_its_log():
     assert RIGID.stated(peaks, SCALES).endswith(" N s")
 
 
-def test_impact_states_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion(motion):
+def test_impact_states_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion():
+    motion = carom.simulate(SOFT, carom.kick("160 mm/s"), settle=True)
     peaks = contact_peaks(motion)
     assert peaks.count == len(motion.contacts) == len(peaks.time)
     # The motion itself, sampled around the hardest of its contacts: below the peak, and close to it.
