@@ -4,6 +4,8 @@ import importlib.util
 import json
 from pathlib import Path
 
+import pytest
+
 from carom.cli import main
 
 SPEC = importlib.util.spec_from_file_location("matrix", Path(__file__).parents[1] / "tools" / "matrix.py")
@@ -24,3 +26,11 @@ def check_answer(question, machine, capsys):
     else:
         assert code == 0, err
         assert json.loads(out)
+
+
+HEAVY = ("gravity", "hunt-crossley-gravity", "race-gravity", "real", "four-degrees", "tum-flexible-rotor")
+
+
+def cells(heavy):
+    """Those of machines under weight or of many states, or the others: two files of tests run side by side."""
+    return [pytest.param(*cell, id="-".join(cell)) for cell in CELLS if (cell[1] in HEAVY) is heavy]

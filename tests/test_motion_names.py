@@ -39,19 +39,17 @@ def texts(path: Path) -> Iterator[str]:
             yield node.value
 
 
+def texts_of(package: str) -> list[str]:
+    return [text for path in Path("src/carom", package).rglob("*.py") for text in texts(path)]
+
+
 def test_the_page_rules_names_out():
     assert {"contact-free motion", "rub equilibri"} <= set(ruled_out())
 
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_no_text_for_people_has_a_name_that_is_ruled_out(package):
-    found = [
-        (str(path), text)
-        for path in Path("src/carom", package).rglob("*.py")
-        for text in texts(path)
-        if any(name in text.lower() for name in ruled_out())
-    ]
-    assert not found
+    assert not [text for text in texts_of(package) if any(name in text.lower() for name in ruled_out())]
 
 
 def is_written_out(text: str) -> bool:
@@ -68,10 +66,4 @@ def is_written_out(text: str) -> bool:
 
 @pytest.mark.parametrize("package", NAMING)
 def test_names_of_motions_have_one_home(package):
-    found = [
-        (str(path), text)
-        for path in Path("src/carom", package).rglob("*.py")
-        for text in texts(path)
-        if is_written_out(text)
-    ]
-    assert not found
+    assert not [text for text in texts_of(package) if is_written_out(text)]

@@ -65,7 +65,6 @@ def _heyoka_integrator():
 class HeyokaFlights:
     """Adaptive Taylor integration to machine precision; events are roots of its polynomials (Biscani and Izzo 2021)."""
 
-    longest_step = 0.0
     # Rounding of a sum of some twenty decreasing terms, and of their recurrences, for states up to size one.
     step_error = 8.0 * EPSILON
 

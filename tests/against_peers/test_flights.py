@@ -51,7 +51,7 @@ def assert_same_flight(parameters: Parameters, start: tuple[complex, complex], h
         # f = |y|² − 1 rises above zero for about 2f'/|f''| and by f'²/(2|f''|), with f' twice the outward speed.
         width, height = 2.0 * outward / bend, outward**2 / bend
         if not theirs.hit or theirs.duration > time + 0.5 * width:
-            assert width < peer.longest_step or height < 4.0 * error
+            assert height < 4.0 * error
             return None
     assert theirs.hit == (outcome == CONTACT)
     if outcome == CLEAR:

@@ -104,14 +104,6 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
     assert sum(low < half_life < high for low, high in intervals) >= 2
 
 
-@pytest.mark.jit_only
-def test_two_impacts_a_period_beyond_the_period_doubling():
-    found = find_attractors(jeffcott(PAPER.replace(gamma=0.0832)), count=40)
-
-    assert found["2-impact bouncing"].name.multiplicity == 2
-    assert "irregular bouncing" not in found
-
-
 # ------------------------------------------------------------------------------------------------ bookkeeping
 
 

@@ -31,14 +31,6 @@ def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
     assert len(back.contacts) == 0 or found.recovered > found.contact_free
 
 
-def test_a_finer_scan_finds_no_smaller_one():
-    rotor = carom.models.jeffcott(MACHINE)
-    found, finer = (
-        smallest_unrecovered(rotor, VelocityKick(1.0), directions=count, sizes=count) for count in (48, 200)
-    )
-    assert found.size == pytest.approx(finer.size, rel=3e-3)
-
-
 def models(machine):
     return {
         "kick": VelocityKick(0.4),
@@ -96,12 +88,6 @@ def test_a_machine_that_always_comes_back_has_no_smallest_loss():
 def test_disturbances_without_a_size():
     with pytest.raises(InputError, match="one with a size"):
         smallest_unrecovered(carom.models.jeffcott(MACHINE), StateSlice())
-
-
-@pytest.mark.parametrize("fastest", [0.0, -1.0, math.nan, math.inf])
-def test_speeds_that_make_no_sense(fastest):
-    with pytest.raises(InputError, match="fastest"):
-        smallest_unrecovered(carom.models.jeffcott(MACHINE), VelocityKick(fastest))
 
 
 def test_no_levitation():

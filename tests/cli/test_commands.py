@@ -83,14 +83,6 @@ def test_simulate_as_json(carom, dimensionless):
     assert set(value["final"]) == {"U", "V"}
 
 
-def test_simulate_follows_a_motion_to_its_end(carom, machine):
-    value = document(carom("simulate", machine, "--kick", "12.894 mm/s,2 rad", "--json"))
-
-    assert value["outcome"] == "forward-rub"
-    assert value["contacts"][-1]["kind"] == "slide"
-    assert value["contacts"][-1]["end"] == value["time"]
-
-
 def test_simulate_for_people(carom, machine):
     code, out, err = carom("simulate", machine, "--kick", "12.894 mm/s,2 rad")
 

@@ -14,20 +14,6 @@ pytestmark = pytest.mark.jit_only
 MACHINE = "examples/tum-flexible-rotor.toml"
 
 
-def test_a_drop_tells_both_bearings(carom):
-    code, out, err = carom("drop", MACHINE, "--until", "20 ms")
-    words = " ".join(out.split())
-    assert (code, err) == (0, "")
-    assert "Touchdown bearing 1 peak force" in words
-    assert "Touchdown bearing 2 peak force" in words
-    _, out, _ = carom("drop", MACHINE, "--until", "20 ms", "--json")
-    found = json.loads(out)
-    loads = cm.motions.drop_loads(cm.simulate(cm.load(MACHINE), cm.drop(), "20 ms"))
-    for entry, plane in zip(found["touchdown_bearings"], loads.planes, strict=True):
-        assert entry["loads"]["force_si"] == plane.si()["force"]
-    assert cm.models.rotor_from(found["rotor"]).scales == loads.scales
-
-
 def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
     """In words, as CSV, as netCDF and as JSON, counted from 1 everywhere."""
     table, log, until = tmp_path / "log.csv", tmp_path / "log.nc", "15 ms"

@@ -39,13 +39,6 @@ def test_help_loads_nothing_heavy():
     assert done.stderr.strip() == "[]"
 
 
-def test_wrong_usage_loads_nothing_heavy():
-    code = "import sys; from carom.cli import main; main(['study']); assert 'numpy' not in sys.modules"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-
-    assert done.returncode == 0, done.stderr
-
-
 def test_what_cannot_be_simulated_is_refused_before_anything_is_drawn_or_stored(machine):
     refused = [
         ("--start", "2,0,0,0"),

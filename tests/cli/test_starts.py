@@ -181,8 +181,6 @@ def test_options_state_what_must_be_survived_in_place_of_the_file(tmp_path):
     ("option", "text", "words"),
     [
         ("kick", "60", "--kick = 60: must be a velocity in m/s"),
-        ("shock", "5 g, 3", "--shock = 3: must be a time in s"),
-        ("blade_loss", "1", "--blade-loss = 1: must be an unbalance in kg m"),
         ("blade_loss", "50 kg m", "--blade-loss = 50.0: gives a change of the eccentricity of 1428.57 clearances"),
     ],
 )

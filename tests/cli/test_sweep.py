@@ -48,14 +48,6 @@ def test_table_tells_what_was_done(carom, sweep_file, store):
     assert data.levitates.values.tolist() == [[1.0, 1.0]] * 4
 
 
-def test_same_command_goes_on(carom, sweep_file, store):
-    carom("sweep", sweep_file, "--out", store, "--threads")
-    code, out, _ = carom("sweep", sweep_file, "--out", store)
-
-    assert code == 0
-    assert "Nothing was left to compute." in out
-
-
 def test_json_is_one_object(carom, sweep_file, store):
     code, out, err = carom("sweep", sweep_file, "--out", store, "--threads", "--json")
     document = json.loads(out)

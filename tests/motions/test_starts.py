@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linear_rotors import single, tilting
+from linear_rotors import single
 from machines import PAPER
 
 import carom as cm
@@ -47,21 +47,9 @@ class TestStarts:
         )
         assert wide.radius(np.zeros(1)) == pytest.approx(0.75, abs=1e-14)
 
-    @pytest.mark.parametrize("position", [np.array(["a", "b"]), np.array([None, 1.0]), "ab"])
-    def test_no_numbers(self, position):
-        with pytest.raises(InputError, match="start position"):
-            simulate(tilting().model, State(position, np.zeros(2)), 1.0)
-
     def test_a_kick_from_an_equilibrium_outside_the_wall(self):
         with pytest.raises(InputError, match=r"^kick = .*outside the wall"):
             simulate(jeffcott(PAPER.replace(gamma=0.01)), kick(0.1), 1.0)
-
-    @pytest.mark.parametrize("value", [math.nan, math.inf, complex(0, -math.inf)])
-    def test_not_finite(self, rotor, value):
-        with pytest.raises(InputError, match=r"start position = .* finite"):
-            simulate(rotor, State(value), 1.0)
-        with pytest.raises(InputError, match=r"start velocity = .* finite"):
-            simulate(rotor, State(0.1, value), 1.0)
 
     @pytest.mark.parametrize("radius", [1.0, 1.0 + 0.9e-12, 1.0 - 0.9e-12])
     def test_on_the_wall_to_within_rounding(self, rotor, radius):

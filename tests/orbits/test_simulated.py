@@ -39,13 +39,6 @@ def on_race(tmp_path_factory):
     return next(each for each in found if each.impacts == 1)
 
 
-@pytest.fixture
-def limited(tmp_path):
-    """A rotor that bounces while its magnetic bearing is at its limits."""
-    magnet = f"negative_stiffness = {NEGATIVE}\nforce_current_factor = 100.0\nmagnetic_bearings = 1\n"
-    return machine(tmp_path, f"{EXAMPLE}force_limit = {BOUND}\n{magnet}")
-
-
 def test_an_orbit_with_closed_form_is_found_again():
     motion = cm.simulate(cm.load("examples/keogh-cole.toml"), cm.kick("60 mm/s"))
     exact, found = orbit_of_motion(motion), periodic_of(motion)
@@ -118,7 +111,10 @@ def _race_reference(orbit):
     return np.array(end), deepest / CLEARANCE, strongest, abs(y[3])
 
 
-def test_an_orbit_at_limits_closes_after_a_quarter_of_a_turn(limited):
+def test_an_orbit_at_limits_closes_after_a_quarter_of_a_turn(tmp_path):
+    # It bounces while its magnetic bearing is at its limits.
+    magnet = f"negative_stiffness = {NEGATIVE}\nforce_current_factor = 100.0\nmagnetic_bearings = 1\n"
+    limited = machine(tmp_path, f"{EXAMPLE}force_limit = {BOUND}\n{magnet}")
     found = cm.find_orbits(limited, impacts=1, guesses=40)
     orbit = next(each for each in found if each.impacts == 1 and "saturate" in each.segments)
     assert orbit.period == pytest.approx(0.5 * np.pi, rel=1e-14)

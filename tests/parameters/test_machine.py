@@ -110,12 +110,6 @@ def test_a_value_too_close_to_zero_says_so(field, value):
     assert error_of(lambda: Machine(**{**SI, field: value})).allowed.endswith("this is too close to 0")
 
 
-def test_restitution_above_one_is_refused():
-    assert str(error_of(lambda: Machine(**{**SI, "restitution": 1.01}))).startswith(
-        "restitution = 1.01: must be a number, 0 to 1"
-    )
-
-
 @pytest.mark.parametrize(
     ("field", "text", "number"),
     [

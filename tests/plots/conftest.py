@@ -8,8 +8,10 @@ from machines import PAPER, SCALES
 import carom
 
 
-def _motions(gamma: float) -> SimpleNamespace:
-    rotor = carom.models.jeffcott(PAPER.replace(gamma=gamma, scales=SCALES))
+@pytest.fixture(scope="session")
+def damped() -> SimpleNamespace:
+    """gamma = 0.1: four admissible orbits, of which B1,d is stable."""
+    rotor = carom.models.jeffcott(PAPER.replace(scales=SCALES))
     return SimpleNamespace(
         rotor=rotor,
         orbits=carom.find_orbits(rotor),
@@ -18,18 +20,6 @@ def _motions(gamma: float) -> SimpleNamespace:
         mm=1e3 * SCALES.length,
         ms=1e3 * SCALES.time,
     )
-
-
-@pytest.fixture(scope="session")
-def damped() -> SimpleNamespace:
-    """gamma = 0.1: four admissible orbits, of which B1,d is stable."""
-    return _motions(0.1)
-
-
-@pytest.fixture(scope="session")
-def weak() -> SimpleNamespace:
-    """gamma = 0.05: two pairs of orbits, all virtual but B1,c; the contact-free point is virtual too."""
-    return _motions(0.05)
 
 
 @pytest.fixture(scope="session")

@@ -6,7 +6,6 @@ from dataclasses import replace
 import pytest
 
 import carom as cm
-from carom.base.outcome import InputError
 from carom.motions import drop_loads
 from carom.report import write_drop_report
 from carom.studies import DropStudy
@@ -49,9 +48,3 @@ def test_it_says_what_was_found(page, dropped):
     assert "<strong>normal force: 1,320" in page.replace("\N{NO-BREAK SPACE}", " ")
     assert "<b>drop</b>" not in page
     assert "&lt;b&gt;drop&lt;/b&gt;" in page
-
-
-def test_a_directory_that_cannot_be_written(dropped, tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match="--out"):
-        write_drop_report(*dropped, str(tmp_path / "file"))

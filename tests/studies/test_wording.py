@@ -14,18 +14,14 @@ PLAIN = Wording(None)
 
 def test_quantities_with_units():
     assert SI.radius(0.954806) == "0.955 c_r (0.668 mm)"
-    assert SI.length(0.0452) == "31.6 µm"
     assert SI.time(2.328416) == "12.6 ms"
     assert SI.velocity(0.05) == "6.45 mm/s"
-    assert SI.velocity(2.0) == "258 mm/s"
     assert SI.name("gamma") == "damping"
     assert SI.force(0.75853) == "901 N"
-    assert SI.force(3265.0) == "3.88 MN"
     assert SI.impulse(1.4359) == "9.26 N s"
     assert SI.power(0.11378 * 58.142857) == "1.01 kW"
     assert SI.per_second(2.328416) == "79.1 times a second"
     assert SI.value("gamma", 0.37001594) == "3,408 N s/m"
-    assert SI.value("omega", 0.76) == "979,900 N/m"
 
 
 def span(low, high):

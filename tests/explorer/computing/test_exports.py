@@ -2,7 +2,6 @@
 
 import json
 import shlex
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -20,7 +19,6 @@ from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.models import jeffcott
 from carom.motions import Trajectory
-from carom.parameters import Requirement, Shock
 from carom.studies import UnbalanceResponse
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -64,13 +62,6 @@ def test_options_and_file_lead_to_the_same_machine(given, changes, tmp_path):
     assert again.zones == case.zones
     if case.machine is None:
         assert again.parameters == case.parameters
-
-
-@pytest.mark.parametrize("path", [KEOGH, PAPER])
-def test_the_file_says_what_must_be_survived(path, tmp_path):
-    case = replace(carom.load(path), requirement=Requirement(0.3, Shock(50.0, 0.02), 0.01, "file"))
-    (tmp_path / "machine.toml").write_text(case.to_toml(), encoding="utf-8")
-    assert carom.load(tmp_path / "machine.toml").requirement == case.requirement
 
 
 def pictures(monkeypatch):
