@@ -50,17 +50,13 @@ def test_a_hunt_crossley_wall_restitutes_as_it_should(exponent, dissipation):
 LAWS = (KelvinVoigt(2e3, 10.0), HuntCrossley(3e3, 0.5, 1.5))
 
 
-def two_planar_rotors():
-    """Two planar rotors side by side that do not know of each other, each with its plane."""
-    return [
+def test_coupled_planes_are_planar_rotors_in_other_coordinates():
+    """Any coordinates ``X`` with ``U = QX`` describe the same: slides, rolling at both planes at once, weights, all."""
+    # Two planar rotors side by side that do not know of each other, each with its plane.
+    rotors = [
         Rotor.planar(0.1, 0.76, 3 / 7, 0.21, Plane((1.0,), LAWS[0], 0.3, 4.0), weight=0.1),
         Rotor.planar(0.05, 0.5, 0.3, -0.4, Plane((1.0,), LAWS[1], 0.2, 6.0), weight=0.2),
     ]
-
-
-def test_coupled_planes_are_planar_rotors_in_other_coordinates():
-    """Any coordinates ``X`` with ``U = QX`` describe the same: slides, rolling at both planes at once, weights, all."""
-    rotors = two_planar_rotors()
     places, speeds, until = [0.9, 0.9 + 0.1j], [2.0 - 4.0j, 2.0 - 5.5j], 0.3
     alone = [follow(rotor, [u], [v], until) for rotor, u, v in zip(rotors, places, speeds, strict=True)]
 

@@ -90,6 +90,12 @@ def test_disturbances_without_a_size():
         smallest_unrecovered(carom.models.jeffcott(MACHINE), StateSlice())
 
 
+@pytest.mark.parametrize("fastest", [0.0, -1.0, math.nan, math.inf])
+def test_speeds_that_make_no_sense(fastest):
+    with pytest.raises(InputError, match="fastest"):
+        smallest_unrecovered(carom.models.jeffcott(MACHINE), VelocityKick(fastest))
+
+
 def test_no_levitation():
     with pytest.raises(InputError, match="levitation"):
         smallest_unrecovered(carom.models.jeffcott(PAPER.replace(gamma=0.05)), VelocityKick())

@@ -42,10 +42,6 @@ def drawn(monkeypatch):
     return found
 
 
-def headings(figures):
-    return [figure.get_suptitle().split("\n")[0] for figure in figures]
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 def test_both_formats_with_name_and_present_values(command, drawn, tmp_path, capsys):
     words, stems = COMMANDS[command]
@@ -53,7 +49,7 @@ def test_both_formats_with_name_and_present_values(command, drawn, tmp_path, cap
     written = {str(file.relative_to(tmp_path / "out")) for file in (tmp_path / "out").rglob("*.*")}
     figures = {name for name in written if name.endswith((".svg", ".png"))}
     assert figures == {f"{stem}.{ending}" for stem in stems for ending in ("svg", "png")}
-    assert headings(drawn) == [NAMED] * len(stems)
+    assert [figure.get_suptitle().split("\n")[0] for figure in drawn] == [NAMED] * len(stems)
     assert all(fits(figure) for figure in drawn)
     if command == "bifurcations":
         (line,) = [line for line in drawn[0].axes[0].lines if line.get_gid() == "present"]

@@ -23,13 +23,14 @@ def error_of(path, *settings):
     return error
 
 
+@pytest.mark.parametrize("path", [REAL, PAPER])
 @given(gamma=st.floats(1e-6, 100), omega=st.floats(1e-2, 100), rho=st.floats(0, 100), radius_ratio=st.floats(1e-2, 1e6))
-def test_settings_are_exact_and_the_machine_follows(gamma, omega, rho, radius_ratio):
+def test_settings_are_exact_and_the_machine_follows(path, gamma, omega, rho, radius_ratio):
     numbers = {"gamma": gamma, "omega": omega, "rho": rho if rho > 1e-20 else 0.0, "radius_ratio": radius_ratio}
 
-    case = load(REAL, [f"{name}={number!r}" for name, number in numbers.items()])
+    case = load(path, [f"{name}={number!r}" for name, number in numbers.items()])
 
-    followed = case.machine.parameters.as_dict()
+    followed = (case.machine or case).parameters.as_dict()
     for name, number in numbers.items():
         assert getattr(case.parameters, name) == number
         assert abs(followed[name] - number) <= math.ulp(number)
