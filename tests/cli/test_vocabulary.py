@@ -9,7 +9,7 @@ from carom.attractors import MotionName
 from carom.base.outcome import Outcome
 from carom.cli.app import main
 from carom.orbits.names import OrbitName
-from carom.plots import LOOKS, OUTCOMES
+from carom.plots import OUTCOMES
 from carom.studies.endings import ending_words
 
 MACHINE = "examples/keogh-cole.toml"
@@ -85,11 +85,3 @@ def test_each_outcome_has_one_name_on_every_surface(outcome):
         assert f"a *{outcome.words}*" in PAGE
     else:
         assert outcome.words in " ".join(NAMES) or outcome.words == "bouncing"
-
-
-def test_figures_use_these_names():
-    words = [look.words for look in (*LOOKS.values(), *OUTCOMES.values())]
-    assert not [text for text in words if any(forbidden in text for forbidden in FORBIDDEN)]
-    for label in ("levitated", "rolling", "backward-whirl"):
-        outcome = next(outcome for outcome in Outcome if outcome.label == label)
-        assert OUTCOMES[label].words == MotionName(outcome)

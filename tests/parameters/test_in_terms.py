@@ -84,8 +84,6 @@ def test_text_unit_and_secondary_terms():
         (f"natural frequency {math.sqrt(2.495e6 / 50) / math.tau:.3g} Hz",),
     )
     assert in_terms_of(case_with(damping=1), "damping", 2800.0).beside == ("damping 2,800 N s/m",)
-    grade = in_terms_of(case_with(eccentricity=2), "eccentricity", 2.5e-3 / (math.tau * 30))
-    assert (grade.text, grade.setting) == ("G 2.5", "balance_grade=G 2.5")
     assert in_terms_of(load(REAL), "friction", 0.2).setting == "friction=0.2"
     assert in_terms_of(load(REAL), "stiffness", 2.5e9).text == "2.5×10⁹ N/m"
     assert in_terms_of(load(REAL), "damping", 0.0).setting == "damping=0 N s/m"
