@@ -27,7 +27,7 @@ FEW = 4
 """Coordinates up to which they are several."""
 PEAKS = 12
 """Values between three of these at which the worst of levitation is looked for."""
-CLOSE = 1e-9
+LOSS_RTOL = 1e-9
 """Width at which the search for its loss ends, relative to the step."""
 WHY = ("a vibration grows", "it reaches the wall", "magnetic bearings would exceed a limit")
 """Why it is lost."""
@@ -154,7 +154,7 @@ def levitation_along(
         minimize_scalar(decay, bounds=(grid[place], grid[place + 2]), options={"maxiter": PEAKS})
     for low, high in pairwise(sorted(seen)):
         if (seen[low].max() < 0.0) != (seen[high].max() < 0.0):
-            bracketed_root(lambda value: float(margins(value).max()), low, high, CLOSE * (high - low))
+            bracketed_root(lambda value: float(margins(value).max()), low, high, LOSS_RTOL * (high - low))
     values, rows = np.array(sorted(seen)), np.array([seen[value] for value in sorted(seen)])
     lost, points = rows.max(axis=1) >= 0.0, []
     for place in np.flatnonzero(lost[:-1] != lost[1:]).tolist():
