@@ -234,9 +234,9 @@ def _resolve(app, env, node, contnode):  # type: ignore[no-untyped-def]
 
 def _is_annotation(name: str) -> bool:
     """Whether a name stands in annotations only: with brackets, a type of another package, or one imported for checking."""
-    if "[" in name:
-        return True
     head, _, last = name.rpartition(".")
+    if "[" in name or last == "Annotated":
+        return True
     return head.partition(".")[0] in ("np", "numpy", "distributed") or (not head and last[:1].isupper())
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from carom.models import Axis
 
 LONGEST_AXIS = 1_000_000
+AxisCount = Annotated[int, whole(2, LONGEST_AXIS)]
 
 Spacing = Literal["linear", "log", "list"]
 
@@ -52,7 +53,7 @@ class GridAxis:
         parameter: str | Axis,
         low: object,
         high: object,
-        count: Annotated[int, whole(2, LONGEST_AXIS)],
+        count: AxisCount,
         spacing: Literal["linear", "log"] = "linear",
     ) -> GridAxis:
         """Evenly spaced values of a parameter, ends included.
