@@ -22,7 +22,7 @@ LIMITS = {
     "orbits bifurcations closed_forms continuation": 6540,
     "basins attractors": 2245,
     "studies": 3299,
-    "cli plots report": 5505,
+    "cli plots report": 5328,
     "rotors": 3260,
     "proofs": 6045,
     "explorer": 2300,

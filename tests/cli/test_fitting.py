@@ -6,7 +6,7 @@ import re
 import pytest
 from rich.console import Console
 
-from carom.cli.fitting import print_table
+from carom.cli.screen import print_table
 
 HEADINGS = ("what happens", "period", "disturbances", "note", "remark")
 ROWS = (

@@ -7,8 +7,7 @@ from rich.console import Console
 from yielding_walls import with_walls
 
 import carom as cm
-from carom.cli.motion_tables import print_parts
-from carom.cli.tables import print_motions
+from carom.cli.tables import print_motions, print_parts
 from carom.models import KelvinVoigt
 from carom.studies.summaries import MotionRow, State
 

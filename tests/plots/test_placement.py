@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.plots.placement import spread, spread_angles
+from carom.plots.overviews import spread, spread_angles
 
 places = st.lists(st.floats(-100.0, 100.0), min_size=1, max_size=12)
 

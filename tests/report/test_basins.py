@@ -5,7 +5,7 @@ from studies import study_once
 
 from carom import load, map_basins
 from carom.disturbances import KickPlane
-from carom.report import basins
+from carom.report import figures
 
 KEOGH_COLE = "examples/keogh-cole.toml"
 
@@ -15,10 +15,10 @@ pytestmark = pytest.mark.jit_only
 def drawn(monkeypatch, result):
     """The panels and the size with which the pair is drawn."""
     kept = []
-    monkeypatch.setattr(basins, "CELLS", {"kick": (12, 12), "shock": (2, 8), "blade_loss": (12,)})
-    monkeypatch.setattr(basins, "map_cells", map_basins)
+    monkeypatch.setattr(figures, "CELLS", {"kick": (12, 12), "shock": (2, 8), "blade_loss": (12,)})
+    monkeypatch.setattr(figures, "map_cells", map_basins)
     monkeypatch.setattr("carom.plots.basin_pair", lambda *arguments: kept.append(arguments))
-    basins.draw(result)
+    figures.draw_basins(result)
     return kept[0]
 
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from carom.base.outcome import IRREGULAR_BOUNCING
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from carom.attractors import AttractorSet
@@ -52,7 +51,7 @@ def attractors(
 def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None], exponents: bool) -> None:
     """Print a table of the attractors, and what the rotor does on each below it."""
     from carom.basins import share_of_kicks
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.parameters.columns import table_of
     from carom.studies.document import ACROSS, MEASURED, SEEN
 

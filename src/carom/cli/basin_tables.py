@@ -9,7 +9,7 @@ from carom.basins import Basin, GainMap, SmallestUnrecovered
 from carom.basins.document import MOTION
 from carom.basins.families import size_coordinate
 from carom.basins.gains import WANTED
-from carom.cli.fitting import print_table
+from carom.cli.screen import print_table
 from carom.cli.tables import print_rows
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from carom.bifurcations import Diagram
@@ -65,7 +64,7 @@ def _shown(varied: Axis, value: float) -> str:
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.bifurcations.documents import POINT
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.parameters.columns import table_of
 
     screen = console()

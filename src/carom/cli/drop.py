@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from carom.basins import DropMap
-    from carom.cli.beginnings import StatedBeginning
+    from carom.cli.starts import StatedBeginning
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
@@ -63,8 +62,7 @@ def drop(
     figures, drop.json and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
     """
     from carom.basins.drops import RELEASED
-    from carom.cli.beginnings import released
-    from carom.cli.starts import read_cells, read_plane, read_time, refuse_without
+    from carom.cli.starts import read_cells, read_plane, read_time, refuse_without, released
 
     case = read_machine(machine, settings)
     check_output(out)
@@ -103,8 +101,7 @@ def _print_drop(screen: Console, found: DropStudy, out: str | None) -> None:
     """Print what was done, how it ended, the loads of each touchdown bearing, and the limits."""
     from rich.text import Text
 
-    from carom.cli.motion_tables import print_checks
-    from carom.cli.tables import TEXT_WIDTH, print_rows
+    from carom.cli.tables import TEXT_WIDTH, print_checks, print_rows
 
     width = min(screen.width, TEXT_WIDTH)
     screen.print(f"{found.echo.words}.", width=width)
@@ -136,7 +133,7 @@ def _map(case: Case, begins: StatedBeginning, asked: dict[str, Any], out: str | 
 def _print_map(screen: Console, found: DropMap) -> None:
     """Print how the drops end, the loads on the bearing, and how many exceed its limits."""
     from carom.basins.document import DROPPED
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.parameters.columns import table_of
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
 

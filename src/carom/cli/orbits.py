@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over
-from carom.cli.terminal import console, progress, read_machine
+from carom.cli.terminal import console, hand_over, progress, read_machine
 
 if TYPE_CHECKING:
     from carom.closed_forms.compliant_walls import SlippingWhirl

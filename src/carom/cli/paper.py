@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from carom.cli.options import AS_JSON, option
-from carom.cli.output import hand_over
-from carom.cli.terminal import check_output, console, progress
+from carom.cli.terminal import check_output, console, hand_over, progress
 
 if TYPE_CHECKING:
     from carom.reproductions.mora2014 import Reproduction
@@ -39,7 +38,7 @@ def paper(out: str | None = OUT, as_json: bool = AS_JSON) -> None:
 
 
 def _print_reproduction(found: Reproduction) -> None:
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.reproductions.mora2014.document import given_words, tables
 
     screen = console()

@@ -11,8 +11,7 @@ import typer
 from carom.base.outcome import InputError, shown
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over
-from carom.cli.terminal import check_output, console, progress
+from carom.cli.terminal import check_output, console, hand_over, progress
 
 if TYPE_CHECKING:
     from carom.base.progress import Reporter
@@ -188,7 +187,7 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
 
 def _print_proof(proof: Proof, checked: bool) -> None:
     """Print the theorem, all claims, and what is not claimed."""
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.proofs.headlines import chief_of, headline, numbers_of
     from carom.proofs.levitation_claims import THEOREM
 

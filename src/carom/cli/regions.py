@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -63,7 +62,7 @@ def regions(
 def _print_map(screen: Console, found: RegionMap) -> None:
     """Print the curves of a map, their meeting points, the regions, and in which of them the machine lies."""
     from carom.bifurcations.documents import CHANGE, CODIMENSION2, CURVE, REGION
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.parameters.columns import table_of
 
     screen.print(f"Plane of {' and '.join(axis.field.words for axis in found.axes)}")

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
@@ -74,7 +73,7 @@ def _read(case: Case, start: str | None, end: str | None, operating: str | None)
 
 
 def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
-    from carom.cli.fitting import print_table
+    from carom.cli.screen import print_table
     from carom.parameters.columns import table_of
     from carom.studies.response import BEARING, STRETCH
     from carom.studies.wording import rpm

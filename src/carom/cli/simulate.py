@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.output import hand_over, write_output
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
@@ -45,8 +44,7 @@ def simulate(
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
     from carom.cli import logs
-    from carom.cli.beginnings import one_of, released
-    from carom.cli.starts import read_time
+    from carom.cli.starts import one_of, read_time, released
 
     case = read_machine(machine, settings)
     check_output(out)
@@ -81,7 +79,7 @@ def simulate(
             write_output(out, case, "simulation", document, figures, tell=tell.part(0.4, 1.0, "drawing"))
 
     def show() -> None:
-        from carom.cli.motion_tables import print_parts
+        from carom.cli.tables import print_parts
 
         console().print(f"{echo.words}.")
         print_parts(console(), case, motion, echo.kind)

@@ -1,4 +1,4 @@
-"""Read starts, kicks, times and ranges from text: with units where the machine is in SI units, otherwise dimensionless.
+"""Read starts, kicks, times, ranges and how a motion begins from text: with units where the machine is in SI units, otherwise dimensionless.
 
 A bare number for a quantity with a dimension is refused for a machine in SI units: ``--kick 60`` may mean 60 mm/s, or 60 times
 ``c_r Ω``.  Starts and times to follow a motion may be either, for they are often those of another result.
@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.base.outcome import InputError, together
 from carom.disturbances.single import Single, read_single, split_text
@@ -31,8 +31,12 @@ from carom.parameters.fields import unknown_name
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
-    from carom.disturbances import Disturbance
+    from carom.disturbances import Disturbance, Drop
+    from carom.disturbances.echo import Echo
     from carom.models import Axis, Rotor
+    from carom.motions.loads import DropLoads
+    from carom.parameters import Case
+    from carom.rotors.reduction_errors import ReductionError
 
 
 def read_one(option: str, text: str, scales: Scales | None) -> Single:
@@ -253,3 +257,76 @@ def _read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[f
             raise InputError(option, first.value, f"{entry} {first.allowed}") from None
 
     return _two(option, text, entry, read)
+
+
+@dataclass(frozen=True)
+class StatedBeginning:
+    """One start or disturbance by its option, and the angle by which the shaft has turned then; or a release, when levitation is lost."""
+
+    option: str = ""
+    text: str = ""
+    instant: str | None = None
+    release: Drop | None = None
+
+    def apply(self, case: Case) -> tuple[Rotor, Any, Echo]:
+        """The machine that moves, its start, and what was taken; wrong input is refused before the rotor is made."""
+        from carom.models import rotor_of
+
+        try:
+            if self.release is not None:
+                from carom.studies.drops import release
+
+                return release(case, self.release)
+            single, rotor = read_one(self.option, self.text, case.parameters.scales), rotor_of(case)
+            single = replace(single, instant=read_instant(self.instant, rotor))
+            return *single.stages(rotor), single.echo(rotor)
+        except InputError as problem:
+            if problem.field == "start":
+                raise InputError("--start", self.text or problem.value, problem.allowed) from None
+            if self.release is None and problem.field in ("kick", "disturbance"):
+                raise InputError(self.option, self.text, f"{problem.allowed}; use --start") from None
+            raise
+
+    def reduction_error(self, case: Case, loads: DropLoads) -> ReductionError | None:
+        """Error of the reduction of a flexible machine along the motion; ``None`` of other machines."""
+        from carom.models import rotor_of
+        from carom.rotors.reduction_errors import reduction_error
+
+        if (reduced := rotor_of(case).finite_elements) is None:
+            return None
+        return reduction_error(reduced, loads, lambda finer: self.apply(replace(case, parameters=finer.limited))[:2])
+
+
+def one_of(ways: dict[str, str | None], instant: str | None) -> StatedBeginning:
+    """The one start or disturbance that is given."""
+    chosen = {option: text for option, text in ways.items() if text is not None}
+    if len(chosen) != 1:
+        given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
+        raise InputError("--start", given, f"give one of {', '.join(ways)} and --drop")
+    ((option, text),) = chosen.items()
+    return StatedBeginning(option, text, instant)
+
+
+def released(
+    case: Case,
+    ways: dict[str, str | None],
+    regained_after: str | None,
+    phase: str | None = None,
+    race_speed: str | None = None,
+    called: str = "--drop",
+) -> StatedBeginning:
+    """How levitation is lost, at the state that one of some ways gives; wrong input is refused before kernels are loaded."""
+    from carom.disturbances import Drop
+
+    scales = case.parameters.scales
+    chosen = {option: text for option, text in ways.items() if text is not None}
+    readers = ("--start", "--kick", "--whirl")
+    if len(chosen) > 1 or not set(readers).issuperset(chosen):
+        given = " with ".join(f"{option} {text}" for option, text in chosen.items())
+        known = ", ".join(option for option in readers if option in ways)
+        raise InputError(called, f"with {given}", f"allowed alone, or with one of {known}")
+    regained = None if regained_after is None else read_positive("--regained-after", regained_after, "time", scales)
+    turned = None if phase is None else read_angle("--phase", phase, scales)
+    turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
+    at = next((read_one(option, text, scales) for option, text in chosen.items()), None)
+    return StatedBeginning(release=Drop(at, turned, regained, turning))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.output import hand_over
-from carom.cli.terminal import check_output, console, progress, read_machine
+from carom.cli.terminal import check_output, console, hand_over, progress, read_machine
 
 OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
 PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")

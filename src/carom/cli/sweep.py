@@ -9,8 +9,7 @@ import typer
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
-from carom.cli.output import hand_over
-from carom.cli.terminal import InterruptionError, check_output, console, progress
+from carom.cli.terminal import InterruptionError, check_output, console, hand_over, progress
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally

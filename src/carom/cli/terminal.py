@@ -1,16 +1,19 @@
-"""Options, output and progress that the commands share."""
+"""Output, progress and the machine that is read; what a command hands over: a directory of figures and numbers, and then JSON or a text."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from carom.base.progress import Reporter, bar
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
     from carom.parameters import Case
@@ -68,3 +71,50 @@ def read_machine(machine: str, settings: list[str] | None) -> Case:
         from carom.loading import load
 
         return load(machine, settings or ())
+
+
+_NO_FILES: Mapping[str, Callable[[Path], None]] = MappingProxyType({})
+
+
+def write_output(
+    out: str | None,
+    case: Case,
+    name: str,
+    document: dict[str, Any],
+    figures: Mapping[str, Callable[[], Figure]],
+    *,
+    files: Mapping[str, Callable[[Path], None]] = _NO_FILES,
+    tell: Reporter | None = None,
+) -> None:
+    """Fill the directory of ``--out``, if one is given, with figures, files and the document.
+
+    Figures show the name and the present values of the machine.
+    """
+    if out is None:
+        return
+    from carom import plots
+    from carom.base.files import staged_directory, write_json
+    from carom.base.files.directory import FIGURES
+    from carom.studies.wording import machine_heading
+
+    tell = tell or Reporter()
+    with staged_directory(out, "--out") as directory, plots.heading(machine_heading(case)):
+        for place, (figure, draw) in enumerate(figures.items()):
+            tell(place / len(figures), "drawing")
+            plots.save(draw(), directory / FIGURES / figure)
+        tell(1.0, "writing")
+        for file, write in files.items():
+            write(directory / file)
+        write_json(directory / f"{name}.json", document)
+
+
+def hand_over(
+    document: Callable[[], dict[str, Any]], as_json: bool, show: Callable[[], None], out: str | None, *files: str
+) -> None:
+    """Print the document, or what ``show`` prints; then where the files are, if ``--out`` is given: beside JSON on the error stream."""
+    if as_json:
+        print_document(document())
+    else:
+        show()
+    for line in () if out is None else files or (f"Written to {out}",):
+        console(errors=as_json).print(line, soft_wrap=True)

@@ -8,32 +8,23 @@ figure is 180 mm wide (two columns of a page) unless its function says otherwise
 the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units, and otherwise in those of the equations.
 Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits are not drawn.
 
-Motions and orbits are drawn by ``motions``, ``courses``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``shapes``; along
-parameters ``diagrams`` with ``coexistence``, ``regions`` and ``responses``; disturbances ``basins`` with ``kick_proofs``, ``gains``,
-``drop_maps`` and ``sweeps``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
-``figure`` (a figure that keeps it), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells`` (the looks of motions), ``maps`` (a number over two
-parameters), ``placement``, ``parameter_axes`` and ``words``.
+Motions and orbits are drawn by ``motions``, ``courses`` and ``overviews``; flexible rotors by ``levitation``; along
+parameters ``diagrams``, ``regions`` and ``responses``; disturbances ``basins``, ``maps`` and ``sweeps``.  Shared are ``style`` (what colours mean),
+``figure`` (a figure that keeps the style sheet, and its files), ``plane`` (the clearance circle), ``cells`` (the looks of motions) and ``words``.
 """
 
 from __future__ import annotations
 
-from carom.plots.basins import attractors, basin, basin_pair
+from carom.plots.basins import attractors, basin, basin_pair, proven_kicks
 from carom.plots.courses import energies, radius, touchdown
 from carom.plots.diagrams import bifurcation_diagram
-from carom.plots.drop_maps import drop_map
-from carom.plots.drops import drop_orbit
-from carom.plots.figure import figures_for, heading
-from carom.plots.files import save
-from carom.plots.gains import gain_map
-from carom.plots.kick_proofs import proven_kicks
-from carom.plots.levitation import campbell, sensitivity
-from carom.plots.motions import motion, orbit
-from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
+from carom.plots.figure import applied, figures_for, heading, save
+from carom.plots.levitation import campbell, mode_shapes, sensitivity
+from carom.plots.maps import drop_map, gain_map
+from carom.plots.motions import drop_orbit, motion, orbit
+from carom.plots.overviews import equilibria, equilibria_and_orbits, multipliers, overview
 from carom.plots.regions import region_map
 from carom.plots.responses import unbalance_response
-from carom.plots.shapes import mode_shapes
-from carom.plots.sheet import applied
-from carom.plots.spectra import multipliers
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
 from carom.plots.sweeps import sweep_map
 

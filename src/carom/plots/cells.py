@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, hsv_to_rgb, rgb_to_hsv, to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
 
-from carom.plots.maps import cells_path
 from carom.plots.plane import Floats, unique_entries
 from carom.plots.style import OUTCOMES, Look
 
@@ -101,6 +101,15 @@ def ink(colour: str) -> str:
     red, green, blue = to_rgb(colour)
     dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.3
     return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
+
+
+def cells_path(corners: Sequence[Floats], inside: np.ndarray) -> Path:
+    """Return cells, bool of shape (n, m), between corners of shape (m + 1, n + 1) as one path, so that hatching is continuous."""
+    x, y = corners
+    row, column = np.nonzero(inside.T)
+    around = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column), (row, column)]
+    vertices = np.stack([np.stack([x[place], y[place]], axis=-1) for place in around], axis=1)
+    return Path(vertices.reshape(-1, 2), [Path.MOVETO, *[Path.LINETO] * 3, Path.CLOSEPOLY] * len(row))
 
 
 def paint(

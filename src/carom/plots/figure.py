@@ -1,14 +1,18 @@
-"""A figure that carries carom's style to every file and notebook, whoever writes or shows it."""
+"""Figures that carry carom's style sheet to every file and notebook, whoever writes or shows them; files are the same bytes every time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import gc
+import os
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from io import BytesIO
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
+from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -20,7 +24,54 @@ from matplotlib.ticker import ScalarFormatter
 from matplotlib.transforms import Bbox
 
 from carom.base.arguments import checked
-from carom.plots.sheet import ONE_COLUMN, TWO_COLUMNS, Purpose, applied, drawing, made_for
+from carom.base.files import write_whole
+from carom.base.outcome import InputError
+
+Purpose = Literal["page", "column", "slide"]
+
+ONE_COLUMN, TWO_COLUMNS = 88 / 25.4, 180 / 25.4
+"""Widths of figures of one column and of two [inch]."""
+_SHEETS = ["carom.plots.carom", "carom.plots.slide"]
+_in_use = ContextVar("_in_use", default=False)
+made_for: ContextVar[Purpose] = ContextVar("made_for", default="page")
+"""What figures are made for now."""
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Apply carom's style sheet inside a ``with`` block.
+
+    The sheet starts from matplotlib's defaults, so a figure does not depend on the settings of the user.  When the
+    block ends, ``matplotlib.rcParams`` is restored.  Inside such a block nothing is changed: changing all settings takes
+    milliseconds.
+    """
+    if _in_use.get():
+        yield
+        return
+    with style.context(_SHEETS[: 1 + (made_for.get() == "slide")], after_reset=True):
+        before = _in_use.set(True)
+        try:
+            yield
+        finally:
+            _in_use.reset(before)
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Apply the style sheet for a drawing, with the garbage collector switched off.
+
+    A figure consists of tens of thousands of small objects that refer to each other. Collecting garbage while they are
+    created finds none, and takes a quarter of the time.
+    """
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        with applied():
+            yield
+    finally:
+        if collecting:
+            gc.enable()
+
 
 _heading: ContextVar[str] = ContextVar("_heading", default="")
 
@@ -170,3 +221,59 @@ def write_plain_ticks(figure: Figure) -> None:
             formatter = axis.get_major_formatter()
             if isinstance(formatter, ScalarFormatter) and 1e-3 <= np.abs(axis.get_view_interval()).max() < 1e6:
                 formatter.set_useMathText(False)
+
+
+# Without these settings a file would contain the date of its creation.
+_UNDATED: dict[str, dict[str, str | None]] = {
+    "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+    "png": {"Software": None},
+}
+
+_FAST = {"compress_level": 1}
+"""Of PNG: packing them tighter takes nearly half of the time and saves 7 % of the space."""
+
+
+@checked
+def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[str] = ("svg", "png")) -> list[Path]:
+    """Write a figure in several formats; return the files in the order of `formats`.
+
+    All formats are drawn in memory before the first byte is written, and each file appears under its name only when it
+    is complete.  The same figure gives the same bytes on every call: no dates, fixed identifiers.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        Figure to write; PNG at 300 dots per inch.
+    path_stem : path-like
+        Path without the file ending, which is appended: ``"out/orbit"`` gives ``out/orbit.svg``.  Missing folders are
+        created.
+    formats : sequence of {"svg", "pdf", "png"}
+        Formats to write.
+
+    Raises
+    ------
+    InputError
+        If a format is none of the three.
+    OSError
+        If the folder cannot be written; no partial file is left.
+    """
+    for name in formats:
+        if name not in _UNDATED:
+            raise InputError("format", name, f"must be one of {', '.join(_UNDATED)}")
+    stem = Path(path_stem)
+    if not stem.name:
+        raise InputError("path_stem", path_stem, "a path that ends with a name")
+    contents = {stem.with_name(f"{stem.name}.{name}"): _rendered(figure, name) for name in formats}
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    for target, content in contents.items():
+        write_whole(target, content)
+    return list(contents)
+
+
+def _rendered(figure: Figure, name: str) -> bytes:
+    buffer = BytesIO()
+    options: dict[str, Any] = {"pil_kwargs": _FAST} if name == "png" else {}
+    with drawing():
+        figure.savefig(buffer, format=name, metadata=_UNDATED[name], **options)
+    return buffer.getvalue()

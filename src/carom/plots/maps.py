@@ -1,21 +1,36 @@
-"""Maps of a number over two parameters: shaded cells with their colour bar, cells without a value, and the machine as it is."""
+"""Maps of a number over two parameters, in shades with the machine as it is: what share comes back, and loads of drops."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colorbar import Colorbar
+from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
-from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import PercentFormatter
 
-from carom.base.outcome import STEADY_WORDS
-from carom.plots.plane import Floats
-from carom.plots.style import Look
+from carom.base.arguments import checked
+from carom.base.outcome import STEADY_WORDS, InputError
+from carom.parameters import in_terms_of
+from carom.parameters.formats import number as plain
+from carom.parameters.in_terms import EXACT
+from carom.plots.cells import cells_path, finish, looks_of, paint
+from carom.plots.figure import StyledFigure
+from carom.plots.plane import Floats, key, one_axes
+from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
+from carom.plots.words import number, parameter_label
+
+if TYPE_CHECKING:
+    from carom.basins import DropMap, GainMap
+    from carom.models import Axis
+    from carom.parameters import Case
+    from carom.plots.plane import Floats
 
 BLANKS = MappingProxyType(
     {
@@ -63,8 +78,10 @@ def draw_map(
         Colour map and its limits, as for ``pcolormesh``.
     """
     mesh = axes.pcolormesh(*edges, values.T, rasterized=True, gid="cells", **{"cmap": SHADES, **look})
-    for key, cells in reasons.items():
-        mark_cells(axes, edges, cells, replace(BLANKS[key], words=replaced.get(key, BLANKS[key].words)), key)
+    for reason, cells in reasons.items():
+        mark_cells(
+            axes, edges, cells, replace(BLANKS[reason], words=replaced.get(reason, BLANKS[reason].words)), reason
+        )
     if not words:
         return None
     bar = axes.figure.colorbar(mesh, ax=axes, pad=0.02, label=words)
@@ -87,10 +104,154 @@ def mark_present(axes: Axes, place: Sequence[float], edges: Sequence[Floats], wo
     axes.plot(*place, **star, gid="present", clip_on=False, zorder=4, label=words)
 
 
-def cells_path(corners: Sequence[Floats], inside: np.ndarray) -> Path:
-    """Return cells, bool of shape (n, m), between corners of shape (m + 1, n + 1) as one path, so that hatching is continuous."""
-    x, y = corners
-    row, column = np.nonzero(inside.T)
-    around = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column), (row, column)]
-    vertices = np.stack([np.stack([x[place], y[place]], axis=-1) for place in around], axis=1)
-    return Path(vertices.reshape(-1, 2), [Path.MOVETO, *[Path.LINETO] * 3, Path.CLOSEPOLY] * len(row))
+_LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
+"""Shares at which contours are drawn, and their line styles."""
+_WORDS = "share of the disturbances that comes back"
+_NAMES = {"stiffness": "P gain", "damping": "D gain"}
+"""What stiffness and damping are called; an entry of a machine's file that states them has its own name."""
+
+
+@checked
+@styled
+def gain_map(found: GainMap, *, in_terms_of: Case | None = None) -> Figure:
+    """Draw the share of disturbances that comes back, with contours and the present machine.
+
+    A new figure is 126 mm wide.
+
+    Parameters
+    ----------
+    in_terms_of : Case, optional
+        A machine in whose terms and units both parameters are stated: ``derivative_gain`` in A s/m where its file has that.
+    """
+    figure, drawn = one_axes((0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
+    stated = [_shown(axis, now, in_terms_of) for axis, now in zip(found.axes, found.present, strict=True)]
+    x, y = (
+        np.array([of(value) for value in found.dataset[axis.name].values.tolist()])
+        for axis, (_, of) in zip(found.axes, stated, strict=True)
+    )
+    grounded = found.dataset["levitates"].values == 0.0
+    edges = cell_edges(x), cell_edges(y)
+    here = stated[0][1](found.present[0]), stated[1][1](found.present[1])
+    replaced = {}
+    if found.present_share.count and _within(edges, here, grounded):
+        # The star marks a machine that levitates; without these words its cell would seem to contradict it.
+        replaced["no-levitation"] = "no levitation (in the middle of the cell)"
+    share = np.ma.masked_where(grounded, found.dataset["recovered"].values)
+    colours = draw_map(drawn, edges, share, _WORDS, {"no-levitation": grounded}, replaced, vmin=0.0, vmax=1.0)
+    if colours is not None:
+        colours.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
+    _contours(drawn, x, y, share)
+    words = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
+    mark_present(drawn, here, edges, words)
+    drawn.set(xlabel=stated[0][0], ylabel=stated[1][0], xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+    return key(figure, [drawn], columns=2)
+
+
+def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.ndarray) -> bool:
+    """Whether a point lies in one of these cells."""
+    row, column = (int(np.searchsorted(along, value)) - 1 for along, value in zip(edges, place, strict=True))
+    return 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1] and bool(cells[row, column])
+
+
+def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> None:
+    """Draw contours of the share, dark with a white outline, visible on every shade."""
+    levels = {level: line for level, line in _LEVELS.items() if share.min() < level <= share.max()}
+    if not levels:
+        return
+    lines = axes.contour(x, y, share.T, levels=list(levels), colors="#1a1a1a", linestyles=list(levels.values()))
+    lines.set_linewidth(0.9)
+    lines.set_path_effects([withStroke(linewidth=2.2, foreground="white")])
+    for level, line in levels.items():
+        axes.plot([], [], color="#1a1a1a", ls=line, lw=0.9, label=f"{100 * level:g} % come back")
+
+
+def _shown(axis: Axis, now: float, case: Case | None) -> tuple[str, Callable[[float], float]]:
+    """Label of a parameter in the terms of a machine's file, and a value in its unit; stiffness and damping are named as gains of a position controller."""
+    unit, field, name = axis.field.usual_size, axis.field, _NAMES.get(axis.name, "")
+    if case is None:
+        label = parameter_label(field)
+        return f"{name}: {label}" if name else label, lambda value: value / unit
+    stated = in_terms_of(case, axis.name, now)
+    label = parameter_label(stated.field, stated.unit)
+    return (
+        f"{name}: {label}" if name and stated.entry == axis.name else label,
+        lambda value: in_terms_of(case, axis.name, value, digits=EXACT).value,
+    )
+
+
+_SHOWN = {
+    "force": (1e-3, "kN"),
+    "impulse": (1.0, "N s"),
+    "depth": (1e6, "µm"),
+    "heat": (1.0, "J"),
+    "power": (1e-3, "kW"),
+    "pressure": (1e-9, "GPa"),
+    "contacts": (1.0, ""),
+    "contact_time": (1e3, "ms"),
+    "settled_at": (1e3, "ms"),
+    "time": (1e3, "ms"),
+    "whirl": (1.0, "Hz"),
+}
+"""Units of the loads in figures."""
+_QUARTERS = 90.0
+"""Ticks of an angle over a whole turn, in degrees."""
+
+
+@checked
+@styled
+def drop_map(found: DropMap, measure: str | None = None) -> Figure:
+    """Draw how drops end, and beside it a load of the touchdown bearing, with its limit where one is stated.
+
+    Parameters
+    ----------
+    measure : str, optional
+        A variable of the map in the right panel; by default the peak force, or on a rigid wall the largest impulse.
+
+    Raises
+    ------
+    InputError
+        The map has no such measure, or no drop has one.
+    """
+    known = [name for name in _SHOWN if np.isfinite(found.dataset[name].values).any()]
+    name = found.hardest if measure is None else measure
+    if name not in known:
+        raise InputError("measure", name, f"one that this map has: {', '.join(known)}")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.5 * TWO_COLUMNS))
+    left, right = figure.subplots(1, 2, sharey=True)
+    first, second = found.axes
+    edges = _edges(first, found), _edges(second, found)
+    looks = looks_of(found.motions, [found.fractions[motion] for motion in found.motions])
+    paint(left, *edges, found.dataset["motion"].values, looks)
+    mark_cells(left, edges, ~found.exists, BLANKS["no-levitation"], "no-levitation")
+    left.set_title("(a) how the drop ends", loc="left", y=1.0)
+    factor, unit = _SHOWN[name]
+    values = np.ma.masked_invalid(factor * found.dataset[name].values)
+    words = str(found.dataset[name].attrs["long_name"])
+    grounded = {"no-levitation": ~found.exists}
+    draw_map(right, edges, values, f"{words} ({unit})" if unit else words, grounded)
+    by_load = name in ("force", "impulse", "depth", "pressure")
+    right.set_title("(b) loads of the touchdown bearing" if by_load else "(b)", loc="left", y=1.0)
+    limit = found.limits.get(name)
+    if limit is not None:
+        beyond = Look("none", f"above the limit {plain(factor * limit)} {unit}", hatch="////")
+        mark_cells(right, edges, values.filled(0.0) > factor * limit, beyond, "beyond")
+    here = [value / varied.field.usual_size for value, varied in zip(found.present, found.axes, strict=True)]
+    for axes in (left, right):
+        _axes(axes, first, second, edges)
+        mark_present(axes, here, edges, "present machine and release")
+    right.set_ylabel("")
+    return finish(figure, looks, columns=3)
+
+
+def _edges(varied: Axis, found: DropMap) -> Floats:
+    """Edges of cells in the unit in which people say what is varied."""
+    return cell_edges(found.dataset[varied.name].values / varied.field.usual_size)
+
+
+def _axes(axes: Axes, first: Axis, second: Axis, edges: tuple[Floats, Floats]) -> None:
+    """Set labels and limits; a whole turn has ticks at quarters."""
+    for direction, varied, along in zip("xy", (first, second), edges, strict=True):
+        axes.set(**{f"{direction}label": parameter_label(varied.field)})
+        axes.set(**{f"{direction}lim": (along[0], along[-1])})
+        if varied.field.usual_unit == "°" and abs(along[-1] - along[0] - 360.0) < 1e-6:
+            axes.set(**{f"{direction}ticks": np.arange(0.0, 360.0 + _QUARTERS, _QUARTERS)})

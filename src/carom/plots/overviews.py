@@ -1,21 +1,25 @@
-"""All equilibria and periodic orbits of a machine in one picture of the co-rotating frame."""
+"""All equilibria and periodic orbits of a machine in one picture of the co-rotating frame, and their multipliers."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import cycle
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import SymmetricalLogLocator
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import isotonic_regression  # type: ignore[import-untyped]
 
 from carom.base.arguments import Whole, checked
 from carom.base.outcome import InputError
 from carom.plots.figure import StyledFigure, narrow
-from carom.plots.placement import spread_angles
 from carom.plots.plane import (
     Complex,
     around,
+    circle,
     clearance_circle,
     direction_arrow,
     key,
@@ -26,7 +30,7 @@ from carom.plots.plane import (
     point,
 )
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import clearance, orbit_look, orbit_symbol
+from carom.plots.words import clearance, orbit_look, orbit_symbol, orbit_words
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet
@@ -157,3 +161,78 @@ def _name(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
     for (orbit, line), angle in zip(shown.items(), angles, strict=True):
         ends = (line[0].real, line[0].imag), around(angle, _LABEL_RING * wall)
         axes.annotate(orbit_symbol(orbit.name), *ends, **look, color=LOOKS[orbit_look(orbit)].colour)
+
+
+_SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
+_LINEAR_UP_TO = 2.0
+
+
+@checked
+@styled
+def multipliers(orbits: Iterable[Orbit]) -> Figure:
+    """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
+
+    An orbit is stable if all its multipliers lie inside the circle.  A multiplier that leaves it through +1 means a
+    fold, through -1 a period doubling, elsewhere a torus.  If the modulus of a multiplier exceeds 2, both axes are logarithmic
+    beyond -1 and 1.
+
+    A new figure is 88 mm wide.
+    """
+    shown = [orbit for orbit in orbits if orbit.admissible]
+    columns = 1 if len(shown) <= 4 else 2
+    lines = -(-len(shown) // columns)
+    figure, drawn = one_axes((ONE_COLUMN, 0.97 * ONE_COLUMN + 0.15 * lines))
+    _plane(drawn, max((float(np.abs(orbit.multipliers.values).max()) for orbit in shown), default=1.0))
+    for orbit, shape in zip(shown, cycle(_SHAPES), strict=False):
+        _markers(drawn, orbit, shape)
+    if not shown:
+        drawn.plot([], [], linestyle="none", label="no possible periodic orbit")
+    return key(figure, [drawn], columns)
+
+
+def _plane(axes: Axes, largest: float) -> None:
+    """Draw the unit circle in a plane that holds the largest modulus; beyond 1 it is logarithmic if that is large."""
+    circle(axes, 1.0, color="#1a1a1a", lw=0.9, zorder=1, gid="unit-circle")
+    axes.axhline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
+    axes.axvline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
+    reach = 1.08 * max(1.1, largest)
+    note = "no unit"
+    if largest > _LINEAR_UP_TO:
+        reach, note = 1.3 * largest, "no unit; logarithmic beyond 1"
+        axes.set_xscale("symlog", linthresh=1.0)
+        axes.set_yscale("symlog", linthresh=1.0)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=1.0))
+            axis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
+    axes.set(xlabel=rf"Re $\lambda$ ({note})", ylabel=rf"Im $\lambda$ ({note})")
+
+
+def _markers(axes: Axes, orbit: Orbit, shape: str) -> None:
+    meaning, values = orbit_look(orbit), np.asarray(orbit.multipliers.values)
+    stable = meaning == "stable"
+    look = LOOKS[meaning].mark(4.8, filled=stable) | {"marker": shape, "mew": 0.9, "zorder": 3 if stable else 4}
+    axes.plot(values.real, values.imag, **look, label=orbit_words(orbit), gid=orbit.name)
+
+
+def spread(wanted: ArrayLike, gap: float) -> NDArray[np.float64]:
+    """Return positions at least `gap` apart, in the order of the wanted ones and nearest in the least-squares sense.
+
+    With ``y_i = x_i - i gap`` the task is to find the non-decreasing sequence nearest to y: isotonic regression.
+    """
+    positions = np.asarray(wanted, dtype=float)
+    order, offsets = np.argsort(positions, kind="stable"), gap * np.arange(len(positions))
+    placed = np.empty_like(positions)
+    placed[order] = isotonic_regression(positions[order] - offsets).x + offsets
+    return placed
+
+
+def spread_angles(wanted: ArrayLike, gap: float) -> NDArray[np.float64]:
+    """Return the same around a circle [rad]; the circle is cut in the widest gap between labels."""
+    angles = np.asarray(wanted, dtype=float)
+    if len(angles) < 2:
+        return angles.copy()
+    turned = np.sort(np.mod(angles, 2.0 * np.pi))
+    spaces = np.diff(np.append(turned, turned[0] + 2.0 * np.pi))
+    cut = turned[np.argmax(spaces)] + spaces.max() / 2.0
+    return spread(np.mod(angles - cut, 2.0 * np.pi), gap) + cut

@@ -14,10 +14,9 @@ from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
 from carom.plots.diagrams import CURVES, curve_line
 from carom.plots.figure import StyledFigure
-from carom.plots.parameter_axes import label_parameter
 from carom.plots.plane import legend_above
 from carom.plots.style import TWO_COLUMNS, styled
-from carom.plots.words import with_symbols
+from carom.plots.words import label_parameter, with_symbols
 
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap

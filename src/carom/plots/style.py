@@ -37,10 +37,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
-from carom.plots.figure import arrange
-from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
-from carom.plots.sheet import TWO_COLUMNS as TWO_COLUMNS
-from carom.plots.sheet import drawing
+from carom.plots.figure import ONE_COLUMN as ONE_COLUMN
+from carom.plots.figure import TWO_COLUMNS as TWO_COLUMNS
+from carom.plots.figure import arrange, drawing
 
 Arguments = ParamSpec("Arguments")
 

@@ -1,14 +1,12 @@
 """The reports of a study and of a drop: one self-contained HTML page, its figures as files, and the numbers as JSON.
 
-==================  ============================================================
-``basins``          where disturbances end now, and after the advised change
-``figures``         the figures of a study with their captions
+==================  ===============================================================================================
+``figures``         the figures of a study with captions, first where disturbances end now and after the advised change
 ``page``            the HTML page of a study
 ``drop``            the HTML page of a drop
 ``film``            a drop in slow motion on it
-``figure_files``    figures drawn into files, and embedded in a page
-``html``            what pages share
-==================  ============================================================
+``html``            what pages share: figures in files and embedded, formulas in text
+==================  ===============================================================================================
 """
 
 from carom.report.drop import write_drop_report

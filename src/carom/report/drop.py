@@ -11,9 +11,8 @@ from carom.base.files import staged_directory, write_json
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.motions import Trajectory
 from carom.motions.courses import shown_until
-from carom.report.figure_files import ReportPicture, draw_figures
 from carom.report.film import Film, film_of, film_script
-from carom.report.html import page_template, versions
+from carom.report.html import ReportPicture, draw_figures, page_template, versions
 from carom.studies.drops import DropStudy
 from carom.studies.wording import Wording, machine_heading
 

@@ -1,15 +1,21 @@
-"""What the HTML pages share: their style, figures inside the page, formulas in text, and what has made them."""
+"""What the HTML pages share: their style, figures drawn into files and inside the page, formulas in text, and what has made them."""
 
 from __future__ import annotations
 
 import platform
 import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from carom import plots
+from carom.base.files.directory import FIGURES
+from carom.base.progress import Reporter
 
 
 @dataclass(frozen=True)
@@ -77,3 +83,38 @@ def inline_figure(section: str, caption: str, text: str, prefix: str) -> InlineF
 
     svg = _SIZE.sub(lambda match: f'<svg role="img" aria-label="{label}"{match[1]}', svg, count=1)
     return InlineFigure(section, caption, Markup(svg))  # written by carom
+
+
+@dataclass(frozen=True)
+class ReportPicture:
+    """A figure to draw.
+
+    Attributes
+    ----------
+    name : str
+        File name without ending.
+    section : str
+        Section of the page in which it stands.
+    caption : str
+        What to see, in a sentence.
+    draw : callable
+        Returns the figure.
+    """
+
+    name: str
+    section: str
+    caption: str
+    draw: Callable[[], Figure]
+
+
+def draw_figures(wanted: Sequence[ReportPicture], place: Path, tell: Reporter) -> tuple[list[InlineFigure], list[str]]:
+    """Draw figures into a directory, as SVG and PNG; return them for the page, and the names of their files."""
+    (place / FIGURES).mkdir()
+    inline, names = list[InlineFigure](), list[str]()
+    for done, picture in enumerate(wanted):
+        tell(done / len(wanted), f"figure {done + 1} of {len(wanted)}")
+        paths = plots.save(picture.draw(), place / FIGURES / picture.name)
+        names += [f"{FIGURES}/{path.name}" for path in paths]
+        text = paths[0].read_text(encoding="utf-8")
+        inline.append(inline_figure(picture.section, picture.caption, text, f"f{done + 1}-"))
+    return inline, names

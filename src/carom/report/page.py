@@ -11,11 +11,9 @@ from carom.base.files import staged_directory, write_json
 from carom.base.files.directory import MANIFEST
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.parameters.formats import number
-from carom.plots.sheet import Purpose, drawing, made_for
-from carom.report.basins import drawable
-from carom.report.figure_files import draw_figures
-from carom.report.figures import pictures
-from carom.report.html import InlineFigure, page_template, versions
+from carom.plots.figure import Purpose, drawing, made_for
+from carom.report.figures import drawable, pictures
+from carom.report.html import InlineFigure, draw_figures, page_template, versions
 from carom.studies import Study
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Fact, about, paragraphs
