@@ -7,7 +7,7 @@ from matplotlib.colors import to_rgb
 
 from carom import plots
 from carom.proofs import ProvenKicks, hypotheses_of
-from carom.proofs.evidence import Evidence
+from carom.proofs.claims import Evidence
 from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at

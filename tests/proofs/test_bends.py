@@ -12,9 +12,9 @@ from single_flights import Single
 from carom.proofs.balls import at_precision
 from carom.proofs.bends import second_derivatives
 from carom.proofs.hypotheses import hypotheses_of
-from carom.proofs.impacts import after_impact
 from carom.proofs.passages import Impact, LeftOpenError, begin, bounce, next_event
 from carom.proofs.patches import Held, Patch, PatchDeparture
+from carom.proofs.recoveries import after_impact
 from carom.proofs.rotor import ProvenRotor
 
 NAMES = ("gamma", "omega", "rho", "mu", "d", "radius_ratio")

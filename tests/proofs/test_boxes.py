@@ -14,8 +14,7 @@ from carom.motions import settle
 from carom.parameters import Parameters
 from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.balls import at_precision
-from carom.proofs.boxes import box_of
-from carom.proofs.kick_cells import IMPACTS, leaves, read
+from carom.proofs.kick_cells import IMPACTS, box_of, leaves, read
 
 SPINDLE = "examples/spindle.toml"
 GAINS = machine_text("spindle-by-gains")
@@ -123,7 +122,7 @@ def document():
 
 def test_certificate_is_verified_without_a_search(document, monkeypatch):
     monkeypatch.setattr("carom.proofs.kick_discs.settle", None)
-    monkeypatch.setattr("carom.proofs.kicks.search", None)
+    monkeypatch.setattr("carom.proofs.recovering.search", None)
 
     assert check(document)["kicks all recover"].status == "proven"
 

@@ -82,7 +82,7 @@ def changed(document, cells):
 
 def test_certificate_is_verified_without_a_search(document, monkeypatch):
     monkeypatch.setattr("carom.proofs.kick_discs.settle", None)
-    monkeypatch.setattr("carom.proofs.kicks.search", None)
+    monkeypatch.setattr("carom.proofs.recovering.search", None)
 
     assert check(document)["kicks all recover"].status == "proven"
 

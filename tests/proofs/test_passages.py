@@ -11,14 +11,13 @@ from scipy.optimize import brentq
 from single_flights import Single
 
 from carom.proofs.balls import at_precision
-from carom.proofs.boxes import box_of
 from carom.proofs.hypotheses import hypotheses_of
-from carom.proofs.impacts import after_brush, after_impact
+from carom.proofs.kick_cells import box_of
 from carom.proofs.lines import LineNumbers
 from carom.proofs.moments import FORM
 from carom.proofs.passages import Brush, Impact, LeftOpenError, PatchReturn, begin, next_event
-from carom.proofs.patches import Held, Patch, PatchDeparture
-from carom.proofs.plain_flights import PlainRotor
+from carom.proofs.patches import Held, Patch, PatchDeparture, PlainRotor
+from carom.proofs.recoveries import after_brush, after_impact
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.sides import Side, responses_by
 

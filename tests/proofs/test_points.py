@@ -16,7 +16,7 @@ from carom.orbits import find_orbits
 from carom.parameters import Numbers as Doubles
 from carom.proofs import check, hypotheses_of, prove
 from carom.proofs.balls import at_precision, exact_ends
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.claims import Evidence, NotShownError
 from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import line_of
 from carom.proofs.points import _searched, _system, point_claims

@@ -7,7 +7,7 @@ import pytest
 
 from carom.base.outcome import InputError
 from carom.proofs import ProvenKicks, hypotheses_of, prove, prove_kicks
-from carom.proofs.evidence import Evidence
+from carom.proofs.claims import Evidence
 from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proven_kicks import BEYOND

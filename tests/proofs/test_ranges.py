@@ -11,7 +11,7 @@ from refusals import assert_refused
 from carom.base.outcome import InputError
 from carom.orbits import find_orbits
 from carom.proofs import Claim, Proof, check, hypotheses_of, prove
-from carom.proofs.evidence import Evidence
+from carom.proofs.claims import Evidence
 from carom.proofs.proving import proof_of
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import ProvenRotor

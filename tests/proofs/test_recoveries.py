@@ -11,7 +11,7 @@ from carom.closed_forms import contact_free_kick
 from carom.models import jeffcott
 from carom.motions import settle
 from carom.proofs import Proof, check, hypotheses_of
-from carom.proofs.evidence import Evidence
+from carom.proofs.claims import Evidence
 from carom.proofs.families import KICKS
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, LOST, REFUTED, Cell, written
 from carom.proofs.kick_search import BITS

@@ -15,7 +15,7 @@ from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.patches import Held, Patch
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.rub_traps import Bounces, ends_in_rub
-from carom.proofs.rubs import Rub
+from carom.proofs.steady import Rub
 
 PAPER = dict(zip(DECIMAL, (0.3, 0.76, 3 / 7, 0.0, 0.15, 0.95, 57.0), strict=True))
 DIFFERENCE = 1e-5

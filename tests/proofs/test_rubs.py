@@ -9,7 +9,7 @@ from compilation import sized
 from carom.proofs.balls import at_precision, rational
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.rubs import Rub
+from carom.proofs.steady import Rub
 
 
 def random_machine(random):

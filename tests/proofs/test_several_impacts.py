@@ -15,11 +15,10 @@ from carom.models import jeffcott
 from carom.orbits import Section, impact_map
 from carom.proofs import check, hypotheses_of, prove
 from carom.proofs.balls import at_precision
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.claims import Evidence, NotShownError
 from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.several_impacts import several_impact_claims
-from carom.proofs.words import ShootingOrbit, equations_of
+from carom.proofs.several_impacts import ShootingOrbit, equations_of, several_impact_claims
 
 NEAR_DOUBLING = PAPER.replace(gamma=0.0832)
 """Just below the period doubling of B1,d, which is supercritical."""

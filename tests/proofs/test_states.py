@@ -15,8 +15,7 @@ from carom.models import jeffcott
 from carom.motions import settle
 from carom.proofs import check, prove_states
 from carom.proofs.balls import at_precision
-from carom.proofs.forms import Surface
-from carom.proofs.impact_states import limits_of, read_forms, traps_of
+from carom.proofs.forms import Surface, limits_of, read_forms, traps_of
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import doubles_of
 

@@ -13,7 +13,7 @@ from carom.base.files import as_json
 from carom.closed_forms import contact_free_kick
 from carom.parameters import Case, Requirement, Shock, Zones
 from carom.proofs import ProvenKicks, check, hypotheses_of
-from carom.proofs.evidence import Evidence
+from carom.proofs.claims import Evidence
 from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at

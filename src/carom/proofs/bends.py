@@ -22,8 +22,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.mean_values import NOTHING, MeanValueForm, Pair
-from carom.proofs.moments import cross, dot
+from carom.proofs.moments import NOTHING, MeanValueForm, Pair, cross, dot
 from carom.proofs.patches import Held, PatchDeparture
 
 Jet = list[Any]

@@ -17,7 +17,7 @@ from typing import Any
 from flint import arb
 
 from carom.proofs.balls import decided, interval
-from carom.proofs.evidence import NotShownError, rational_of
+from carom.proofs.claims import NotShownError, rational_of
 
 ORDER = 10
 """Order of the Taylor formula: with fewer the cells are more, with more each costs more than it saves."""

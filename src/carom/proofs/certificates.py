@@ -14,12 +14,9 @@ from carom.base.arguments import checked
 from carom.base.outcome import CaromError, InputError, printable, shown
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import Enclosure
-from carom.proofs.claims import FORMAT, Claim, Proof
-from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.proving import MOST_BITS, proof_at
-from carom.proofs.stated_equations import StatedEquations
-from carom.proofs.theorems import THEOREMS
+from carom.proofs.claims import FORMAT, Claim, Evidence, NotShownError, Proof
+from carom.proofs.hypotheses import Hypotheses, StatedEquations
+from carom.proofs.proving import MOST_BITS, THEOREMS, proof_at
 
 LARGEST_BYTES = 50_000_000
 _DECIMAL = re.compile(r"-?[0-9]{1,100}(?:\.[0-9]{1,100})?(?:E[+-][0-9]{1,4})?")

@@ -8,20 +8,39 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import arb
 
 from carom.base.outcome import InputError
-from carom.parameters import Field
-from carom.parameters.exact import ExactNumber
+from carom.parameters import MACHINE_FIELDS, Field
+from carom.parameters.exact import ExactNumber, read_exact
 from carom.proofs.balls import ball_of
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import LineNumbers
 from carom.proofs.patches import KICK_START
-from carom.proofs.sizes import read_size, unit_of
 from carom.proofs.starts import DisturbedStart, Pulse, Step
+
+
+def read_size(field: Field, text: str, hypotheses: Hypotheses, whole: str = "") -> ExactNumber:
+    """One exact number: with a unit of a machine in SI units, a plain number of a dimensionless one."""
+    of_machine = hypotheses.table == "machine"
+    number = read_exact(
+        replace(field, needs_unit=True) if of_machine else replace(field, unit="", kind="a number", example="0.2"), text
+    )
+    if number.low != number.high:
+        raise InputError(field.name, whole or text, f"must be one {field.kind.split(maxsplit=1)[1]}, not an interval")
+    return number
+
+
+def unit_of(hypotheses: Hypotheses, *names: str) -> arb:
+    """Product of numbers of a machine; 1 for a dimensionless one."""
+    product = arb(1)
+    if hypotheses.table == "machine":
+        for name in names:
+            product = product * ball_of(read_exact(MACHINE_FIELDS[name], hypotheses.values[name]))
+    return product
 
 
 @dataclass(frozen=True)

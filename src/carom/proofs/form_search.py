@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from carom.proofs.forms import STEP, Form, Surface
-from carom.proofs.impact_states import all_trapped, limits_of, read_forms, traps_of
+from carom.proofs.forms import STEP, Form, Surface, all_trapped, limits_of, read_forms, traps_of
 
 _SHARES, _RADII, _DIRECTIONS = 24, 3, 24
 """How many values of ``α/γ`` are tried, of the room for ``β`` and ``k``, and directions in it."""

@@ -9,15 +9,13 @@ from itertools import groupby
 
 from carom.core.processors import available_cores
 from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
-from carom.proofs.boxes import MOST_PARAMETERS
-from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
 from carom.proofs.families import DisturbanceFamily
-from carom.proofs.kick_cells import IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
+from carom.proofs.kick_cells import IMPACTS, MOST_PARAMETERS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import KickDisc
 from carom.proofs.kick_search import BITS, show_all
+from carom.proofs.lines import in_brackets, written
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.runs import in_brackets, written
 
 BOX_THEOREM = "kicks of a box of machines"
 NOT_CLAIMED = (

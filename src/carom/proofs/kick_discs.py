@@ -18,10 +18,9 @@ from carom.motions import settle
 from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
-from carom.proofs.boxes import Box, box_of
 from carom.proofs.families import FAMILIES, KICKS, DisturbanceFamily, Scale
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, Part, whole
+from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Box, Cell, Part, box_of, whole
 from carom.proofs.lines import LineNumbers
 from carom.proofs.passages import GRAZE, OUTSIDE, LeftOpenError
 from carom.proofs.patches import Held, Patch

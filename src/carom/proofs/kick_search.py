@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from carom.base.outcome import CaromError
 from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision
-from carom.proofs.evidence import NotShownError
+from carom.proofs.claims import NotShownError
 from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves
 from carom.proofs.kick_discs import DiscData, DiscResult, KickDisc, disc_of
 from carom.proofs.passages import LeftOpenError
@@ -60,7 +60,7 @@ def search(disc: KickDisc, limit: float, workers: int, tell: Reporter) -> Tree:
 
 
 def show_all(disc: KickDisc, tree: Tree, workers: int, tell: Reporter) -> None:
-    """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
+    """Show what is said of all cells that are proven; :class:`~carom.proofs.claims.NotShownError` if it is not so."""
     shown = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
     ahead, done = iter([shown[first : first + BATCH] for first in range(0, len(shown), BATCH)]), 0
     # The same batches go on where those asked for before have ended.

@@ -8,7 +8,7 @@ from typing import Any
 from flint import arb, arb_mat, arb_series, ctx
 
 from carom.proofs.balls import exact_ends, rational
-from carom.proofs.evidence import rational_of
+from carom.proofs.claims import rational_of
 from carom.proofs.series import terms
 
 System = Callable[..., Sequence[arb | arb_series]]

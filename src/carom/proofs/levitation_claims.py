@@ -24,9 +24,8 @@ import numpy as np
 from flint import acb, acb_mat, arb
 
 from carom.proofs.balls import Enclosure, decided, enclosures_of, rational
-from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.stated_equations import StatedEquations, array_of, balls, text_of
+from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
+from carom.proofs.hypotheses import StatedEquations, array_of, balls, text_of
 
 THEOREM = "levitation"
 OPTIONS = ("kicks_up_to",)

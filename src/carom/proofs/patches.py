@@ -14,6 +14,8 @@ coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothi
 A patch holds the states ``x₀ + s₁ξ₁ + s₂ξ₂ + s₃ξ₁² + s₄ξ₁ξ₂ + s₅ξ₂² + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: ``ξ₁`` and ``ξ₂`` say where in the cell a kick is, the other spans
 hold what earlier impacts have left out, those next to these what the parameters of a box of rotors do, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
 (mean value form).
+
+Flights in double precision say where a proof looks; no claim rests on them.
 """
 
 from __future__ import annotations
@@ -27,11 +29,54 @@ from flint import acb, arb
 
 from carom.proofs.lines import LineNumbers
 from carom.proofs.moments import FORM, UNIT, Moment, Wave, Waves
-from carom.proofs.plain_flights import PlainRotor
-from carom.proofs.rubs import Rub
 from carom.proofs.series import I, hyperbolic
 from carom.proofs.sides import Side, responses_by
 from carom.proofs.starts import DisturbedStart, KickStart, Plain, Response
+from carom.proofs.steady import Rub
+
+PlainWave = tuple[complex, complex, complex]
+
+
+@dataclass(frozen=True)
+class PlainRotor:
+    """A rotor in doubles: ``γ``, ``ω²`` and ``ℓ`` of :mod:`carom.proofs.patches`."""
+
+    gamma: float
+    stiff: float
+    radius: float
+
+    @classmethod
+    def of(cls, *balls: arb) -> PlainRotor:
+        """The rotor in the middle of balls."""
+        return cls(*(float(ball.mid()) for ball in balls))
+
+    def ends(self, side: Side) -> tuple[PlainRotor, PlainRotor]:
+        """The rotors at both ends of a parameter, the upper one first."""
+        by = [float(ball.mid()) for ball in (side.gamma, side.omega_squared, side.radius)]
+        one, other = (
+            PlainRotor(self.gamma + sign * by[0], self.stiff + sign * by[1], self.radius + sign * by[2])
+            for sign in (1, -1)
+        )
+        return one, other
+
+    def responses(self, time: float) -> tuple[PlainWave, PlainWave]:
+        """``h₀`` and ``h₁`` with their first two derivatives."""
+        half, stiff = self.gamma / 2, self.stiff
+        root = cmath.sqrt(half * half - stiff) or 1e-9
+        fade = cmath.exp(-half * time).real
+        h = fade * (cmath.sinh(root * time) / root).real
+        dh = fade * cmath.cosh(root * time).real - half * h
+        return (dh + 2 * half * h, -stiff * h, -stiff * dh), (h, dh, -2 * half * dh - stiff * h)
+
+    def flight(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> tuple[complex, complex]:
+        """Place and rate on the flight with a velocity at the start and a direction of ``Λ``."""
+        (c, dc, _), (h, dh, _) = self.responses(time)
+        lift, turned = self.radius * turn, cmath.exp(1j * time)
+        if not from_wall:
+            return velocity * h + lift * turned, velocity * dh + lift * 1j * turned
+        place, rate = turned - c - 1j * h, 1j * turned - dc - 1j * dh
+        return c + velocity * h + lift * place, dc + velocity * dh + lift * rate
+
 
 KICK_START = KickStart()
 

@@ -32,8 +32,8 @@ from carom.proofs.cells import (
     power_of_two_below,
     show,
 )
+from carom.proofs.claims import Evidence, NotShownError, rational_of
 from carom.proofs.courses import entire_condition, numerator_and_gap
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.series import I, terms

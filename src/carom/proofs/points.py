@@ -18,9 +18,8 @@ from flint import arb, arb_series
 
 from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.block_orbits import inside
-from carom.proofs.claims import Claim, claim_of
+from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
 from carom.proofs.courses import OrbitCourse, Return
-from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.krawczyk import System, box_of, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import ProvenRotor

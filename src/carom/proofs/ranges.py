@@ -18,13 +18,11 @@ from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision, enclosure_of, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
-from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.lines import Line, line_of
+from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of, rational_of
+from carom.proofs.lines import Line, claim_of_runs, in_brackets, line_of, written
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.runs import claim_of_runs, in_brackets, written
 from carom.proofs.series import hull
-from carom.proofs.slip import slip_claim
+from carom.proofs.single_impact import slip_claim
 
 DECIDED, OPEN, ENDED = "", "open", "ended"
 """What evidence says of a block: everything is decided there, or something is open, as the search found or because it ended before."""

@@ -1,6 +1,6 @@
 """A region around a stable rub from which no bounce gets out, for states that leave the wall.
 
-With the notation of :mod:`carom.proofs.rubs`, the gap ``g = 1 − r`` and ``q = y − μr'``, which impacts do not change,
+With the notation of :mod:`carom.proofs.steady`, the gap ``g = 1 − r`` and ``q = y − μr'``, which impacts do not change,
 
     V' = −(γ + 2μ)q²e^{2μδ} + r'Φ + g q e^{2μδ}E₂,      Φ = e^{2μδ}(μ(μq² + T(δ)) − qE₁),
     E₁ = 2(1 + y)/r + μ²(2 + q + y),      E₂ = −ρ sin x/r + μ((1 + y)² − ω²).
@@ -26,8 +26,8 @@ from flint import acb, arb
 from carom.proofs.balls import rational
 from carom.proofs.moments import UNIT
 from carom.proofs.patches import Held, Patch
-from carom.proofs.rubs import Rub
 from carom.proofs.series import hull
+from carom.proofs.steady import Rub
 
 REACHES = tuple(Fraction(k, 20) for k in (2, 3, 4, 6, 8, 11, 14, 18))
 """Reaches ``A`` that are tried, in radians: less than π/2."""

@@ -1,22 +1,75 @@
-"""Claims about all states inside the clearance and on its wall up to a speed."""
+"""Claims about all states inside the clearance and on its wall up to a speed.
+
+Motions that never return to levitation, such as rubs, whirl and orbits with one impact a period, count by the speed of their slowest state that is known.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import arb
 
 from carom.parameters import Field
-from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
-from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
+from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of, rational
+from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of, rational_of
+from carom.proofs.families import read_size, unit_of
 from carom.proofs.form_search import search, shown
 from carom.proofs.forms import Surface
-from carom.proofs.lost_states import Lost, lost_on_orbits, steadily_lost
+from carom.proofs.hypotheses import Hypotheses
+from carom.proofs.periods import all_periods
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.sizes import LargestSpeed
+from carom.proofs.single_impact import candidates, orbit_claims
+from carom.proofs.steady import steady_claims
+from carom.proofs.whirl import attracting_speed, whirl_claims
+
+MOST_CELLS = 2000
+"""Cells of the periods after which the search for orbits ends."""
+
+
+class Lost(NamedTuple):
+    """A motion that does not return.
+
+    Attributes
+    ----------
+    words : str
+        What it is.
+    speed : arb
+        Of one of its states, or of states that lead to it, in ``c_r Ω``; for whirl, the speed above which all do.
+    """
+
+    words: str
+    speed: arb
+
+
+def steadily_lost(rotor: ProvenRotor) -> Iterator[Lost]:
+    """Synchronous rubs and whirl in lasting contact that are proven."""
+    n = rotor.numbers
+    proven = {claim.name for claim in (*steady_claims(rotor), *whirl_claims(rotor)) if claim.status == "proven"}
+    for name in ("rub 1", "rub 2"):
+        if f"{name} pressed" in proven:
+            yield Lost(f"the synchronous {name} is a motion", arb(1))
+    if "whirl attracts sliding" in proven:
+        # What is claimed there holds above the upper end, so that the speed itself is not reached.
+        speed = attracting_speed(n).upper()
+        yield Lost("backward whirl on the wall that is faster than this runs away to rolling", speed)
+    elif "whirl rolls" in proven:
+        yield Lost("the rotor can roll on the wall for ever", n.radius_ratio)
+
+
+def lost_on_orbits(rotor: ProvenRotor, evidence: Evidence) -> Iterator[Lost]:
+    """Orbits with one impact a period that are proven, each by the slower of its states before and after the impact."""
+    n = rotor.numbers
+    for _, found in candidates(rotor, all_periods(rotor, evidence, None, MOST_CELLS)):
+        for name, course in (found or {}).items():
+            if orbit_claims(rotor, name, course)[1] != "proven":
+                continue
+            radial, along = course.speed, 1 + course.angular_speed
+            after = along - n.mu * (1 + n.d) * radial
+            speeds = ((radial * radial + along * along).sqrt(), (n.d * n.d * radial * radial + after * after).sqrt())
+            yield Lost(f"the orbit {name} is a motion", min(speeds, key=lambda speed: float(speed.upper())))
+
 
 THEOREM = "states"
 OPTIONS = ("states_up_to",)
@@ -27,6 +80,45 @@ NOT_CLAIMED = (
 )
 SPEED = Field("states_up_to", "V", "largest speed of a state", "a speed", "m/s", 1e-9, 1e9, '"100 mm/s"')
 _WHERE = "inside the clearance or on its wall"
+
+
+class LargestSpeed:
+    """A largest speed in the fixed frame.
+
+    Parameters
+    ----------
+    hypotheses : Hypotheses
+    text : str
+        With a unit for a machine, in ``c_r Ω`` for a dimensionless one.
+    field : Field
+        What it is called, in ``m/s``.
+
+    Attributes
+    ----------
+    exact : tuple of Fraction and int
+        It in m/s, or in ``c_r Ω``: a rational number, times π to a power.
+    physical : bool
+        Whether it has a unit.
+
+    Raises
+    ------
+    InputError
+        It is no speed.
+    """
+
+    def __init__(self, hypotheses: Hypotheses, text: str, field: Field) -> None:
+        number = read_size(field, text, hypotheses)
+        self.text, self.exact, self.physical = text, (number.low, number.turns), hypotheses.table == "machine"
+        self._hypotheses = hypotheses
+
+    def share(self, share: Fraction) -> arb:
+        """Ball of a share of it, in ``c_r Ω``."""
+        return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] / self.unit
+
+    @property
+    def unit(self) -> arb:
+        """``c_r Ω`` in m/s as a ball, or 1 for a dimensionless machine."""
+        return unit_of(self._hypotheses, "clearance", "speed")
 
 
 def state_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:

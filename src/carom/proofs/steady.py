@@ -10,10 +10,18 @@
 *Harmless kick.*  A kick of speed ``v`` out of levitation moves the rotor in the fixed frame along its own direction by
 ``v h(t)`` with the real response ``h`` to an impulse, ``ḧ + γḣ + ω²h = 0``, ``h(0) = 0`` and ``ḣ(0) = 1``: at most by ``v h(τ)`` with the
 first turning point ``τ = (2/γ) x⁻¹ artanh x``, ``x² = 4D/γ²`` and ``D = γ²/4 − ω²``.  So it stays inside while ``v h(τ) < 1 − |U*|``.
+
+*Next to the synchronous rub of the larger normal force* with ``δ = x − x*``, ``y = θ̇``, ``k = 2μ`` and ``T(δ) = K sin δ − (γ + μκ)(cos δ − 1)`` a slide obeys ``y' = −(γ + k)y − μy² − T``, and
+
+    V = ½y²e^{kδ} + Π(δ),      Π = ∫₀^δ T(ξ)e^{kξ}dξ,      V' = −(γ + k)y²e^{kδ}.
+
+Let ``T(A) > 0 > T(−A)`` with ``A ≤ π/2``, and ``c`` be the less of ``Π(±A)``.  Where ``V < c`` and ``|δ| ≤ A`` no slide gets out, and
+``|y| ≤ √(2c)e^{μA}``.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 
 from flint import arb
@@ -167,3 +175,51 @@ def _largest_response(n: LineNumbers) -> arb:
     else:
         time = (split / (half * half)).hypgeom_2f1(arb(1) / 2, arb(1), arb(3) / 2) / half
     return (-half * time).exp() * hyperbolic(split, time)[1]
+
+
+@dataclass(frozen=True)
+class Rub:
+    """The stable rub: numbers of the machine, its normal force ``N*`` and its stiffness ``K`` along the wall."""
+
+    numbers: LineNumbers
+    force: arb
+    stiffness: arb
+
+    @classmethod
+    def of(cls, n: LineNumbers) -> Rub:
+        """That of the larger normal force."""
+        root = rub_discriminant(n).sqrt()
+        return cls(n, (rub_balance(n) + root) / (1 + n.mu * n.mu), root)
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is one that presses on the wall."""
+        return bool(self.stiffness > 0 and self.force > 0)
+
+    def torque(self, off: arb) -> arb:
+        """``T(δ)``."""
+        return self.stiffness * off.sin() - self._push * (off.cos() - 1)
+
+    def torque_slope(self, off: arb) -> arb:
+        """``T'(δ)``."""
+        return self.stiffness * off.cos() + self._push * off.sin()
+
+    @property
+    def place(self) -> tuple[arb, arb]:
+        """``ρ cos x*`` and ``ρ sin x*``."""
+        n = self.numbers
+        return self.force - 1 + n.omega_squared, -n.gamma - n.mu * self.force
+
+    def potential(self, off: arb) -> arb:
+        """``Π(δ)``."""
+        rate = 2 * self.numbers.mu
+        growth, below = (rate * off).exp(), 1 + rate * rate
+        sine = (growth * (rate * off.sin() - off.cos()) + 1) / below
+        cosine = (growth * (rate * off.cos() + off.sin()) - rate) / below
+        whole = off if rate.is_zero() else (rate * off).expm1() / rate
+        return self.stiffness * sine - self._push * (cosine - whole)
+
+    @property
+    def _push(self) -> arb:
+        n = self.numbers
+        return n.gamma + n.mu * (1 - n.omega_squared)
