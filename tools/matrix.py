@@ -48,7 +48,7 @@ def questions(machine: str, small: bool = False) -> dict[str, list[str]]:
         "bifurcations": ["bifurcations", "--along", "speed", "--from", speeds[0], "--to", speeds[1]],
         "regions": ["regions", "--plane", "speed,friction", "--grid", "2" if small else "4"],
         "kicks": ["basins", "--grid", grid],
-        "shocks": ["basins", "--shock", "20 g, 5 ms", "--grid", grid],
+        "shocks": ["basins", "--shock", f"{5 if small and flexible else 20} g, 5 ms", "--grid", grid],
         "gains": ["basins", "--gains", "2x2" if small else "3x3", "--starts", "5" if small else "20"],
         "response": ["response"],
         "proof": ["prove"],
