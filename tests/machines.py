@@ -30,6 +30,11 @@ DECIMAL = {
 """The same by the exact numbers of the paper."""
 
 
+def machine_of(parameters: Parameters, scales: Scales | None = None) -> Machine:
+    """The machine that has these numbers."""
+    return REAL.replace(**vars(scales or parameters.scales), **parameters.as_dict())
+
+
 def dimensionless(text: str) -> dict[str, str]:
     """A machine by its exact numbers in the order of their names."""
     return dict(zip(DECIMAL, text.split(), strict=True))

@@ -6,14 +6,14 @@ from importlib import import_module
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES, machine_of
 
 import carom as cm
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
 from carom.models import LinearEquations, Rigid, Touchdown
-from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
+from carom.parameters import MACHINE_FIELDS, Case, Machine
 from carom.sweeps import plan_sweep
 
 PACKAGES = [name for name, home in cm._HOMES.items() if home == "carom" and name != "proofs"]
@@ -150,7 +150,7 @@ def test_a_size_that_is_no_double_is_refused_by_machines():
         assert "mass" in refused(lambda: Machine(**{**FIELDS, "mass": value})).field  # noqa: B023
 
 
-FIELDS = {name: getattr(Machine.from_parameters(PAPER, Scales(50.0, 7e-4, 184.2)), name) for name in MACHINE_FIELDS}
+FIELDS = {name: getattr(machine_of(PAPER, SCALES), name) for name in MACHINE_FIELDS}
 
 
 def test_a_set_of_results_is_a_sequence_of_them():

@@ -10,17 +10,17 @@ import pytest
 import xarray
 from compilation import sized
 from linear_rotors import tilting
-from machines import PAPER
+from machines import PAPER, SCALES, machine_of
 
 import carom as cm
 from carom.base.outcome import CaromError, InputError
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.models import jeffcott
 from carom.orbits.shooting import ShootingStart
-from carom.parameters import Case, Machine, Scales, Zones
+from carom.parameters import Case, Zones
 from carom.sweeps import GridAxis
 
-MACHINE = Machine.from_parameters(PAPER.replace(gamma=0.4), Scales(50.0, 0.7e-3, 184.2))
+MACHINE = machine_of(PAPER.replace(gamma=0.4), SCALES)
 SUBJECTS = {
     "machine": MACHINE,
     "case": Case("name", MACHINE.parameters, MACHINE, Zones()),

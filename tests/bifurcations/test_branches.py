@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, random_parameters
+from machines import PAPER, SCALES, machine_of, random_parameters
 
 from carom import find_orbits
 from carom.bifurcations import OrbitBranch, continue_orbit
@@ -59,9 +59,7 @@ def test_orbits_of_a_branch_are_those_found_at_each_parameter(upper, lower):
 
 
 def test_physical_parameters_pass_the_same_points():
-    from carom.parameters import Machine, Scales
-
-    machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+    machine = machine_of(PAPER, SCALES)
     orbit = find_orbits(jeffcott(machine.parameters))["B1,d"]
     damping = continue_orbit(orbit, "damping", (500.0, 2500.0))
     unit = 50.0 * 184.2

@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from carom.base.files.directory import check_directory, staged_directory
+from carom.base.files import check_directory, staged_directory
 from carom.base.outcome import InputError
 
 

@@ -10,7 +10,7 @@ import xarray
 from compilation import sized
 from damage import CONTENT, spoilt
 
-from carom.base.files.netcdf import load, save
+from carom.base.netcdf import load, save
 from carom.base.outcome import InputError
 from carom.basins import Basin, GainMap
 

@@ -8,10 +8,11 @@ import pytest
 from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from machines import machine_of
 
 from carom.models import jeffcott
 from carom.motions import State, simulate
-from carom.parameters import Machine, Scales
+from carom.parameters import Scales
 
 EPSILON = 2.0**-52
 UNTIL = 6.0
@@ -67,7 +68,7 @@ def test_turning_the_unbalance_and_the_start_turns_the_motion(machine, start, an
 def test_machines_with_the_same_parameters_move_alike(machine, start, scales):
     """Through SI units and back: other mass, clearance and speed, the same motion in its own units."""
     nominal, times, amplification = growth(machine, start, np.linspace(0.0, UNTIL, 60))
-    physical = Machine.from_parameters(machine, scales)
+    physical = machine_of(machine, scales)
     back = physical.parameters
     for name, value in machine.as_dict().items():
         assert getattr(back, name) == pytest.approx(value, rel=8 * EPSILON, abs=1e-300)

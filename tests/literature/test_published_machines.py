@@ -78,11 +78,9 @@ def test_the_flexible_shaft_of_munich_has_whirls_on_both_sides_of_what_was_measu
 def test_the_test_rig_levitates_within_its_limit_of_current():
     case = load("examples/tum-test-rig.toml")
     levitation = find_equilibria(jeffcott(case.parameters)).members[0]
-    machine, gains = case.machine, case.machine.controller_gains
+    machine = case.machine
 
-    current = abs(gains["proportional_gain"] + 1j * machine.speed * gains["derivative_gain"]) * (
-        levitation.radius * machine.clearance
-    )
+    current = abs(5000.0 + 5j * machine.speed) * levitation.radius * machine.clearance  # gains of the file
 
     assert levitation.status == "admissible"
     assert current < 0.1 * machine.current_limit

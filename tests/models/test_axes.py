@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES, machine_of
 
 from carom.base.outcome import InputError
 from carom.models import axis, jeffcott
 from carom.models.axes import interval_around, read_interval
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Numbers, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Numbers
 
-MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+MACHINE = machine_of(PAPER, SCALES)
 
 
 @pytest.mark.parametrize("name", MACHINE_FIELDS)

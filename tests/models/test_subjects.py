@@ -1,13 +1,13 @@
 """The one door for rotors: every verb takes a machine, a case, parameters or a model."""
 
 import pytest
-from machines import PAPER
+from machines import PAPER, SCALES, machine_of
 
 from carom.base.outcome import InputError
 from carom.models import case_of, jeffcott, rotor_of
-from carom.parameters import Case, Gravity, Machine, Scales, Zones
+from carom.parameters import Case, Gravity, Zones
 
-MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+MACHINE = machine_of(PAPER, SCALES)
 
 
 def test_whatever_describes_a_rotor_is_taken():

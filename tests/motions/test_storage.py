@@ -72,8 +72,8 @@ def test_a_file_that_holds_no_motion_is_refused(motion, tmp_path):
     with pytest.raises(InputError, match="damaged"):
         Trajectory.load(path)
 
-    from carom.base.files.netcdf import load as load_dataset
-    from carom.base.files.netcdf import save
+    from carom.base.netcdf import load as load_dataset
+    from carom.base.netcdf import save
     from carom.motions.storage import SEGMENTS
 
     motion.save(path)

@@ -6,7 +6,7 @@ import pickle
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from machines import PAPER, REAL
+from machines import PAPER, REAL, machine_of
 from refusals import ALLOWED, error_of
 
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Machine, Parameters, Scales
@@ -133,7 +133,7 @@ def test_a_machine_is_a_value():
     assert machine == Machine(**{**SI, "mass": "50 kg"})
     assert hash(machine) == hash(Machine(**SI))
     assert pickle.loads(pickle.dumps(machine)) == machine
-    with pytest.raises(ValueError, match="frozen"):
+    with pytest.raises(AttributeError, match="frozen"):
         machine.mass = 3.0
 
 
@@ -142,14 +142,14 @@ def test_a_machine_is_a_value():
 
 @given(machines())
 def test_a_machine_of_fifteen_digits_comes_back_in_every_bit(machine):
-    assert Machine.from_parameters(machine.parameters) == machine
+    assert machine_of(machine.parameters) == machine
 
 
 @given(machines(digits=17))
 def test_parameters_of_a_machine_come_back_in_every_bit(machine):
     parameters = machine.parameters
 
-    assert Machine.from_parameters(parameters).parameters == parameters
+    assert machine_of(parameters).parameters == parameters
 
 
 @given(
@@ -162,7 +162,7 @@ def test_parameters_of_a_machine_come_back_in_every_bit(machine):
 def test_parameters_come_back_as_near_as_doubles_allow(scales, gamma, omega, rho, radius_ratio):
     parameters = Parameters(gamma, omega, rho, 0.21, 0.15, 0.95, radius_ratio, scales)
 
-    machine = Machine.from_parameters(parameters)
+    machine = machine_of(parameters)
 
     back = machine.parameters
     assert (back.phi, back.mu, back.d, back.scales) == (0.21, 0.15, 0.95, scales)
@@ -173,14 +173,8 @@ def test_parameters_come_back_as_near_as_doubles_allow(scales, gamma, omega, rho
             value = getattr(machine, PHYSICAL_PARTNER[name])
             for steps in range(-20, 21):
                 near = value + steps * math.ulp(value)
-                changed = Machine(**{**machine.model_dump(), PHYSICAL_PARTNER[name]: near})
+                changed = Machine(**{**machine.values, PHYSICAL_PARTNER[name]: near})
                 assert getattr(changed.parameters, name) != wanted
-
-
-def test_negative_damping_is_no_machine():
-    parameters = Machine(**SI).parameters.replace(gamma=-0.1)
-
-    assert str(error_of(lambda: Machine.from_parameters(parameters))).startswith("damping = -921.0: must be a damping")
 
 
 # ------------------------------------------------------------------------------------------ replace
@@ -193,7 +187,7 @@ def test_a_dimensionless_change_moves_its_partner_alone(name, number):
     changed = machine.replace(**{name: number})
 
     partner = PHYSICAL_PARTNER[name]
-    assert {**changed.model_dump(), partner: 0} == {**machine.model_dump(), partner: 0}
+    assert {**changed.values, partner: 0} == {**machine.values, partner: 0}
     assert ulps(getattr(changed.parameters, name) or 1.0, number or 1.0) <= 1
 
 

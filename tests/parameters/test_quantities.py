@@ -23,9 +23,8 @@ from carom.parameters import (
     unknown_name,
 )
 from carom.parameters.common_units import COMMON_UNITS
-from carom.parameters.exact import read_exact
 from carom.parameters.formats import format_entry
-from carom.parameters.quantities import read_decimal, without_separators
+from carom.parameters.quantities import read_decimal, read_exact, without_separators
 
 # ------------------------------------------------------------------------------------------ units
 

@@ -4,11 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from machines import machine_of
 
 from carom import find_attractors, load, simulate
 from carom.base.files import as_json
 from carom.disturbances import KickPlane, Sample
-from carom.parameters import Case, Machine, Parameters, Scales, Zones
+from carom.parameters import Case, Parameters, Scales, Zones
 from carom.studies.actuator import bearing_demand
 
 KEOGH = "examples/keogh-cole.toml"
@@ -26,7 +27,7 @@ BEARING_NUMBERS = {"magnetic_bearings": 2, "force_current_factor": 70.0, "negati
 
 @pytest.mark.jit_only
 def test_disturbances_that_come_to_a_limit_are_counted_and_whether_they_come_back():
-    machine = Machine.from_parameters(QUIET).replace(force_limit="500 N", **BEARING_NUMBERS)
+    machine = machine_of(QUIET).replace(force_limit="500 N", **BEARING_NUMBERS)
     case = Case("limited", QUIET, machine, Zones())
     found = find_attractors(case, Sample(KickPlane(1.0), 12), known=False)
 

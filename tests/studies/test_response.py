@@ -11,10 +11,10 @@ from machines import LIGHT, machine_file
 
 import carom as cm
 from carom.base.outcome import Outcome
+from carom.base.results import table_of
 from carom.models import Rotor, jeffcott
 from carom.motions.ensembles import settle
 from carom.parameters import Machine
-from carom.parameters.columns import table_of
 from carom.studies import unbalance_response
 from carom.studies.response import BEARING
 from carom.studies.standards import vibration_limit

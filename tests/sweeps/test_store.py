@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from sweep_tasks import Drawn, Failing, basins_plan, plan_of, stored_bytes
 
-import carom.base.files.whole
+import carom.base.files
 from carom.base.outcome import InputError
 from carom.sweeps import open_sweep, run_sweep
 from carom.sweeps.chunk import compute_chunk
@@ -155,9 +155,9 @@ def test_full_disk_is_one_line_and_loses_nothing(tmp_path, monkeypatch, call):
     SweepStore(path, PLAN)
     with monkeypatch.context() as patch:
         if call == "write":
-            patch.setattr(carom.base.files.whole, "memoryview", fails_later(memoryview), raising=False)
+            patch.setattr(carom.base.files, "memoryview", fails_later(memoryview), raising=False)
         else:
-            patch.setattr(f"carom.base.files.whole.os.{call}", fails_later(getattr(os, call)))
+            patch.setattr(f"carom.base.files.os.{call}", fails_later(getattr(os, call)))
         with pytest.raises(InputError) as caught:
             run_sweep(PLAN, path, workers=1, threads=True, progress=lambda tally: kept.update(stored_bytes(path)))
 

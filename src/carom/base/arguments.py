@@ -24,6 +24,7 @@ from typing import (
     ForwardRef,
     Literal,
     NamedTuple,
+    TypeGuard,
     TypeVar,
     Union,
     cast,
@@ -203,7 +204,7 @@ def _kind_of(written: Any) -> ArgumentKind:
     """Kind of argument that an annotation stands for."""
     origin, parts = get_origin(written), get_args(written)
     if origin is Annotated:
-        return _ranged(_kind_of(parts[0]), *written.__metadata__)
+        return _ranged(_kind_of(parts[0]), *parts[1:])
     if origin in (Union, types.UnionType):
         return _any_of([_kind_of(part) for part in parts])
     if origin is Literal:
@@ -237,9 +238,10 @@ def _any_of(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
 
 
 def _fixed(kinds: Sequence[ArgumentKind]) -> ArgumentKind:
-    def holds(value: Any) -> bool:
-        fits = _is_sequence(value) and len(value) == len(kinds)
-        return fits and all(kind.holds(part) for kind, part in zip(kinds, value, strict=True))
+    def holds(value: object) -> bool:
+        if not _is_sequence(value) or len(value) != len(kinds):
+            return False
+        return all(kind.holds(part) for kind, part in zip(kinds, value, strict=True))
 
     words = list(dict.fromkeys(kind.words for kind in kinds))
     which = f"{'each' if len(words) == 1 else 'namely'} {', '.join(words)}"
@@ -256,7 +258,7 @@ def _several(one: ArgumentKind, container: object) -> ArgumentKind:
     return ArgumentKind(holds, f"a sequence, each entry {one.words}")
 
 
-def _is_sequence(value: object) -> bool:
+def _is_sequence(value: object) -> TypeGuard[Sequence[object]]:
     """Whether a value is a sequence of several, as carom's sets of results are too, or an array that can be read as one."""
     several = isinstance(value, Sequence) or hasattr(value, "__array__")
     several |= hasattr(value, "__getitem__") and hasattr(value, "__len__") and not isinstance(value, Mapping | set)

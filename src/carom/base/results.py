@@ -1,14 +1,14 @@
-"""Text form of results for interpreters and notebooks: a few lines, however large the result is."""
+"""What results show: a few lines for interpreters and notebooks, however large they are, and plain data and tables by columns declared once."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set, Sized
 from enum import Enum
 from importlib import import_module
 from numbers import Complex
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeVar, overload
+from typing import Any, ClassVar, NamedTuple, TypeVar, overload
 
 import numpy as np
 
@@ -49,7 +49,7 @@ class Result(Tabular):
     shown: ClassVar[tuple[str, ...]] = ()
     figure: ClassVar[str] = ""
 
-    def plot(self, *args: Any, **options: Any) -> Any:
+    def plot(self, *args: object, **options: object) -> Any:
         """Draw this result: ``result.plot(...)`` is ``carom.plots.<figure>(result, ...)``.
 
         Raises
@@ -156,24 +156,59 @@ def _plain(value: object) -> object:
     return value.document() if hasattr(value, "document") else value
 
 
-def record(entry: object, columns: str, scales: Any = None) -> dict[str, Any]:
+def record(entry: object, columns: str, scales: object = None) -> dict[str, Any]:
     """Attributes as plain data for JSON, by the declaration of their columns: ``"name kind=edge.kind period: lost=size:velocity"``.
 
     A column is a key, behind ``=`` the attribute where it has another name, and behind ``:`` what kind of number it is, by default that of :data:`KINDS`.
     With scales such a number is there once more, in SI units under a key that ends in ``_si``.
     """
-    found: dict[str, Any] = {}
-    si: dict[str, Any] = {}
+    found, kinds = dict[str, object](), dict[str, str]()
     for column in columns.split():
         named, is_number, kind = column.partition(":")
         key, _, name = named.partition("=")
         found |= fields_of(entry, **{key: name or key})
-        if is_number and scales is not None:
-            si[f"{key}_si"] = _times(found[key], getattr(scales, kind or KINDS[key]))
-    return found | si
+        if is_number:
+            kinds[key] = kind or KINDS[key]
+    return found | in_si(found, scales, **kinds)
 
 
-def flags(values: Any, meanings: Iterable[str]) -> dict[str, Any]:
+class Column(NamedTuple):
+    """A value of each entry of a result.
+
+    Attributes
+    ----------
+    key : str
+        Its key in JSON as :func:`record` reads it: ``"branch=name"``, ``"period:"``; empty if it is not there.
+    heading : str
+        What heads it in tables; empty if it is in none.  Braces stand for attributes of the result: ``"{0.parameter}"``.
+    text : callable, optional
+        What stands in its cells, from the entry and the result; by default the attribute.
+    """
+
+    key: str
+    heading: str = ""
+    text: Callable[..., str] | None = None
+
+    def cell(self, entry: object, result: object) -> str:
+        """What stands in the cell of an entry of a result."""
+        if self.text is not None:
+            return self.text(entry, result)
+        return str(_attribute(entry, self.key.partition(":")[0].rpartition("=")[2]))
+
+
+def keys_of(columns: Iterable[Column]) -> str:
+    """The declaration of the keys in JSON, for :func:`record`."""
+    return " ".join(column.key for column in columns if column.key)
+
+
+def table_of(columns: Iterable[Column], entries: Iterable[object], result: object) -> tuple[list[str], list[list[str]]]:
+    """Headings, and a row of texts for each entry of a result."""
+    shown = [column for column in columns if column.heading]
+    headings = [column.heading.format(result) for column in shown]
+    return headings, [[column.cell(entry, result) for column in shown] for entry in entries]
+
+
+def flags(values: object, meanings: Iterable[str]) -> dict[str, Any]:
     """Attributes that give the meaning of whole numbers, by the CF conventions."""
     words = " ".join(meaning.replace("-", "_").replace(" ", "_") for meaning in meanings)
     return {"flag_values": values, "flag_meanings": words}
@@ -190,14 +225,14 @@ def in_si(values: Mapping[str, object], scales: object, /, *names: str, **kinds:
     return {f"{name}_si": _times(values[name], getattr(scales, kind)) for name, kind in kinds.items()}
 
 
-def _times(value: Any, scale: float) -> Any:
+def _times(value: Any, scale: float) -> object:
     """A number, or each of a list, in other units; ``None`` where there is none."""
     if isinstance(value, list):
         return [_times(entry, scale) for entry in value]
     return None if value is None else value * scale
 
 
-def in_a_line(value: object, scales: Any = None) -> str:
+def in_a_line(value: object, scales: object = None) -> str:
     """A value in one line: numbers to six digits, arrays by size and range, collections by number and names.
 
     With scales the parts of a state and the like are stated in SI units too.
@@ -232,7 +267,7 @@ def _text(value: object, name: str) -> str:
     return text if isinstance(text, str) else ""
 
 
-def _parts(value: Any, scales: Any) -> str:
+def _parts(value: Any, scales: object) -> str:
     fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
     stated = [
         f"{name}={format_value(KINDS.get(name, ''), entry, scales)}"

@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.attractors import MotionName
 from carom.base.arguments import checked
-from carom.base.files.netcdf import load, save
+from carom.base.netcdf import load, save
 from carom.base.outcome import Outcome
 from carom.base.results import Result, flags
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
@@ -76,7 +76,7 @@ class Stored(Result):
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file atomically; see :func:`carom.base.files.netcdf.save`."""
+        """Write a netCDF file atomically; see :func:`carom.base.netcdf.save`."""
         save(self.dataset, path)
 
     @classmethod

@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.attractors import MotionName
 from carom.base.outcome import Outcome
-from carom.base.results import fields_of, in_si
+from carom.base.results import Column, fields_of, in_si
 from carom.basins.brackets import SmallestUnrecovered
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
@@ -24,7 +24,6 @@ from carom.closed_forms.contact_free import contact_free_blade_loss, contact_fre
 from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
-from carom.parameters.columns import Column
 from carom.parameters.formats import format_quantity, number
 from carom.parameters.scaling import SCALING
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from carom.attractors import exact_interval
 from carom.base.outcome import STEADY_WORDS
-from carom.base.results import record
+from carom.base.results import Column, keys_of, record
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.curve_results import Curve
 from carom.bifurcations.diagrams import Diagram
@@ -19,7 +19,6 @@ from carom.bifurcations.simulated import SimulatedBranch
 from carom.models.axes import Axis
 from carom.orbits.orbit import Orbit
 from carom.orbits.searched import Searched
-from carom.parameters.columns import Column, keys_of
 from carom.parameters.formats import format_quantity, number
 
 _NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}

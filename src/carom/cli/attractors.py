@@ -50,9 +50,9 @@ def attractors(
 
 def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None], exponents: bool) -> None:
     """Print a table of the attractors, and what the rotor does on each below it."""
+    from carom.base.results import table_of
     from carom.basins import share_of_kicks
     from carom.cli.screen import print_table
-    from carom.parameters.columns import table_of
     from carom.studies.document import ACROSS, MEASURED, SEEN
 
     screen = console()

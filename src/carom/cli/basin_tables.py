@@ -5,6 +5,7 @@ from __future__ import annotations
 from rich.console import Console
 
 from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
+from carom.base.results import table_of
 from carom.basins import Basin, GainMap, SmallestUnrecovered
 from carom.basins.document import MOTION
 from carom.basins.families import size_coordinate
@@ -13,7 +14,6 @@ from carom.cli.screen import print_table
 from carom.cli.tables import print_rows
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
-from carom.parameters.columns import table_of
 from carom.parameters.formats import format_angle
 from carom.studies.wording import Wording
 

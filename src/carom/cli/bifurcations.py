@@ -63,9 +63,9 @@ def _shown(varied: Axis, value: float) -> str:
 
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
+    from carom.base.results import table_of
     from carom.bifurcations.documents import POINT
     from carom.cli.screen import print_table
-    from carom.parameters.columns import table_of
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)

@@ -132,9 +132,9 @@ def _map(case: Case, begins: StatedBeginning, asked: dict[str, Any], out: str | 
 
 def _print_map(screen: Console, found: DropMap) -> None:
     """Print how the drops end, the loads on the bearing, and how many exceed its limits."""
+    from carom.base.results import table_of
     from carom.basins.document import DROPPED
     from carom.cli.screen import print_table
-    from carom.parameters.columns import table_of
     from carom.parameters.tables import LIMIT_FIELDS, LoadLimits
 
     exists, tried = found.exists, int(found.exists.sum())

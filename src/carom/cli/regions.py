@@ -61,9 +61,9 @@ def regions(
 
 def _print_map(screen: Console, found: RegionMap) -> None:
     """Print the curves of a map, their meeting points, the regions, and in which of them the machine lies."""
+    from carom.base.results import table_of
     from carom.bifurcations.documents import CHANGE, CODIMENSION2, CURVE, REGION
     from carom.cli.screen import print_table
-    from carom.parameters.columns import table_of
 
     screen.print(f"Plane of {' and '.join(axis.field.words for axis in found.axes)}")
     screen.print()

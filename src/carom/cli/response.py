@@ -73,8 +73,8 @@ def _read(case: Case, start: str | None, end: str | None, operating: str | None)
 
 
 def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
+    from carom.base.results import table_of
     from carom.cli.screen import print_table
-    from carom.parameters.columns import table_of
     from carom.studies.response import BEARING, STRETCH
     from carom.studies.wording import rpm
 

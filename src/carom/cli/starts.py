@@ -125,7 +125,7 @@ def read_value(option: str, text: str, varied: Axis) -> float:
 def check_exact(option: str, text: str, name: str) -> None:
     """Refuse a value of a physical parameter without its unit, where it is read exactly."""
     if name in SETTABLE and name not in DIMENSIONLESS_FIELDS:
-        from carom.parameters.exact import read_exact
+        from carom.parameters.quantities import read_exact
 
         try:
             read_exact(_of_command_line(SETTABLE[name]), text)

@@ -79,8 +79,7 @@ def sweep(
 def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     """Draw the results over the axes of the sweep, with the machine as it is marked."""
     from carom import plots
-    from carom.base.files import staged_directory
-    from carom.base.files.directory import FIGURES
+    from carom.base.files import FIGURES, staged_directory
     from carom.models import axis, rotor_of
     from carom.parameters import Case
     from carom.studies.wording import machine_heading

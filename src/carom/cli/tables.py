@@ -16,10 +16,10 @@ from rich.text import Text
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.base.outcome import Outcome, Phase
+from carom.base.results import table_of
 from carom.cli.logs import contact_rows
 from carom.cli.screen import print_table
 from carom.motions import Trajectory, drop_loads
-from carom.parameters.columns import table_of
 from carom.parameters.formats import complex_words, format_angle, format_quantity, number, shown_from_si
 from carom.parameters.indentation import indentation_of_impact
 from carom.studies import LoadCheck, Study, Wording

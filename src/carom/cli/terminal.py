@@ -93,8 +93,7 @@ def write_output(
     if out is None:
         return
     from carom import plots
-    from carom.base.files import staged_directory, write_json
-    from carom.base.files.directory import FIGURES
+    from carom.base.files import FIGURES, staged_directory, write_json
     from carom.studies.wording import machine_heading
 
     tell = tell or Reporter()

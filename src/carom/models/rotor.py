@@ -23,7 +23,7 @@ from carom.models.forcing import Force, with_forces
 from carom.models.limits import Limit, checked_limits, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
-from carom.parameters.settings import GRAVITY_NAME
+from carom.parameters.machine_file import GRAVITY_NAME
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.base.files import netcdf
+from carom.base import netcdf
 from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import rotor_from
 from carom.motions.starts import State

@@ -3,24 +3,19 @@
 ========================  ========================================================================================================================
 ``fields``                names, symbols, units and ranges of all numbers
 ``common_units``          units of machine files as pint converts them
-``terms``                 terms that stand for the numbers of a machine, with their formulas
+``terms``                 terms that stand for the numbers of a machine, with their formulas; entries in whatever terms -> numbers
 ``tables``                tables that files of all machines share, each entry declared once: :class:`Zones`, :class:`Gravity` and the like
-``quantities``            text with units -> float in SI units
-``exact``                 text with units -> exact numbers, for proofs
-``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
+``quantities``            text with units -> float in SI units, and exact numbers for proofs
 ``toml_reader``           TOML file -> raw tables
 ``scaling``               :class:`Scales` and their units; dimensionless numbers from and to SI units
 ``numbers``               :class:`Parameters`, :class:`Numbers`: the same plain, unchecked
-``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``touchdown_bearing``     :class:`TouchdownBearing`: a compliant touchdown bearing
-``settings``              what a setting, or an axis of a sweep, may change
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a compliant wall dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
-``columns``               columns of tables and JSON: key, heading and text of each, declared once
-``formats``               sizes and numbers as people write them: mm/s, g, degrees
+``formats``               sizes and numbers as people write and read them: mm/s, g, degrees; those of starts and disturbances
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
 ========================  ========================================================================================================================
 """
@@ -34,13 +29,13 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
+from carom.parameters.formats import Size, own_size, own_time, own_unbalance, read_size, read_unbalance
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.machine import ControlLimit, Machine
-from carom.parameters.machine_file import Case
+from carom.parameters.machine_file import SETTINGS, Case, field_to_set
 from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import (
-    GRAVITY,
     SHOCK_DURATION,
     SURVIVE_ENTRIES,
     Required,
@@ -48,9 +43,7 @@ from carom.parameters.requirement import (
     Shock,
     usual_kick,
 )
-from carom.parameters.scaling import UNITS, Scales
-from carom.parameters.settings import SETTINGS, field_to_set
-from carom.parameters.sizes import Size, own_size, own_time, own_unbalance, read_size, read_unbalance
+from carom.parameters.scaling import GRAVITY, UNITS, Scales
 from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits, Zones
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_vary
 from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing

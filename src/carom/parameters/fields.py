@@ -216,8 +216,14 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
 
 
 def unknown_names(table: Mapping[str, object], known: Mapping[str, object], where: str) -> list[InputError]:
-    """Errors for all names of a table that do not exist."""
-    return [unknown_name(name, given, known, where) for name, given in table.items() if name not in known]
+    """Errors for all names of a table that do not exist; only the first lists those that are allowed, as it is read first."""
+    unknown = [name for name in table if name not in known]
+    errors = [
+        unknown_name(name, table[name], known, where, listed=name == unknown[0]) for name in unknown[:_MOST_SUGGESTIONS]
+    ]
+    return errors + [
+        InputError(name, shown(table[name]), f"unknown name in {where}") for name in unknown[_MOST_SUGGESTIONS:]
+    ]
 
 
 def name_errors(
@@ -228,20 +234,13 @@ def name_errors(
 ) -> list[InputError]:
     """Errors for all names of a table that are unknown or missing.
 
-    If an unknown name seems to be a misspelt missing one, only the unknown name is reported.  The first error about an
-    unknown name lists those that are allowed.  ``ways`` has the numbers that must be given, each with the names that give it;
-    by default each of ``fields`` by its own name.
+    If an unknown name seems to be a misspelt missing one, only the unknown name is reported.  ``ways`` has the numbers that
+    must be given, each with the names that give it; by default each of ``fields`` by its own name.
     """
     ways = {name: (name,) for name in fields} if ways is None else ways
-    unknown = [name for name in table if name not in fields]
     absent = {name: names for name, names in ways.items() if not any(way in table for way in names)}
-    meant = {nearest_name(name, fields) for name in unknown[:_MOST_SUGGESTIONS]}
-    errors = [
-        unknown_name(name, table[name], fields, where, listed=name == unknown[0])
-        for name in unknown[:_MOST_SUGGESTIONS]
-    ]
-    errors += [InputError(name, shown(table[name]), f"unknown name in {where}") for name in unknown[_MOST_SUGGESTIONS:]]
-    return errors + [
+    meant = {nearest_name(name, fields) for name in [name for name in table if name not in fields][:_MOST_SUGGESTIONS]}
+    return unknown_names(table, fields, where) + [
         InputError(name, None, "; or give ".join([f"missing in {where}; {fields[name].allowed}", *names[1:]]))
         for name, names in absent.items()
         if meant.isdisjoint(names)

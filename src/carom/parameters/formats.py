@@ -1,17 +1,25 @@
-"""Numbers and sizes as people write them: speeds of the rotor centre in mm/s, accelerations in g, angles in degrees."""
+"""Numbers and sizes as people write and read them: speeds of the rotor centre in mm/s, accelerations in g, angles in degrees.
+
+Sizes of starts, times and disturbances are read in units of the equations, or with a unit if the machine is known.
+"""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
+from dataclasses import replace
 from decimal import Decimal
-from typing import Any
+from typing import NamedTuple, TypeVar
 
+from carom.base.arguments import checked
+from carom.base.outcome import InputError, shown
 from carom.parameters.fields import PHYSICAL_PARTNER, Field
-from carom.parameters.requirement import GRAVITY
-from carom.parameters.scaling import CONVERSIONS, UNITS, Scales
+from carom.parameters.quantities import read_quantity, without_separators
+from carom.parameters.scaling import CONVERSIONS, GRAVITY, UNITS, Scales
 from carom.parameters.terms import SETTABLE
 
+_Number = TypeVar("_Number", float, Decimal)
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Exponents as people write them."""
 _SHOWN = {
@@ -21,7 +29,26 @@ _SHOWN = {
     "unbalance": (1e6, "g mm"),
     "time": (1e3, "ms"),
 }
+"""By what to multiply an SI unit to get the unit in which people see a size, and that unit."""
 _OWN = {"Omega": "Ω", "^2": "²", "^3": "³"}
+_HUGE = 1e12
+_KINDS = {
+    "length": ("a length", "0.3 mm"),
+    "velocity": ("a velocity", "50 mm/s"),
+    "acceleration": ("an acceleration", "20 g"),
+    "unbalance": ("an unbalance", "5000 g mm"),
+    "impulse": ("an impulse", "3 N s"),
+    "time": ("a time", "11 ms"),
+    "speed": ("an angular speed", "9000 rpm"),
+    "angle": ("an angle", "30 deg"),
+}
+"""Kinds of sizes that are read, in words, and an example in the unit in which people usually say them."""
+_PLAIN = re.compile(r"\s*[+-]?(?:[0-9.]+(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity))\s*")
+_GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*", re.DOTALL)
+"""Accelerations such as ``20 g``, as engineers write shocks; in tables of units ``g`` is the gram."""
+_TIME = "a finite time above 0, in 1/Omega or with a unit, such as '2 s'"
+LONGEST_TIME = 1e9
+"""Longest time to follow a motion, in ``1/Ω``: more than a hundred million turns, which take hours."""
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -132,12 +159,11 @@ def format_range(parameter: str | Field, values: Iterable[float]) -> str:
     return format_interval(format_entry(parameter, min(ends)), format_entry(parameter, max(ends)))
 
 
-def own_entry(name: str, value: object, scales: Scales | None) -> tuple[str, Any]:
+def own_entry(name: str, value: _Number, scales: Scales | None) -> tuple[str, _Number]:
     """A parameter with a value; with scales what a machine has in place of a dimensionless one, in SI units."""
     if scales is None or name not in PHYSICAL_PARTNER:
         return name, value
-    found = CONVERSIONS[name].value(value, scales)
-    return PHYSICAL_PARTNER[name], found if isinstance(value, Decimal) else float(found)
+    return PHYSICAL_PARTNER[name], CONVERSIONS[name].value(value, scales)
 
 
 def format_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
@@ -150,3 +176,108 @@ def format_interval(low: str, high: str) -> str:
     """Write a range of two sizes with one unit, where both have the same."""
     unit = high.partition(" ")[2]
     return f"{low.removesuffix(f' {unit}') if unit else low} to {high}"
+
+
+class Size(NamedTuple):
+    """A size as it was given.
+
+    Attributes
+    ----------
+    in_si : bool
+        Whether it is in the SI unit; otherwise it is in units of the equations.
+    kind : str
+        Property of :class:`Scales` that gives its unit, or ``"angle"``.
+    """
+
+    value: float
+    in_si: bool
+    kind: str
+
+    def own(self, scales: Scales | None) -> float:
+        """Return the size in units of the equations; a size in SI units needs the scales."""
+        return self.value / float(getattr(scales, self.kind)) if self.in_si else self.value
+
+
+@checked
+def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: bool = True) -> Size:
+    """Read a size: a number without a unit, in quotes or not, is in units of the equations.
+
+    Parameters
+    ----------
+    name : str
+        Name of the option or entry, for error messages.
+    given : object
+        A real number, or text; in ``"20 g"`` the unit is the standard gravity.
+    kind : {"length", "velocity", "acceleration", "unbalance", "impulse", "time", "speed", "angle"}
+    scales : Scales or None
+        Needed for values with units.
+    bare : bool
+        Whether text without a unit is allowed where the scales are known.
+
+    Raises
+    ------
+    InputError
+        The value is not a size of this kind, or it has a unit and the scales are not known, or none where it needs one.
+    """
+    if kind not in _KINDS:
+        raise InputError("kind", kind, f"one of: {', '.join(_KINDS)}")
+    (words, example), (own, unit) = _KINDS[kind], UNITS.get(kind, ("rad", "rad"))
+    needs_unit = scales is not None and not bare
+    field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
+    if not isinstance(given, str) or (not needs_unit and _PLAIN.fullmatch(without_separators(given))):
+        return Size(read_quantity(field, given), False, kind)
+    in_units = replace(field, unit=unit, usual=example.partition(" ")[2], needs_unit=needs_unit)
+    if needs_unit:
+        in_units = replace(in_units, example=f"'{example}'")
+    gravities = _GRAVITIES.fullmatch(given) if kind == "acceleration" else None
+    try:
+        value = read_quantity(in_units, f"{gravities[1]} standard_gravity" if gravities else given)
+    except InputError as problem:
+        raise InputError(name, shown(given), problem.allowed) from None
+    if kind == "angle":
+        return Size(value, False, kind)
+    if scales is None:
+        words = f"must be a number without a unit, in {own}: the machine file is dimensionless and has no scales"
+        raise InputError(name, shown(given), words)
+    return Size(value, True, kind)
+
+
+@checked
+def own_size(name: str, given: object, kind: str, scales: Scales | None) -> float:
+    """Convert text with a unit to the units of the equations; a number is already in these."""
+    return read_size(name, given, kind, scales).own(scales)
+
+
+@checked
+def read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
+    """Read an unbalance, or the eccentricity that it is of the whole mass; without scales a number in clearances."""
+    if scales is None:
+        return read_size(name, given, "length", scales)
+    try:
+        return read_size(name, given, "unbalance", scales, bare=False)
+    except InputError as problem:
+        try:
+            eccentricity = read_size(name, given, "length", scales, bare=False)
+        except InputError:
+            raise problem from None
+    return Size(float(Decimal(repr(eccentricity.value)) * Decimal(repr(scales.mass))), True, "unbalance")
+
+
+@checked
+def own_unbalance(name: str, given: object, scales: Scales | None) -> float:
+    """Convert text with a unit of an unbalance or an eccentricity to clearances; a number is already in these."""
+    return read_unbalance(name, given, scales).own(scales)
+
+
+@checked
+def own_time(name: str, given: object, scales: Scales | None) -> float:
+    """Time to follow a motion, in units of the equations; refuse what is none above 0, and what no computer awaits."""
+    if given is None:
+        raise InputError(name, None, _TIME)
+    time = read_size(name, given, "time", scales).own(scales)
+    if not 0.0 < time <= LONGEST_TIME:
+        own = f"{LONGEST_TIME:g}/Omega"
+        most = own if scales is None else f"{LONGEST_TIME * scales.time:.4g} s ({own})"
+        advice = "; without it a motion is followed until its end is known" if name.endswith("until") else ""
+        raise InputError(name, given, f"{_TIME}, up to {most}{advice}")
+    return time

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localcontext
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 from carom.base.arguments import checked, whole
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field
@@ -15,8 +15,7 @@ from carom.parameters.formats import number as short
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
-from carom.parameters.resolution import DECIMALS
-from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
+from carom.parameters.terms import DECIMALS, HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
 
 Side = Literal["up", "down", "nearest"]
 _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}
@@ -130,7 +129,7 @@ def in_terms_of(case: Case, name: str, value: object, side: Side = "nearest", di
 def _stated(case: Case, name: str, value: Decimal) -> _Stated:
     """The entry that states a parameter in the file of a machine, with its value."""
     machine = case.machine
-    given: Mapping[str, Any] = {}
+    given: Mapping[str, object] = {}
     if machine is not None:
         name, value = own_entry(name, value, machine.scales)
         given = machine.given.get(name, {})
@@ -160,7 +159,7 @@ def _value(case: Case, name: str) -> float:
 
 
 def _needed(machine: Machine, need: str) -> Decimal:
-    """What a formula needs besides the field, as :mod:`carom.parameters.resolution` takes it."""
+    """What a formula needs besides the field, as :mod:`carom.parameters.terms` takes it."""
     if need == "rated_speed":
         written = machine.given["eccentricity"].get(need, machine.speed)
         return Decimal(repr(read_quantity(HELPER_FIELDS[need], written)))

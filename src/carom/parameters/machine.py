@@ -10,17 +10,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import pydantic
-
 from carom.base.arguments import NotNegative, Positive, checked
 from carom.base.outcome import CaromWarning, InputError, shown
 from carom.base.tabular import Tabular
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.formats import format_entry, number
 from carom.parameters.numbers import Parameters
-from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import CONVERSIONS, Scales
-from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
+from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS, Resolved, resolve
 
 LEAST_RADIUS = 5.0
 """Rotor radius in clearances below which a machine file probably has a wrong unit; touchdown bearings have 20 to 1000."""
@@ -52,7 +49,7 @@ class ControlLimit:
         return f"a control force of at most {number(self.force)} N along each axis{pull}"
 
 
-class Machine(Tabular, pydantic.BaseModel):
+class Machine(Tabular):
     """A rotor, its levitation and its touchdown bearing, in SI units.
 
     Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; a number
@@ -103,8 +100,6 @@ class Machine(Tabular, pydantic.BaseModel):
     ``unbalance="15 g mm"`` or ``balance_grade="G 2.5"``; the formulas are those of :data:`carom.parameters.TERMS`.
     """
 
-    model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
-
     mass: float
     damping: float
     stiffness: float
@@ -121,14 +116,13 @@ class Machine(Tabular, pydantic.BaseModel):
     force_limit: float | None = None
     current_limit: float | None = None
     air_gap: float | None = None
-    _resolved: Resolved = pydantic.PrivateAttr()
+    _resolved: Resolved
 
     def __init__(self, /, **entries: object) -> None:
         self._fill(resolve(entries), entries)
 
     def _fill(self, resolved: Resolved, entries: Mapping[str, object]) -> None:
-        super().__init__(**resolved.values)
-        self._resolved = resolved
+        vars(self).update(resolved.values, _resolved=resolved)
         if self.air_gap is not None and self.air_gap <= self.clearance:
             allowed = f"larger than the clearance, {format_entry('clearance', self.clearance, 6)}: a rotor in contact would reach the magnets"
             raise InputError("air_gap", shown(entries.get("air_gap", self.air_gap)), allowed)
@@ -147,6 +141,9 @@ class Machine(Tabular, pydantic.BaseModel):
             return InputError(field, shown(entries.get(field, value)), gives)
         unit = MACHINE_FIELDS[field].unit
         return InputError(source, shown(entries[source]), f"gives {field} = {value:.6g} {unit}, which {gives}")
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a machine is frozen: machine.replace({name}=...) returns another")
 
     def __eq__(self, other: object) -> bool:
         """Whether all numbers are equal, whatever they were given by."""
@@ -181,7 +178,7 @@ class Machine(Tabular, pydantic.BaseModel):
         return self._resolved.values
 
     @property
-    def given(self) -> Mapping[str, Mapping[str, Any]]:
+    def given(self) -> Mapping[str, Mapping[str, object]]:
         """For each number the entries that gave it, as they were written, the one that sets it first.
 
         A number that was not given, and has its default, is left out.  ``{"eccentricity": {"unbalance": "15 g mm",
@@ -189,38 +186,6 @@ class Machine(Tabular, pydantic.BaseModel):
         change it.
         """
         return self._resolved.given
-
-    @classmethod
-    @checked
-    def from_parameters(cls, parameters: Parameters, scales: Scales | None = None) -> Machine:
-        """Return the machine that has the given dimensionless parameters.
-
-        Parameters
-        ----------
-        parameters : Parameters
-            The dimensionless numbers.
-        scales : Scales, optional
-            Mass, clearance and speed; those of `parameters` if left out.
-
-        Returns
-        -------
-        Machine
-            A machine whose own parameters equal the given ones exactly where doubles allow that, and to one unit in
-            the last place otherwise. Of several such machines it is the one with the shortest decimal numbers, so a
-            machine given by up to 15 significant digits is recovered exactly.
-
-        Raises
-        ------
-        InputError
-            If there are no scales, or a physical value (a negative damping, say) is not allowed.
-        """
-        scales = scales or parameters.scales
-        if scales is None:
-            raise InputError("scales", None, "these parameters have none: give mass, clearance and speed")
-        values = {
-            physical: solved(name, getattr(parameters, name), scales) for name, physical in PHYSICAL_PARTNER.items()
-        }
-        return cls(**values, mass=scales.mass, clearance=scales.clearance, speed=scales.speed)
 
     @property
     def scales(self) -> Scales:
@@ -243,20 +208,6 @@ class Machine(Tabular, pydantic.BaseModel):
         return {name: {entry: shown(value) for entry, value in given.items()} for name, given in self.given.items()}
 
     @property
-    def controller_gains(self) -> dict[str, float]:
-        """Proportional (A/m) and derivative gain (A s/m) that give this stiffness and damping.
-
-        Only those that the force-current factor and the negative stiffness are known for.
-        """
-        factor, count = self.force_current_factor, self.magnetic_bearings
-        if factor is None:
-            return {}
-        derivative = {"derivative_gain": self.damping / (count * factor)}
-        if self.negative_stiffness is None:
-            return derivative
-        return {"proportional_gain": (self.stiffness / count + self.negative_stiffness) / factor, **derivative}
-
-    @property
     def control_limit(self) -> ControlLimit | None:
         """Largest control force of all magnetic bearings together; ``None`` without a limit of force or current."""
         factor = self.force_current_factor or 0.0
@@ -266,7 +217,7 @@ class Machine(Tabular, pydantic.BaseModel):
             return None
         return ControlLimit(self.magnetic_bearings * force, self.magnetic_bearings * (self.negative_stiffness or 0.0))
 
-    def replace(self, /, **changes: Any) -> Machine:
+    def replace(self, /, **changes: object) -> Machine:
         """Return a copy with other values, physical or dimensionless.
 
         Parameters

@@ -10,16 +10,22 @@ from typing import Any, TypeVar, cast
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
 from carom.base.tabular import Tabular
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors, unknown_names
+from carom.parameters.fields import (
+    DIMENSIONLESS_FIELDS,
+    MACHINE_FIELDS,
+    Field,
+    name_errors,
+    unknown_name,
+    unknown_names,
+)
 from carom.parameters.formats import format_entry, format_quantity, number, shown_in
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.numbers import Parameters, own_numbers
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
-from carom.parameters.settings import GRAVITY_NAME, SETTINGS
-from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits, Table, Zones
-from carom.parameters.terms import ENTRIES, check_names
+from carom.parameters.tables import GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits, Table, Zones
+from carom.parameters.terms import ENTRIES, SETTABLE, check_names
 from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
 
@@ -27,6 +33,15 @@ _SETTING = "--set"
 _Table = TypeVar("_Table", Gravity, TouchdownBearing)
 UNUSED = 0.0
 """Restitution of a machine whose touchdown bearing is compliant."""
+GRAVITY_NAME = "gravity"
+"""Name of the acceleration of ``[gravity]`` where it stands beside the entries of the machine."""
+OF_TABLES: Mapping[str, Field] = {
+    GRAVITY_NAME: replace(GRAVITY_FIELDS["acceleration"], name=GRAVITY_NAME),
+    **{PREFIX + name: replace(field, name=PREFIX + name) for name, field in TOUCHDOWN_FIELDS.items()},
+}
+"""Entries of the tables ``[gravity]`` and ``[touchdown]``, by the names that they have beside those of the machine."""
+SETTINGS: Mapping[str, Field] = {**SETTABLE, **OF_TABLES}
+"""Everything that a setting, or an axis of a sweep, may change."""
 _UNITS_SHOWN = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
 
@@ -77,7 +92,7 @@ class Case(Tabular):
     gravity: Gravity | None = None
     touchdown: TouchdownBearing | None = None
     drive: Drive | None = None
-    stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    stated: Mapping[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
         if not hasattr(self.parameters, "finite_elements"):
@@ -94,7 +109,7 @@ class Case(Tabular):
             if table is not None and self.parameters.scales is None:
                 raise table.without_scales(table.words)
         if self.machine is not None:
-            self.limits.check_fit(self.touchdown)
+            _check_limits(self.limits, self.touchdown)
 
     @property
     def heading(self) -> str:
@@ -124,11 +139,7 @@ class Case(Tabular):
         return {name: self.given.get(name, {}).get(name, self.si[name]) for name in MACHINE_FIELDS}
 
     def rows(self) -> list[tuple[str, str]]:
-        """The machine in the units of people, and what is stated beside it."""
-        return [*self._of_machine(), *self.beside_rows()]
-
-    def beside_rows(self) -> list[tuple[str, str]]:
-        """What is stated beside the machine: bearing, drive, gravity, what it must survive, limits; and the units of the equations."""
+        """The machine in the units of people, what is stated beside it, and the units of the equations."""
         scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
@@ -146,7 +157,7 @@ class Case(Tabular):
             "limits of the bearing": ", ".join(limits),
             "units of the equations": scales and ", ".join(units),
         }
-        return [(name, text) for name, text in rows.items() if text]
+        return self._of_machine() + [(name, text) for name, text in rows.items() if text]
 
     def _of_machine(self) -> list[tuple[str, str]]:
         """The machine, without its restitution if its touchdown bearing is compliant."""
@@ -191,7 +202,7 @@ class Case(Tabular):
             parts.append(f"a loss of a blade of {format_quantity(required.blade_loss, kind, scales)}")
         return "; ".join(parts)
 
-    def replace(self, /, **changes: Any) -> Case:
+    def replace(self, /, **changes: object) -> Case:
         """Return the case with other parameters of the machine, bit for bit the same as with ``--set``.
 
         Parameters
@@ -233,6 +244,14 @@ class Case(Tabular):
             return replace(self, parameters=self.parameters.replace(**changes | numbers), stated=stated)
         machine = self.machine.replace(**changes)
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
+
+
+def _check_limits(limits: LoadLimits, bearing: TouchdownBearing | None) -> None:
+    """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have."""
+    if limits.depth is not None and (bearing is None or not bearing.is_compliant):
+        raise InputError("depth", limits.depth, "a limit needs a table [touchdown] of a compliant bearing")
+    if limits.pressure is not None and (bearing is None or bearing.balls is None):
+        raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
 
 
 Fields = dict[str, Any]
@@ -297,6 +316,14 @@ def _read_planar(tables: MachineTables, problems: Problems) -> Fields:
         return {"parameters": machine and machine.parameters, "machine": machine, "touchdown": touchdown}
     numbers = problems.attempt(_read_dimensionless, tables)
     return {"parameters": numbers, "machine": None, "touchdown": touchdown, "stated": tables.values}
+
+
+@checked
+def field_to_set(name: str) -> Field:
+    """Field of anything that a setting, or an axis of a sweep, may change."""
+    if name not in SETTINGS:
+        raise unknown_name(name, None, SETTINGS, "the parameters")
+    return SETTINGS[name]
 
 
 def split_settings(settings: Iterable[str], problems: Problems) -> dict[str, str]:

@@ -7,14 +7,14 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple, cast
 
 from carom.base.arguments import checked, having
 from carom.base.outcome import InputError, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
 from carom.parameters.formats import format_entry
 from carom.parameters.quantities import read_quantity
-from carom.parameters.scaling import CONVERSIONS, Scales, plain_number, root
+from carom.parameters.scaling import CONVERSIONS, Scales, Units, plain_number, root
 from carom.parameters.terms import no_such_parameter
 
 # Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
@@ -140,7 +140,7 @@ class Parameters:
 
     @classmethod
     @checked
-    def from_attributes(cls, attributes: Annotated[Mapping[str, Any], having("parameters", "scales")]) -> Parameters:
+    def from_attributes(cls, attributes: Annotated[Mapping[str, object], having("parameters", "scales")]) -> Parameters:
         """Parameters from the attributes of a dataset that :meth:`attributes` has given.
 
         Raises
@@ -150,16 +150,8 @@ class Parameters:
         KeyError, TypeError, ValueError
             An attribute is missing, or is not such text.
         """
-        numbers, scales = (json.loads(attributes[name]) for name in ("parameters", "scales"))
+        numbers, scales = (json.loads(str(attributes[name])) for name in ("parameters", "scales"))
         return cls(**numbers, scales=Scales(**scales) if scales else None)
-
-
-class Units(NamedTuple):
-    """Mass, clearance and rotational speed, the units of the equations, as plain numbers."""
-
-    mass: float
-    clearance: float
-    speed: float
 
 
 class Numbers(NamedTuple):
@@ -200,7 +192,7 @@ class Numbers(NamedTuple):
         """Value of a parameter, in SI units if it is a physical one; those need units."""
         number = _NUMBER_OF.get(name)
         value: float = getattr(self.units if name in Units._fields else self, number or name)
-        return value if number is None else CONVERSIONS[number].value(value, self.units)
+        return value if number is None else CONVERSIONS[number].value(value, cast("Units", self.units))
 
     def moved(self, name: str, value: float) -> Numbers:
         """Numbers with another value of one parameter; an analytic function of it.
@@ -208,7 +200,7 @@ class Numbers(NamedTuple):
         A dimensionless parameter moves alone.  A physical one, in SI units, moves whatever depends on it while the
         other physical ones stay: the shaft speed ``Ω`` moves ``γ = c/(mΩ)`` and ``ω = √(k/m)/Ω``, and not ``ρ``.
         """
-        units: Any = self.units
+        units = cast("Units", self.units)
         moved: dict[str, Any] = {name: value}
         if number := _NUMBER_OF.get(name):
             moved = {number: CONVERSIONS[number].number(value, units)}

@@ -1,11 +1,15 @@
-"""Conversion of text with units to floats in SI units; the rest of the package handles no units."""
+"""Conversion of text with units to floats in SI units, and for proofs to exact numbers; the rest of the package handles no units.
+
+An exact number is rational, times a power of π where turns are counted in radians.
+"""
 
 from __future__ import annotations
 
-import decimal
 import math
 import re
-from decimal import Decimal
+from dataclasses import dataclass
+from decimal import Context, Decimal, localcontext
+from fractions import Fraction
 from functools import cache
 from numbers import Real
 from typing import Any
@@ -15,10 +19,9 @@ from carom.base.outcome import shown
 from carom.parameters.common_units import COMMON_UNITS, Roots
 from carom.parameters.fields import Field
 
-_TEXT = re.compile(
-    r"(?P<number>[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity)\b))\s*(?P<unit>.*)",
-    re.DOTALL,
-)
+_DECIMAL = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_TEXT = re.compile(rf"(?P<number>{_DECIMAL}|[+-]?(?i:nan|inf|infinity)\b)\s*(?P<unit>.*)", re.DOTALL)
+_EXACT = re.compile(rf"(?P<number>[+-]?[0-9]+ */ *[0-9]+|{_DECIMAL}) *(?P<unit>.*)")
 # Names, products, quotients and one-digit powers only: pint evaluates arithmetic, and "m**9**9**9" would never end.
 _UNIT = re.compile(
     r"(?:[A-Za-z°%µμ_ ()*/·⋅]|1(?![0-9])|(?:\^|\*\*) *[+-]?[0-9](?!(?: *(?:\^|\*\*))|[0-9])|⁻?[¹²³⁴](?![¹²³⁴]))*"
@@ -43,7 +46,16 @@ _MEANT = {
 }
 """Units that pint takes for others in a field of this unit: 1 Hz for 1 rad/s, the U (turn) of German papers for an amount
 of an enzyme, a mil for an angle, the g of accelerations for a gram."""
-_DIGITS = decimal.Context(prec=40)
+_DIGITS = Context(prec=40)
+_TURNS = {
+    **dict.fromkeys(("rpm", "RPM", "rev/min", "r/min", "U/min"), Fraction(1, 30)),
+    **dict.fromkeys(("deg", "degree", "degrees", "°", "deg/s"), Fraction(1, 180)),
+    **dict.fromkeys(("rev/s", "Hz"), Fraction(2)),
+    "kHz": Fraction(2000),
+}
+"""Units of angles and angular speeds in multiples of π."""
+_LONGEST, _MOST_DIGITS, _LARGEST_EXPONENT = 200, 30, 400
+"""Of exact numbers: characters, digits of the factor of a unit, and power of ten."""
 
 
 class Written(float):
@@ -135,7 +147,7 @@ def _from_text(field: Field, text: str) -> float | Decimal:
     plain = text.strip()
     lettered = bool(field.letter) and plain.startswith(field.letter)
     plain = without_separators(plain.removeprefix(field.letter) if lettered else plain)
-    digits, unit = number_and_unit(field, text, plain, _TEXT, "this does not start with a number")
+    digits, unit = _number_and_unit(field, text, plain, _TEXT, "this does not start with a number")
     number = float(digits)
     if lettered and unit:
         raise field.error(text, f"a number after {field.letter} has no unit")
@@ -143,11 +155,11 @@ def _from_text(field: Field, text: str) -> float | Decimal:
         if unit:
             unit_factor(field, unit, text)
         return number
-    with decimal.localcontext(_DIGITS):
+    with localcontext(_DIGITS):
         return Decimal(digits) * unit_factor(field, unit, text) if unit else Decimal(digits)
 
 
-def number_and_unit(field: Field, text: str, plain: str, pattern: re.Pattern[str], otherwise: str) -> tuple[str, str]:
+def _number_and_unit(field: Field, text: str, plain: str, pattern: re.Pattern[str], otherwise: str) -> tuple[str, str]:
     """Number and unit of a ``plain`` text; errors show the whole of it, and say that it is ``otherwise`` if it is of another pattern."""
     if advice := comma_advice(plain):
         raise field.error(text, advice)
@@ -156,7 +168,7 @@ def number_and_unit(field: Field, text: str, plain: str, pattern: re.Pattern[str
         raise field.error(text, otherwise if text.strip() else "this is empty")
     number, unit = match["number"], match["unit"].strip()
     if field.needs_unit and not unit:
-        raise field.error(text, unit_advice(field, number))
+        raise field.error(text, _unit_advice(field, number))
     return number, unit
 
 
@@ -169,7 +181,7 @@ def unit_of(field: Field, text: str) -> str:
     return match["unit"].strip() if match else ""
 
 
-def unit_advice(field: Field, number: str) -> str:
+def _unit_advice(field: Field, number: str) -> str:
     """Say how to write a number without a unit."""
     written = (f"{number} {unit}" for unit in dict.fromkeys((field.usual_unit, field.unit)))
     return f"this has no unit: write {shown(' or '.join(written))}"
@@ -216,7 +228,7 @@ def _roots_by_pint(unit: str) -> tuple[Decimal, Roots]:
 def _registry() -> Any:
     import pint  # imported only for a value with an uncommon unit: it takes longer than all the rest
 
-    registry: Any = pint.UnitRegistry(non_int_type=Decimal)
+    registry: pint.UnitRegistry[Decimal] = pint.UnitRegistry(non_int_type=Decimal)
     # Notations that engineers use and pint does not define.
     registry.define("rev = revolution")
     registry.define("r = revolution")
@@ -225,3 +237,89 @@ def _registry() -> Any:
     registry.define("As = ampere * second")
     registry.define("gmm = gram * millimeter")
     return registry
+
+
+@dataclass(frozen=True)
+class ExactNumber:
+    """A number, or all numbers of an interval: those from ``low`` to ``high``, times ``π**turns``."""
+
+    low: Fraction
+    high: Fraction
+    turns: int = 0
+
+    def __truediv__(self, other: ExactNumber) -> ExactNumber:
+        """Quotient of numbers that are not negative."""
+        return ExactNumber(self.low / other.high, self.high / other.low, self.turns - other.turns)
+
+    def __mul__(self, other: ExactNumber) -> ExactNumber:
+        """Product of numbers that are not negative."""
+        return ExactNumber(self.low * other.low, self.high * other.high, self.turns + other.turns)
+
+    @property
+    def rational(self) -> Fraction | None:
+        """The number, if it is one number and rational."""
+        return self.low if self.low == self.high and not (self.turns and self.low) else None
+
+    def __str__(self) -> str:
+        ends = str(self.low) if self.low == self.high else f"[{self.low}, {self.high}]"
+        return f"{ends} pi^{self.turns}" if self.turns else ends
+
+
+def read_exact(field: Field, text: str) -> ExactNumber:
+    """Read a number without rounding, in the SI unit of a field.
+
+    The text is a decimal number or a fraction, perhaps with a unit (``"0.76"``, ``"3/7"``, ``"1759 rpm"``), ``"double 0.1"`` for
+    the double next to a decimal number, or ``"[0.1, 0.2]"`` for an interval of such numbers.  Anything else is refused, also a
+    value out of range, and a unit that is no rational multiple of the SI unit or of π times it.
+    """
+    text = text.strip()
+    if len(text) > _LONGEST:
+        raise field.error(text, "this is too long")
+    if text.startswith("[") and text.endswith("]") and text.count(",") == 1:
+        low, high = (read_exact(field, end) for end in text[1:-1].split(","))
+        if low.turns != high.turns or low.low > high.high:
+            raise field.error(text, "the ends of an interval must increase and have the same unit")
+        return ExactNumber(low.low, high.high, low.turns)
+    if text.startswith("double "):
+        digits = text.removeprefix("double ")
+        if not re.fullmatch(_DECIMAL, digits):
+            raise field.error(text, "this is not a number")
+        if field.needs_unit:
+            raise field.error(text, _unit_advice(field, repr(float(digits))))
+        number = Fraction(read_quantity(field, float(digits)))
+        return ExactNumber(number, number)
+    return _exact_from_text(field, text)
+
+
+def _exact_from_text(field: Field, text: str) -> ExactNumber:
+    plain = without_separators(text)
+    number, unit = _number_and_unit(field, text, plain, _EXACT, "this is not a decimal number or a fraction")
+    number = number.replace(" ", "")
+    if "/" in number:
+        if not int(number.partition("/")[2]):
+            raise field.error(text, "this is not a number")
+        value = Fraction(number)
+    else:
+        written = Decimal(number)
+        if written and abs(written.adjusted()) > _LARGEST_EXPONENT:
+            raise field.error(text, "this is out of range")
+        value = Fraction(written)
+    factor, turns = _exact_factor(field, unit, text)
+    value *= factor
+    # 22/7 is close enough to π for a check of the range.
+    size = value * Fraction(22, 7) ** turns
+    if not (field.zero and not value) and not Fraction(repr(field.lowest)) <= size <= Fraction(repr(field.highest)):
+        raise field.error(text, "this is out of range")
+    return ExactNumber(value, value, turns if value else 0)
+
+
+def _exact_factor(field: Field, unit: str, text: str) -> tuple[Fraction, int]:
+    if not unit:
+        return Fraction(1), 0
+    with localcontext(_DIGITS):
+        factor = unit_factor(field, unit, text).normalize()  # without zeros at the end, as of an inch from pint
+    if unit in _TURNS:
+        return _TURNS[unit], 1
+    if len(factor.as_tuple().digits) > _MOST_DIGITS:
+        raise field.error(text, f"{unit!r} cannot be converted exactly; give the value in {field.unit}")
+    return Fraction(factor), 0

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Literal
+from typing import Literal, TypeVar
 
 from carom.base.arguments import Positive, Whole, checked
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, unknown_names
-from carom.parameters.scaling import Scales
-from carom.parameters.sizes import read_size, read_unbalance
+from carom.parameters.formats import read_size, read_unbalance
+from carom.parameters.scaling import GRAVITY, Scales
 
-GRAVITY = 9.80665
-"""Standard acceleration of free fall, m/s²."""
 SHOCK_DURATION = 0.011
 """Duration of a shock for which none is stated, s: that of the usual test pulse (IEC 60068-2-27)."""
+_Read = TypeVar("_Read")
 Source = Literal["file", "option", "default"]
 
 SURVIVE_ENTRIES: Mapping[str, tuple[str, str]] = {
@@ -175,7 +174,13 @@ class Requirement:
 
     @classmethod
     def of(
-        cls, machine: Any, *, kick: Any = None, shock: Any = None, blade_loss: Any = None, blade_loss_node: Any = None
+        cls,
+        machine: object,
+        *,
+        kick: object = None,
+        shock: object = None,
+        blade_loss: object = None,
+        blade_loss_node: object = None,
     ) -> Requirement:
         """Read what a machine must survive from text with units.
 
@@ -206,7 +211,7 @@ class Requirement:
 
     @classmethod
     @checked
-    def of_table(cls, table: Mapping[str, Any], scales: Scales | None) -> Requirement:
+    def of_table(cls, table: Mapping[str, object], scales: Scales | None) -> Requirement:
         """Read a table ``[survive]``.
 
         Raises
@@ -240,16 +245,18 @@ def _fall_speed(scales: Scales) -> float:
     return math.sqrt(4.0 * GRAVITY * scales.clearance)
 
 
-def _read(entries: Mapping[str, Any], prefix: str, scales: Scales | None, source: Source) -> Requirement:
+def _read(entries: Mapping[str, object], prefix: str, scales: Scales | None, source: Source) -> Requirement:
     """Read the entries that are given; errors call them by their names behind a prefix."""
-    problems, found = Problems(), dict[str, Any]()
-    sizes = {name: partial(_size, kind=kind) for name, kind in (("kick", "velocity"), ("blade_loss", "unbalance"))}
-    readers: dict[str, Any] = {**sizes, "shock": _read_shock, "blade_loss_node": _read_node}
-    for name, read in readers.items():
-        if entries.get(name) is not None:
-            found[name] = problems.attempt(read, prefix + name, entries[name], scales)
+    problems = Problems()
+
+    def of(name: str, read: Callable[..., _Read]) -> _Read | None:
+        given = entries.get(name)
+        return None if given is None else problems.attempt(read, prefix + name, given, scales)
+
+    kick, change = of("kick", partial(_size, kind="velocity")), of("blade_loss", partial(_size, kind="unbalance"))
+    shock, node = of("shock", _read_shock), of("blade_loss_node", _read_node)
     problems.raise_all()
-    return Requirement(**found, source=source)
+    return Requirement(kick, shock, change, source, node)
 
 
 def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:

@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 from carom.parameters.fields import MACHINE_FIELDS, Field
 from carom.parameters.quantities import read_quantity
 
+GRAVITY = 9.80665
+"""Standard acceleration of free fall, m/s²."""
 UNITS = {
     "mass": ("m", "kg"),
     "length": ("c_r", "m"),
@@ -121,6 +123,14 @@ class Scales:
         return self.mass * (self.speed * self.speed)
 
 
+class Units(NamedTuple):
+    """Mass, clearance and rotational speed, the units of the equations, as plain numbers."""
+
+    mass: float
+    clearance: float
+    speed: float
+
+
 def plain_number(fields: Mapping[str, Field], name: str, given: object) -> float:
     """Check a number given in Python; text with units is refused here."""
     if isinstance(given, str):
@@ -131,16 +141,16 @@ def plain_number(fields: Mapping[str, Field], name: str, given: object) -> float
 class Conversion(NamedTuple):
     """A dimensionless number is ``(value/unit)^(1/power)``, with the value of its partner among the machine fields."""
 
-    unit: Callable[[Any], float]
-    """The unit in SI units, from :class:`~carom.parameters.numbers.Units` or :class:`~carom.parameters.Scales`."""
+    unit: Callable[[Scales | Units], float]
+    """The unit in SI units."""
     power: int = 1
 
-    def number(self, value: float, scales: object) -> float:
+    def number(self, value: float, scales: Scales | Units) -> float:
         """Dimensionless number of a value in SI units; an analytic function of both."""
         ratio = value / self.unit(scales)
         return root(ratio) if self.power == 2 else ratio
 
-    def value(self, number: Any, scales: Any) -> Any:
+    def value(self, number: Any, scales: Scales | Units) -> Any:
         """Value in SI units of a dimensionless number, a float or an exact ``Decimal``."""
         unit = self.unit(scales)
         return number**self.power * (Decimal(unit) if isinstance(number, Decimal) else unit)

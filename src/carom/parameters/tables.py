@@ -7,7 +7,6 @@ import dataclasses
 import json
 import math
 from collections.abc import Mapping
-from functools import cache
 from typing import Any, ClassVar, Self
 
 from carom.base.arguments import Count, Infinity, checked
@@ -39,6 +38,7 @@ _KINDS = {
     "N m s": "a drag",
 }
 """What is counted in an SI unit."""
+_ENTRIES: dict[type, dict[str, Field]] = {}
 
 
 def entry(
@@ -50,19 +50,24 @@ def entry(
     example: str,
     zero: bool = False,
     default: float | None = None,
-    **more: Any,
+    usual: tuple[str, float] = ("", 1.0),
+    whole: bool = False,
 ) -> Any:
-    """An attribute of a table that is a number: its field, but for the name, and its value where it is left out."""
-    kind = "a whole number" if more.get("whole") else _KINDS[unit]
-    field = Field("", symbol, words, kind, unit, lowest, highest, example, zero, **more)
+    """An attribute of a table that is a number: its field, but for the name, and its value where it is left out; ``usual`` is the unit in which people say it, and its size."""
+    kind = "a whole number" if whole else _KINDS[unit]
+    said, size = usual
+    field = Field(
+        "", symbol, words, kind, unit, lowest, highest, example, zero, usual=said, usual_size=size, whole=whole
+    )
     return dataclasses.field(default=default, metadata={"field": field})
 
 
-@cache
-def entries_of(table: type[Any]) -> dict[str, Field]:
+def entries_of(table: type[Table]) -> dict[str, Field]:
     """The numbers of a table, by their names."""
-    declared = {each.name: each.metadata["field"] for each in dataclasses.fields(table) if "field" in each.metadata}
-    return {name: dataclasses.replace(field, name=name) for name, field in declared.items()}
+    if table not in _ENTRIES:
+        declared = {each.name: each.metadata.get("field") for each in dataclasses.fields(table)}
+        _ENTRIES[table] = {name: dataclasses.replace(field, name=name) for name, field in declared.items() if field}
+    return _ENTRIES[table]
 
 
 def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
@@ -109,11 +114,10 @@ class Table:
     @property
     def entries(self) -> Mapping[str, Field]:
         """Its numbers by their names."""
-        table: Any = type(self)
-        return entries_of(table)
+        return entries_of(type(self))
 
     @property
-    def given(self) -> dict[str, Any]:
+    def given(self) -> dict[str, float]:
         """The numbers that are stated, in SI units."""
         own = {name: getattr(self, name) for name in self.entries}
         return {name: value for name, value in own.items() if value is not None}
@@ -134,7 +138,7 @@ class Table:
 
     @classmethod
     @checked
-    def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> Self:
+    def of(cls, table: Mapping[str, object], has_scales: bool = True) -> Self:
         """Read a table; one beside dimensionless parameters has no mass and clearance to be compared with.
 
         Raises
@@ -142,8 +146,7 @@ class Table:
         InputError
             An unknown name, a value that is not allowed, or a table without a machine in SI units.
         """
-        own: Any = cls
-        problems, known = Problems(), dict.fromkeys(cls.texts) | dict[str, Any](entries_of(own))
+        problems, known = Problems(), {**dict.fromkeys(cls.texts), **entries_of(cls)}
         problems.errors += unknown_names(table, known, f"[{cls.heading}]")
         if cls.is_in_si and not has_scales:
             problems.errors.append(cls.without_scales(shown(dict(table))))
@@ -263,12 +266,8 @@ class LoadLimits(Table):
     power: float | None = entry("", "friction power in lasting contact", "W", 1e-12, 1e15, '"10 kW"', True)
     heat: float | None = entry("", "friction work of a touchdown", "J", 1e-12, 1e15, '"500 J"', True)
     impacts: float | None = entry("", "impacts of a touchdown", "", 1, 1e9, "20", True, whole=True)
-    depth: float | None = entry(
-        "", "depth in the bearing", "m", 1e-12, 1.0, '"20 um"', True, usual="µm", usual_size=1e-6
-    )
-    pressure: float | None = entry(
-        "", "pressure of balls", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual="GPa", usual_size=1e9
-    )
+    depth: float | None = entry("", "depth in the bearing", "m", 1e-12, 1.0, '"20 um"', True, usual=("µm", 1e-6))
+    pressure: float | None = entry("", "pressure of balls", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual=("GPa", 1e9))
 
     heading: ClassVar = "limits"
 
@@ -279,19 +278,6 @@ class LoadLimits(Table):
         if name not in LIMIT_FIELDS:
             raise InputError("name", name, "a load that can be limited")
         return format_entry(LIMIT_FIELDS[name], value, digits)
-
-    def check_fit(self, bearing: Any) -> None:
-        """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have.
-
-        Raises
-        ------
-        InputError
-            A depth in a rigid wall is limited, or the pressure of balls that are not stated.
-        """
-        if self.depth is not None and (bearing is None or not bearing.is_compliant):
-            raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a compliant bearing")
-        if self.pressure is not None and (bearing is None or bearing.balls is None):
-            raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -317,14 +303,13 @@ class Zones(Table):
     is_in_si: ClassVar = False
 
     def __post_init__(self) -> None:
-        given: Any = self.limits
-        numbers = (
-            [each for each in given if type(each) in (int, float, Written)] if isinstance(given, list | tuple) else []
-        )
-        if len(numbers) != 3 or len(given) != 3 or not 0 < numbers[0] < numbers[1] < numbers[2] <= 1:
+        given: object = self.limits
+        stated = given if isinstance(given, list | tuple) and len(given) == 3 else ()
+        numbers = [float(each) for each in stated if type(each) in (int, float, Written)]
+        if len(numbers) != 3 or not 0 < numbers[0] < numbers[1] < numbers[2] <= 1:
             words = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5], in [zones]"
             raise InputError("limits", shown(given), words)
-        object.__setattr__(self, "limits", tuple(map(float, given)))
+        object.__setattr__(self, "limits", tuple(numbers))
 
     @property
     def labels(self) -> tuple[str, str, str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -34,11 +34,11 @@ class MachineTables:
 
     kind: str
     """``"machine"``, ``"dimensionless"`` or ``"rotor"``: the table the file holds."""
-    values: Mapping[str, Any]
+    values: Mapping[str, object]
     """Entries of that table, as TOML gives them."""
-    beside: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    beside: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     """Entries of the optional tables that there are, by their names; an empty one may mean something too."""
-    parts: Mapping[str, list[Mapping[str, Any]]] = field(default_factory=dict)
+    parts: Mapping[str, Sequence[Mapping[str, object]]] = field(default_factory=dict)
     """Tables for each part of a flexible rotor by their name, such as ``[[section]]``."""
     folder: Path = Path()
     """Where the file lies: paths in it start there."""
@@ -72,18 +72,17 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         problems.raise_all()
     beside = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
     listed = {name: content[name] if isinstance(content.get(name), list) else [] for name in lists}
-    parts: Any = {name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()}
+    parts = {name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()}
     return MachineTables(kinds[0], content[kinds[0]], beside, parts, Path(name).parent)
 
 
-def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:
+def read_toml(path: object, what: str, remedy: str) -> tuple[str, dict[str, Any]]:
     """Read a TOML file; return its path as text, and its content.
 
     Errors call the file ``what``, such as ``"machine file"``.  For a file that is empty or far too long they say what it must hold,
     ``remedy``.
     """
-    given: Any = path
-    name = os.fspath(given) if isinstance(given, str | os.PathLike) else None
+    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
     if not isinstance(name, str) or not name:
         raise InputError(what, shown(path), "must be the path of a TOML file")
     return name, _parse(name, _read(name, what, remedy), what, remedy)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cmath
 import re
-from collections.abc import Mapping, Set
+from collections.abc import Set
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 from carom.base.outcome import InputError, shown, together
 from carom.parameters.formats import number
@@ -18,7 +18,7 @@ OF_LAW = ("stiffness", "damping", "dissipation", "restitution", "restitution_spe
 """Entries that belong to the law of a compliant touchdown bearing; the others are of race, mount and place, or of the balls."""
 OF_BALLS = ("balls", "ball_diameter", "race_diameter", "conformity", "ball_modulus", "race_modulus")
 """Entries that say how its balls are pressed on; they change no motion."""
-MM: Mapping[str, Any] = {"usual": "mm", "usual_size": 1e-3}
+_MM = ("mm", 1e-3)
 _OF_MOUNT, _OF_BALLS = ("mount_mass", "mount_stiffness"), OF_BALLS[:3]
 _TOGETHER = (
     (("offset_direction",), ("offset",), "a direction needs the distance too"),
@@ -117,8 +117,10 @@ class TouchdownBearing(Table):
     offset: float | None = entry("", "distance of the bearing's centre", "m", 1e-12, 1e3, '"0.05 mm"', True)
     offset_direction: float | None = entry("", "direction of the bearing's centre", "rad", -1e6, 1e6, '"-90 deg"')
     balls: float | None = entry("Z", "balls that share the force", "", 3, 1000, "12", whole=True)
-    ball_diameter: float | None = entry("D", "diameter of a ball", "m", 1e-5, 10.0, '"6.35 mm"', **MM)
-    race_diameter: float | None = entry("d_i", "diameter of the inner race's groove", "m", 1e-4, 100.0, '"42 mm"', **MM)
+    ball_diameter: float | None = entry("D", "diameter of a ball", "m", 1e-5, 10.0, '"6.35 mm"', usual=_MM)
+    race_diameter: float | None = entry(
+        "d_i", "diameter of the inner race's groove", "m", 1e-4, 100.0, '"42 mm"', usual=_MM
+    )
     conformity: float | None = entry("f", "radius of the groove over the ball diameter", "", 0.501, 1.0, "0.52")
     ball_modulus: float | None = entry("", "elastic modulus of the balls", "Pa", 1e6, 1e13, '"208 GPa"')
     race_modulus: float | None = entry("", "elastic modulus of the inner race", "Pa", 1e6, 1e13, '"208 GPa"')
@@ -206,7 +208,7 @@ class TouchdownBearing(Table):
         return cmath.rect(self.offset or 0.0, direction)
 
     @property
-    def given(self) -> dict[str, Any]:
+    def given(self) -> dict[str, float]:
         """The entries that are stated, in SI units."""
         return {name: value for name, value in super().given.items() if name != "exponent" or value != 1.0}
 

@@ -11,7 +11,7 @@ from itertools import takewhile
 
 from flint import arb, ctx, fmpq
 
-from carom.parameters.exact import ExactNumber
+from carom.parameters.quantities import ExactNumber
 
 _MOST_DIGITS, _SHOWN = 60, 16
 MARGIN = Fraction(1, 32)

@@ -15,7 +15,7 @@ from flint import arb
 
 from carom.base.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Field
-from carom.parameters.exact import ExactNumber, read_exact
+from carom.parameters.quantities import ExactNumber, read_exact
 from carom.proofs.balls import ball_of
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import LineNumbers

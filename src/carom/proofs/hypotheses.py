@@ -25,10 +25,9 @@ from carom.base.outcome import InputError, Problems, shown, together
 from carom.loading import load
 from carom.models import Rotor, Subject, exact_rotor_of
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, MACHINE_FIELDS, PARAMETERS, TERMS
-from carom.parameters.exact import ExactNumber, read_exact
 from carom.parameters.fields import name_errors, unknown_name
 from carom.parameters.machine_file import split_settings
-from carom.parameters.quantities import Written
+from carom.parameters.quantities import ExactNumber, Written, read_exact
 from carom.parameters.terms import DEFAULTS, check_names
 from carom.proofs.claims import NotShownError
 
@@ -223,7 +222,7 @@ def _from_file(path: str | os.PathLike[str], settings: list[str], needs: list[st
 
 
 def written_exactly(value: Given) -> str:
-    """A number as text that :func:`~carom.parameters.exact.read_exact` reads back exactly."""
+    """A number as text that :func:`~carom.parameters.quantities.read_exact` reads back exactly."""
     if isinstance(value, tuple):
         return f"[{', '.join(written_exactly(end) for end in value)}]"
     if isinstance(value, Written):

@@ -17,8 +17,8 @@ from flint import acb, acb_series, arb, arb_series
 
 from carom.base.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERM_FIELDS, TERMS, Field
-from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name
+from carom.parameters.quantities import read_exact
 from carom.parameters.terms import ENTRIES
 from carom.proofs.balls import Enclosure, ball_of, exact_ends, interval
 from carom.proofs.claims import Claim, Status

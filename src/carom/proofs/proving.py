@@ -20,7 +20,7 @@ from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.loading import load
 from carom.models import Rotor, Subject, rotor_of
 from carom.parameters import Field, own_size, read_quantity
-from carom.parameters.exact import read_exact
+from carom.parameters.quantities import read_exact
 from carom.proofs import levitation_claims, state_claims
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Claim, Evidence, NotShownError, Proof, claim_of, rational_of

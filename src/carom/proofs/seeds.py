@@ -14,7 +14,7 @@ from carom.bifurcations import find_bifurcations
 from carom.models import jeffcott
 from carom.orbits import Kind, find_orbits
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERMS, Machine, Parameters
-from carom.parameters.exact import read_exact
+from carom.parameters.quantities import read_exact
 from carom.proofs.balls import ball_of
 from carom.proofs.courses import OrbitCourse, Return
 from carom.proofs.hypotheses import Hypotheses

@@ -24,7 +24,7 @@ from fractions import Fraction
 from flint import arb
 
 from carom.parameters import MACHINE_FIELDS
-from carom.parameters.exact import read_exact
+from carom.parameters.quantities import read_exact
 from carom.proofs.balls import ball_of, decided, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.lines import LineNumbers

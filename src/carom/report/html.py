@@ -14,7 +14,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from carom import plots
-from carom.base.files.directory import FIGURES
+from carom.base.files import FIGURES
 from carom.base.progress import Reporter
 
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from carom import plots
 from carom.base.arguments import checked
-from carom.base.files import staged_directory, write_json
-from carom.base.files.directory import MANIFEST
+from carom.base.files import MANIFEST, staged_directory, write_json
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.parameters.formats import number
 from carom.plots.figure import Purpose, drawing, made_for

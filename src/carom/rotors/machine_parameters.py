@@ -16,7 +16,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, Gravity, read_quantity
 from carom.parameters.fields import nearest_name
-from carom.parameters.settings import GRAVITY_NAME
+from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
 from carom.rotors.controllers import PID_FIELDS

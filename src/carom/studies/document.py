@@ -13,7 +13,7 @@ from typing import Any
 
 from carom.attractors import Attractor, AttractorSet, document_of, exact_interval
 from carom.base.arguments import checked
-from carom.base.results import record
+from carom.base.results import Column, keys_of, record
 from carom.basins import share_of_kicks
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
@@ -25,7 +25,6 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Case, Parameters
-from carom.parameters.columns import Column, keys_of
 from carom.parameters.formats import complex_words, format_quantity
 from carom.parameters.indentation import is_compliant
 from carom.studies.endings import came_back, hardest_impulse, touching

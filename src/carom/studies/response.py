@@ -12,12 +12,12 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, InputError
+from carom.base.results import Column
 from carom.closed_forms import contact_changes, find_equilibria, rolling, rub_angles
 from carom.closed_forms.exact_results import exact_results
 from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.parameters import read_quantity
-from carom.parameters.columns import Column
 from carom.parameters.formats import number
 from carom.studies.critical_speeds import response_curve, usual_range
 from carom.studies.levitating import WHIRLS, whirls_of

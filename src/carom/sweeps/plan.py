@@ -16,7 +16,7 @@ from carom.base.arguments import Count, Whole, checked, whole
 from carom.base.outcome import InputError, shown
 from carom.disturbances import Grid, Plan, Sample
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Parameters, Zones
-from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, SETTINGS
+from carom.parameters.machine_file import GRAVITY_NAME, OF_TABLES, SETTINGS
 from carom.parameters.terms import check_names
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask

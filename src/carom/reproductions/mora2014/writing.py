@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.base.files import staged_directory, write_json
-from carom.base.files.directory import FIGURES
+from carom.base.files import FIGURES, staged_directory, write_json
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures

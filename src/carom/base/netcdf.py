@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.base.files.whole import write_whole
+from carom.base.files import write_whole
 from carom.base.outcome import InputError
 
 if TYPE_CHECKING:
