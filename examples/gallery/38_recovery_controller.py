@@ -45,5 +45,5 @@ axes.axhline(100.0 * searched, ls="--", lw=1.2, color="#b35900", label="four pha
 axes.set_xlabel("error of the phase of the compensation, degrees")
 axes.set_ylabel("kicks that come back, %")
 axes.set_xticks(np.arange(-180, 181, 60))
-axes.legend(frameon=False, loc="center left")
+axes.legend(frameon=False, loc="center left", fontsize="small")
 axes.spines[["top", "right"]].set_visible(False)

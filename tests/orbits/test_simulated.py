@@ -46,6 +46,7 @@ def test_an_orbit_with_closed_form_is_found_again():
     assert found.multipliers.values == pytest.approx(exact.multipliers.values, abs=1e-7)
     assert (found.segments, found.impacts, found.turns) == ("impact+", 1, None)
     assert found.impulse == pytest.approx(exact.impulse, rel=1e-9)
+    assert len(cm.plots.multipliers([exact, found]).axes) == 1
 
 
 def test_a_race_keeps_the_speed_at_which_its_torques_balance(on_race):

@@ -41,7 +41,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
-for name in [
+ON_A_MACHINE = (
     "study",
     "simulate",
     "drop",
@@ -52,12 +52,9 @@ for name in [
     "bifurcations",
     "regions",
     "basins",
-    "sweep",
-    "paper",
-    "explore",
-    "template",
-    "import_rotor",
-]:
+)
+BESIDE = "sweep", "paper", "explore", "template", "import_rotor"
+for name in ON_A_MACHINE + BESIDE:
     command = getattr(import_module(f"carom.cli.{name}"), name)
     # The list of commands shows the first line of each whole, not its beginning.
     short = str(command.__doc__).partition("\n")[0]

@@ -12,6 +12,9 @@ from carom.cli.options import option
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from carom.cli.terminal import Drawings
     from carom.disturbances import Disturbance, Plan
     from carom.parameters import Case
 
@@ -91,8 +94,8 @@ def basins(
             found = map_gains(rotor, plan, asked.names, **ways_of)  # type: ignore[arg-type]
             over = (found, asked.in_terms_of)
         document = basin_document(basin, smallest, contact_free, *over)
-        figures: dict[str, Any] = {"basins": lambda: basin.plot(smallest)}
-        files: dict[str, Any] = {"basins.nc": basin.save}
+        figures: Drawings = {"basins": lambda: basin.plot(smallest)}
+        files: dict[str, Callable[[Path], None]] = {"basins.nc": basin.save}
         if over:
             figures["gain-map"] = lambda: found.plot(in_terms_of=asked.in_terms_of)
             files["gains.nc"] = found.save

@@ -37,10 +37,10 @@ def explore(
     path = str(example_file()) if machine is None else machine
     origin = Origin(path, tuple(settings or ()), read_machine(path, settings))
     words = Questions(origin).words()
-    serve(origin, port, browser=browser, tell=lambda address: _print_opening(address, words))
 
+    def tell(address: str) -> None:
+        typer.echo(address)
+        console().print(f"{words}.")
+        sys.stdout.flush()
 
-def _print_opening(address: str, words: str) -> None:
-    typer.echo(address)
-    console().print(f"{words}.")
-    sys.stdout.flush()
+    serve(origin, port, browser=browser, tell=tell)

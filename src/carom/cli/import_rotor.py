@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from carom.cli.options import AS_JSON, option
-from carom.cli.terminal import print_document, progress
+from carom.cli.terminal import hand_over, progress
 
 SOURCE = typer.Argument(
     metavar="SOURCE",
@@ -45,18 +45,14 @@ def import_rotor(
         found = read(source, name, python)
     write_rotor(found.rotor, out)
     text = starter_text(found, Path(out).name)
-    if not as_json:
-        typer.echo(text, nl=False)
-        return
     rotor = found.rotor
-    print_document(
-        {
-            "file": out,
-            **record(rotor, COLUMNS),
-            "free_frequencies_si": (rotor.free_modes.frequencies[2:8] / math.tau).tolist(),
-            "damped": found.is_damped,
-            "bearings": [dict(each) for each in found.bearings],
-            "remarks": list(found.remarks),
-            "machine_file": text,
-        }
-    )
+    document = {
+        "file": out,
+        **record(rotor, COLUMNS),
+        "free_frequencies_si": (rotor.free_modes.frequencies[2:8] / math.tau).tolist(),
+        "damped": found.is_damped,
+        "bearings": [dict(each) for each in found.bearings],
+        "remarks": list(found.remarks),
+        "machine_file": text,
+    }
+    hand_over(lambda: document, as_json, lambda: typer.echo(text, nl=False), None)

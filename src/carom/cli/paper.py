@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from carom.cli.options import AS_JSON, option
 from carom.cli.terminal import check_output, console, hand_over, progress
@@ -31,7 +31,7 @@ def paper(out: str | None = OUT, as_json: bool = AS_JSON) -> None:
             written = write_paper(found, out, progress=tell.part(share_of_results, 1.0))
             files = f"Written to {out}: {', '.join(str(path.relative_to(out)) for path in written)}"
 
-    def document() -> dict[str, Any]:
+    def document() -> dict[str, object]:
         return paper_document(found, figures(found) if files else ())
 
     hand_over(document, as_json, lambda: _print_reproduction(found), out, files)

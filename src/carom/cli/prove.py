@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -135,7 +135,7 @@ def _proven(
         return proofs.prove(machine, settings, along=along, interval=interval, progress=tell, **more)
     if box:
         more["along"] = box
-    searches: dict[str, Any] = {
+    searches: dict[str, Callable[..., Proof]] = {
         "--kicks-up-to": proofs.prove_kicks,
         "--shocks-up-to": proofs.prove_shocks,
         "--unbalance-up-to": proofs.prove_unbalance_steps,

@@ -21,7 +21,7 @@ class Screen(Console):
     A plain text is printed as one line.  Line breaks inside tables and other renderables are kept.
     """
 
-    def print(self, *objects: Any, **options: Any) -> None:
+    def print(self, *objects: object, **options: Any) -> None:
         """Print as :meth:`rich.console.Console.print` does."""
         super().print(*(printable(thing) if isinstance(thing, str) else thing for thing in objects), **options)
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from carom.base.outcome import InputError
 from carom.cli import options
@@ -12,6 +11,7 @@ from carom.cli.options import flag, option
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
+    from carom.cli.terminal import Drawings
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
 
@@ -104,7 +104,7 @@ def _document(case: Case, motion: Trajectory) -> dict[str, object]:
     return document
 
 
-def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> dict[str, Callable[[], Any]]:
+def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> Drawings:
     """The path of each stage at each touchdown bearing, and its touchdown over time if there is a contact, by their names.
 
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
@@ -113,7 +113,7 @@ def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> dict[str, Cal
     from carom.motions.ledger import energy_ledger
     from carom.plots.words import contacts_in_words
 
-    figures: dict[str, Callable[[], Any]] = {}
+    figures: Drawings = {}
     for place, part in enumerate(motion.parts):
         whole, ends = _shown(part) if decaying else (part, "")
         for shown in whole.at_each:

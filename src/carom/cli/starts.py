@@ -13,20 +13,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from carom.base.outcome import InputError, together
 from carom.disturbances.single import Single, read_single, split_text
-from carom.parameters import (
-    DIMENSIONLESS_FIELDS,
-    Case,
-    Field,
-    Requirement,
-    Scales,
-    own_time,
-    read_quantity,
-    read_size,
-)
+from carom.parameters import DIMENSIONLESS_FIELDS, Case, Field, Requirement, Scales, own_time, read_quantity, read_size
 from carom.parameters.fields import unknown_name
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
@@ -35,6 +26,7 @@ if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Axis, Rotor
     from carom.motions.loads import DropLoads
+    from carom.motions.starts import State
     from carom.parameters import Case
     from carom.rotors.reduction_errors import ReductionError
 
@@ -268,7 +260,7 @@ class StatedBeginning:
     instant: str | None = None
     release: Drop | None = None
 
-    def apply(self, case: Case) -> tuple[Rotor, Any, Echo]:
+    def apply(self, case: Case) -> tuple[Rotor, State, Echo]:
         """The machine that moves, its start, and what was taken; wrong input is refused before the rotor is made."""
         from carom.models import rotor_of
 

@@ -14,6 +14,7 @@ from carom.cli.terminal import InterruptionError, check_output, console, hand_ov
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
 
+Failures = list[dict[str, Any]]
 _SHOWN = 5
 _DRAWN = ("recovered", "smallest_unrecovered_kick", "zone", "stable_orbits")
 """Variables that are drawn if there are any."""
@@ -95,7 +96,7 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
             plots.save(plots.sweep_map(data, drawn, present=present), directory / FIGURES / name)
 
 
-def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, object]:
+def _document(plan: SweepPlan, tally: Tally, failures: Failures) -> dict[str, object]:
     from carom.base.results import fields_of
 
     return {
@@ -112,7 +113,7 @@ def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> 
     }
 
 
-def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
+def _print(plan: SweepPlan, tally: Tally, failures: Failures) -> None:
     from carom.base.progress import duration_words
     from carom.studies.wording import counted
     from carom.sweeps.running import rate_words

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from carom.base.progress import Reporter, bar
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from carom.parameters import Case
+
+    Drawings = dict[str, Callable[[], Figure]]
 
 WIDTH = 80
 """Width of texts and tables, in columns, if the output is no terminal and ``COLUMNS`` is not set."""
@@ -73,17 +75,14 @@ def read_machine(machine: str, settings: list[str] | None) -> Case:
         return load(machine, settings or ())
 
 
-_NO_FILES: Mapping[str, Callable[[Path], None]] = MappingProxyType({})
-
-
 def write_output(
     out: str | None,
     case: Case,
     name: str,
-    document: dict[str, Any],
-    figures: Mapping[str, Callable[[], Figure]],
+    document: dict[str, object],
+    figures: Drawings,
     *,
-    files: Mapping[str, Callable[[Path], None]] = _NO_FILES,
+    files: Mapping[str, Callable[[Path], None]] = MappingProxyType({}),
     tell: Reporter | None = None,
 ) -> None:
     """Fill the directory of ``--out``, if one is given, with figures, files and the document.
@@ -108,7 +107,7 @@ def write_output(
 
 
 def hand_over(
-    document: Callable[[], dict[str, Any]], as_json: bool, show: Callable[[], None], out: str | None, *files: str
+    document: Callable[[], dict[str, object]], as_json: bool, show: Callable[[], None], out: str | None, *files: str
 ) -> None:
     """Print the document, or what ``show`` prints; then where the files are, if ``--out`` is given: beside JSON on the error stream."""
     if as_json:

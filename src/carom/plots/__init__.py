@@ -8,8 +8,8 @@ figure is 180 mm wide (two columns of a page) unless its function says otherwise
 the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units, and otherwise in those of the equations.
 Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits are not drawn.
 
-Motions and orbits are drawn by ``motions``, ``courses`` and ``overviews``; flexible rotors by ``levitation``; along
-parameters ``diagrams``, ``regions`` and ``responses``; disturbances ``basins``, ``maps`` and ``sweeps``.  Shared are ``style`` (what colours mean),
+Motions and orbits are drawn by ``motions``, ``courses`` and ``overviews``; levitation over the speed by ``levitation``; along
+parameters ``diagrams`` and ``regions``; disturbances ``basins``, ``maps`` and ``sweeps``.  Shared are ``style`` (what colours mean),
 ``figure`` (a figure that keeps the style sheet, and its files), ``plane`` (the clearance circle), ``cells`` (the looks of motions) and ``words``.
 """
 
@@ -18,14 +18,13 @@ from __future__ import annotations
 from carom.plots.basins import attractors, basin, basin_pair, proven_kicks
 from carom.plots.courses import energies, radius, touchdown
 from carom.plots.diagrams import bifurcation_diagram
-from carom.plots.figure import applied, figures_for, heading, save
-from carom.plots.levitation import campbell, mode_shapes, sensitivity
+from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, applied, figures_for, heading, save
+from carom.plots.levitation import campbell, mode_shapes, sensitivity, unbalance_response
 from carom.plots.maps import drop_map, gain_map
 from carom.plots.motions import drop_orbit, motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, multipliers, overview
 from carom.plots.regions import region_map
-from carom.plots.responses import unbalance_response
-from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
+from carom.plots.style import LOOKS, OUTCOMES, Look
 from carom.plots.sweeps import sweep_map
 
 __all__ = [

@@ -17,9 +17,9 @@ from carom.base.outcome import InputError
 from carom.disturbances import outward_from
 from carom.parameters.formats import rounded_down, shown_in
 from carom.plots.cells import MotionLook, finish, looks_of, motion_looks, paint, share_bars
-from carom.plots.figure import StyledFigure
+from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, StyledFigure
 from carom.plots.plane import around, circle, clearance_circle, key, label_frame, one_axes, point
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, Drawn, styled
 from carom.plots.words import clearance, counted, display_unit, formula, number
 
 if TYPE_CHECKING:
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
+ProvenKicks = Any
+"""Those of :mod:`carom.proofs`, which lies above."""
 _CHORDS = 120
 """Least number of straight edges in a ring of cells."""
 _RING = (0.82, 0.98)
@@ -38,7 +40,7 @@ _LINE = 22
 """Letters of a line of words in place of a picture."""
 _REACH = 1.04
 """Half-width of the axes, relative to the largest disturbance."""
-OF_ONE_SIZE: dict[str, object] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour, "gid": "circle"}
+OF_ONE_SIZE: Drawn = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour, "gid": "circle"}
 """Look of the circle of all disturbances of one size."""
 
 
@@ -213,7 +215,7 @@ def _mark_smallest(axes: Axes, basin: Basin, smallest: SmallestUnrecovered) -> N
     place = smallest.size * np.exp(1j * (smallest.angle or 0.0))
     if not basin.coordinates[1].periodic:
         place *= np.conj(outward_from(basin.rotor))
-    look: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a", "ls": "none"}
+    look: Drawn = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a", "ls": "none"}
     words = f"smallest {smallest.kind} found that does not come back"
     axes.plot([factor * place.real], [factor * place.imag], **look, gid="smallest", label=words)
 
@@ -266,7 +268,7 @@ _CHORD = 1.0 / 120.0
 
 @checked
 @styled
-def proven_kicks(kicks: Any) -> Figure:
+def proven_kicks(kicks: ProvenKicks) -> Figure:
     """Draw what is proven of a disc of kicks.
 
     Cells are shown by the number of impacts after which they return at most, and the open ones by the reason.  Circles mark the kicks that never
@@ -284,7 +286,7 @@ def proven_kicks(kicks: Any) -> Figure:
     return key(figure, [axes], columns=1, title=f"Proven: {kicks.words.replace(unit, formula(unit))}")
 
 
-def _proven(axes: Axes, kicks: Any) -> None:
+def _proven(axes: Axes, kicks: ProvenKicks) -> None:
     """Fill the cells: green the darker the more impacts, in the colour of the rub, grey where nothing is proven."""
     greys = iter(_GREYS)
     radius = display_unit("velocity", kicks.rotor.scales)[0] * kicks.largest
@@ -296,7 +298,7 @@ def _proven(axes: Axes, kicks: Any) -> None:
             colour = _RUB if part.refuted else next(greys, _GREYS[-1])
         cells = [outlines[cell] for cell in np.flatnonzero(kicks.places == place)]
         # Edges of their own colour, for no gap shows between cells then.
-        look: dict[str, Any] = {"fc": colour, "ec": colour, "lw": 0.2, "gid": "open" if part.open else "proven"}
+        look: Drawn = {"fc": colour, "ec": colour, "lw": 0.2, "gid": "open" if part.open else "proven"}
         axes.add_collection(PolyCollection(cells, **look, rasterized=True, label=_words(part)))
 
 
@@ -318,7 +320,7 @@ def _outline(edges: np.ndarray) -> np.ndarray:
     return np.hstack([around(turn, np.array(fast)), around(turn[::-1], np.array(slow))]).T
 
 
-def _frame(axes: Axes, kicks: Any) -> None:
+def _frame(axes: Axes, kicks: ProvenKicks) -> None:
     """Draw the circles of what never touches and of what all comes back."""
     factor, unit = display_unit("velocity", kicks.rotor.scales)
     reach = _REACH * factor * kicks.largest

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,7 +14,7 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
 from carom.plots.plane import Floats, unique_entries
-from carom.plots.style import OUTCOMES, Look
+from carom.plots.style import OUTCOMES, Drawn, Look
 
 if TYPE_CHECKING:
     from carom.attractors import MotionName
@@ -60,7 +60,7 @@ class MotionLook:
         return Patch(**self.filled, lw=0.4, label=f"{self.words}, {100.0 * self.share:.3g} %" if share else self.words)
 
     @property
-    def filled(self) -> dict[str, Any]:
+    def filled(self) -> Drawn:
         """Colour and hatching of an area."""
         return {"facecolor": self.colour, "edgecolor": ink(self.colour), "hatch": self.look.hatch}
 
@@ -116,10 +116,9 @@ def paint(
     axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[MotionLook], bend: Bend = lambda x, y: (x, y)
 ) -> None:
     """Paint cells, given by their edges, in the colours of the motions; `bend` maps their corners to the axes."""
-    order = {entry.index: place for place, entry in enumerate(motions)}
     places = np.full(index.shape, np.nan)
-    for entry in motions:
-        places[index == entry.index] = order[entry.index]
+    for place, entry in enumerate(motions):
+        places[index == entry.index] = place
     colours = ListedColormap([entry.colour for entry in motions])
     levels = BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions))
     corners = bend(*np.meshgrid(x, y))
@@ -129,7 +128,7 @@ def paint(
     mesh.set_linewidth(0.1)
     for entry in motions:  # hatched, so that they can be distinguished without colour too
         if entry.look.hatch and (index == entry.index).any():
-            drawn: dict[str, Any] = {"hatch": entry.look.hatch, "ec": ink(entry.colour), "lw": 0.0, "zorder": 1.2}
+            drawn: Drawn = {"hatch": entry.look.hatch, "ec": ink(entry.colour), "lw": 0.0, "zorder": 1.2}
             # Not a patch to axes: thousands of cells, whose limits the mesh has set.
             axes.add_artist(PathPatch(cells_path(corners, index == entry.index), fc="none", rasterized=True, **drawn))
 

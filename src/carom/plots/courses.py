@@ -12,9 +12,9 @@ from matplotlib.transforms import blended_transform_factory
 
 from carom.base.arguments import Positive, checked
 from carom.base.outcome import Outcome
-from carom.plots.figure import StyledFigure, narrow
+from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, StyledFigure, narrow
 from carom.plots.plane import MANY_POINTS, Floats, impacts, key, one_axes, point
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, WORKS, ZONE_SHADES, Look, styled
+from carom.plots.style import LOOKS, WORKS, ZONE_SHADES, Drawn, Look, styled
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number
 
 if TYPE_CHECKING:
@@ -40,6 +40,8 @@ _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
 _MOST_MARKED = 300
 """Number of impacts above which they are not marked."""
+_DOTS: Drawn = {"ls": "none", "marker": "o", "ms": 2.2, "color": LOOKS["path"].colour}
+"""Look of impulses."""
 NORMAL = Look("#0072b2", "normal force", line="-", width=0.9)
 FRICTION = Look("#cc79a7", "friction, size", line="--", width=1.1)
 RACE = Look("#009e73", "surface of the race", line="--", width=1.1)
@@ -161,7 +163,7 @@ def sampled(motion: Trajectory, until: float) -> Course:
     factors = {kind: display_unit(kind, course.scales)[0] for kind in ("time", "length", "force", "impulse")}
     factors["speed"] = 1.0 if course.scales is None else course.scales.velocity
 
-    def shown(part: Any, **kinds: str) -> dict[str, Any]:
+    def shown(part: object, **kinds: str) -> dict[str, Any]:
         known = {name: getattr(part, name) for name in kinds}
         return {name: factors[kinds[name]] * value for name, value in known.items() if value is not None}
 
@@ -229,7 +231,19 @@ def _zones(axes: Axes, zones: Zones, wall: float) -> None:
 
 
 def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
-    """Draw the forces of contact in the unit that the whole motion needs, and impulses on an axis of their own if the wall is rigid."""
+    """Draw the forces of contact, and impulses if the wall is rigid: on an axis of their own beside forces, if there are any."""
+    hit = course.impacts is not None and len(course.impacts) > 0
+    lasts = bool((whole.held & (whole.force > 0.0)).any())
+    if lasts or not hit:
+        _forces(axes, course, whole)
+    if course.impacts is not None and hit:
+        label = axis_label("impulse", "impulse", course.scales)
+        axes.plot([], [], **_DOTS, label=f"impulse of an impact{' (right axis)' * lasts}")
+        _impulses(axes.twinx() if lasts else axes, course.impacts, label if last or not lasts else "")
+
+
+def _forces(axes: Axes, course: Course, whole: Course) -> None:
+    """Draw the forces of contact in the unit that the whole motion needs."""
     large = bool(course.scales) and float(whole.force.max()) >= _LARGE
     factor, unit = 1e-3 if large else 1.0, f"{'k' * large}{display_unit('force', course.scales)[1]}"
     normal = factor * np.where(course.held, course.force, np.nan if course.impacts is not None else 0.0)
@@ -243,21 +257,13 @@ def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
     else:
         axes.set_ylim(0.0, 1.08 * float(np.max(held, initial=0.0)) or 1.0)
     axes.set_ylabel(f"contact force ({unit})")
-    if not (whole.held & (whole.force > 0.0)).any():
-        axes.set_yticks([])
-        axes.set_ylabel("no lasting contact" if course.impacts is not None else "no contact")
-    if course.impacts is not None and len(course.impacts):
-        _impulses(axes, course.impacts, axis_label("impulse", "impulse", course.scales) if last else "")
 
 
 def _impulses(axes: Axes, impacts: ContactLog, label: str) -> None:
-    """Draw impulses as stems, on a separate axis at the right."""
-    beside = axes.twinx()
-    dots: dict[str, Any] = {"ls": "none", "marker": "o", "ms": 2.2, "color": LOOKS["path"].colour}
-    beside.vlines(impacts.time, 0.0, impacts.normal_impulse, color=LOOKS["path"].colour, lw=0.6)
-    beside.plot(impacts.time, impacts.normal_impulse, **dots)
-    beside.set(ylim=(0.0, 1.15 * float(impacts.normal_impulse.max())), ylabel=label)
-    axes.plot([], [], **dots, label="impulse of an impact (right axis)")
+    """Draw impulses as stems."""
+    axes.vlines(impacts.time, 0.0, impacts.normal_impulse, color=LOOKS["path"].colour, lw=0.6)
+    axes.plot(impacts.time, impacts.normal_impulse, **_DOTS)
+    axes.set(ylim=(0.0, 1.15 * float(impacts.normal_impulse.max())), ylabel=label)
 
 
 def _speeds(axes: Axes, course: Course) -> None:
@@ -266,10 +272,10 @@ def _speeds(axes: Axes, course: Course) -> None:
     if course.held.any():
         axes.plot(course.times, slips, **SLIP.stroke, label=SLIP.words, gid="slip")
     tallest = max(float(np.nanmax(slips, initial=0.0)), float(race.max()))
-    if course.impacts is not None:
+    if course.impacts is not None and len(course.impacts):
         times, slips = course.impacts.time, np.abs(course.impacts.slip_before)
-        axes.plot(times, slips, "o", ms=2.2, color=SLIP.colour, label="slip before an impact")
-        tallest = max(tallest, float(slips.max(initial=0.0)))
+        axes.plot(times, slips, **_DOTS | {"color": SLIP.colour}, label="slip before an impact")
+        tallest = max(tallest, float(slips.max()))
     if course.race is not None:
         axes.plot(course.times, race, **RACE.stroke, label=RACE.words, gid="race")
     unit = display_unit("velocity", None)[1] if course.scales is None else "m/s"

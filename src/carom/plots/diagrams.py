@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,8 +17,8 @@ from matplotlib.lines import Line2D
 
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, Outcome
-from carom.plots.figure import StyledFigure
-from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
+from carom.plots.figure import TWO_COLUMNS, StyledFigure
+from carom.plots.style import LOOKS, OUTCOMES, Drawn, Look, styled
 from carom.plots.words import axis_label, format_parameter, label_parameter
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ POINTS = MappingProxyType(
 )
 """Markers of special points (read-only)."""
 
-_LINES: dict[str, dict[str, Any]] = {
+_LINES: dict[str, Drawn] = {
     "fold": {"line": "-", "width": 1.1},
     "speed-fold": {"line": "-.", "width": 0.9},
     "period-doubling": {"line": "--", "width": 1.1},
@@ -71,7 +71,7 @@ BOUNDARIES = MappingProxyType(
 
 FAINT = 0.3
 """Opacity of curves that only virtual orbits have."""
-_PRESENT: dict[str, Any] = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), "zorder": 1.2}
+_PRESENT: Drawn = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), "zorder": 1.2}
 """Look of the value of the machine itself."""
 
 
@@ -108,25 +108,15 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
 
 
 def _speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
-    """Draw the radial speeds of orbits."""
-    for branch in diagram.orbits:
-        there = [point.radial_speed for point in branch.special]
-        _speed_line(axes, diagram, branch, branch.radial_speed, there)
-    for several in diagram.several:
-        for k, speeds in enumerate(several.radial_speeds.T):
-            there = [float(point.orbit.impact_speeds[k]) for point in several.special]
-            _speed_line(axes, diagram, several, speeds, there)
-
-
-def _speed_line(
-    axes: Axes, diagram: Diagram, branch: OrbitBranch, speeds: np.ndarray, at_special_points: list[float]
-) -> None:
-    """Draw speeds along a branch, in their display unit."""
-    unit, places = diagram.axis.field.usual_size, np.arange(len(branch))
-    special = np.array([point.value for point in branch.special])
-    there = diagram.shown_speeds(special, np.array(at_special_points))
-    shown = diagram.shown_speeds(branch.values, speeds)
-    branch_line(axes, branch, places, branch.values / unit, shown, there, unit, virtual=False)
+    """Draw the radial speeds of orbits at each of their impacts, in their display unit."""
+    for branch in diagram.branches:
+        special = np.array([point.value for point in branch.special])
+        places, values = np.arange(len(branch)), branch.values / unit
+        for k, speeds in enumerate(branch.radial_speeds.T):
+            there = [each.radial_speed if each.shot is None else each.shot.impact_speeds[k] for each in branch.special]
+            marked = diagram.shown_speeds(special, np.array(there, float))
+            shown = diagram.shown_speeds(branch.values, speeds)
+            branch_line(axes, branch, places, values, shown, marked, unit, virtual=False)
 
 
 def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:

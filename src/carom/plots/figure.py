@@ -28,6 +28,7 @@ from carom.base.files import write_whole
 from carom.base.outcome import InputError
 
 Purpose = Literal["page", "column", "slide"]
+Format = Literal["svg", "pdf", "png"]
 
 ONE_COLUMN, TWO_COLUMNS = 88 / 25.4, 180 / 25.4
 """Widths of figures of one column and of two [inch]."""
@@ -135,7 +136,9 @@ class StyledFigure(Figure):
             figsize = _SLIDES[figsize[1] > _HIGH]
         super().__init__(figsize, layout="constrained", **kwargs)
         FigureCanvasAgg(self)
-        self._heading = _heading.get()
+        # In a narrow figure the name has a line of its own: no unit stands alone on the next one.
+        wide = self.get_figwidth() > 1.01 * ONE_COLUMN
+        self._heading = _heading.get().replace(": ", ": " if wide else "\n", 1)
         if self._heading:
             super().suptitle(self._heading, wrap=True)
 
@@ -224,7 +227,7 @@ def write_plain_ticks(figure: Figure) -> None:
 
 
 # Without these settings a file would contain the date of its creation.
-_UNDATED: dict[str, dict[str, str | None]] = {
+_UNDATED: dict[Format, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
     "png": {"Software": None},
@@ -235,7 +238,7 @@ _FAST = {"compress_level": 1}
 
 
 @checked
-def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[str] = ("svg", "png")) -> list[Path]:
+def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[Format] = ("svg", "png")) -> list[Path]:
     """Write a figure in several formats; return the files in the order of `formats`.
 
     All formats are drawn in memory before the first byte is written, and each file appears under its name only when it
@@ -258,9 +261,6 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
     OSError
         If the folder cannot be written; no partial file is left.
     """
-    for name in formats:
-        if name not in _UNDATED:
-            raise InputError("format", name, f"must be one of {', '.join(_UNDATED)}")
     stem = Path(path_stem)
     if not stem.name:
         raise InputError("path_stem", path_stem, "a path that ends with a name")
@@ -271,7 +271,7 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
     return list(contents)
 
 
-def _rendered(figure: Figure, name: str) -> bytes:
+def _rendered(figure: Figure, name: Format) -> bytes:
     buffer = BytesIO()
     options: dict[str, Any] = {"pil_kwargs": _FAST} if name == "png" else {}
     with drawing():

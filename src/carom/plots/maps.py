@@ -21,9 +21,9 @@ from carom.parameters import in_terms_of
 from carom.parameters.formats import number as plain
 from carom.parameters.in_terms import EXACT
 from carom.plots.cells import cells_path, finish, looks_of, paint
-from carom.plots.figure import StyledFigure
+from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, StyledFigure
 from carom.plots.plane import Floats, key, one_axes
-from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
+from carom.plots.style import Drawn, Look, styled
 from carom.plots.words import number, parameter_label
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def draw_map(
 def mark_cells(axes: Axes, edges: tuple[Floats, Floats], cells: np.ndarray, look: Look, gid: str) -> None:
     """Fill or hatch cells with a look, whose words stand in the legend."""
     if cells.any():
-        drawn: dict[str, object] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK, "zorder": 1.5}
+        drawn: Drawn = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK, "zorder": 1.5}
         axes.add_patch(PathPatch(cells_path(np.meshgrid(*edges), cells), lw=0.0, gid=gid, label=look.words, **drawn))
 
 
@@ -100,7 +100,7 @@ def mark_present(axes: Axes, place: Sequence[float], edges: Sequence[Floats], wo
     """Mark the machine as it is, if it lies between edges of cells."""
     if not all(min(along) <= value <= max(along) for value, along in zip(place, edges, strict=True)):
         return
-    star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
+    star: Drawn = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
     axes.plot(*place, **star, gid="present", clip_on=False, zorder=4, label=words)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,24 +17,20 @@ from carom.plots.courses import sampled
 from carom.plots.figure import frames
 from carom.plots.plane import (
     MANY_POINTS,
+    Complex,
     Floats,
     Frame,
-    bands_on_the_circle,
     clearance_circle,
     direction_arrow,
-    drawing_times,
-    flying,
     impacts,
     key,
     label_frame,
     magnifier,
-    orbit_impacts,
     orbit_path,
     path,
-    plane_note,
     point,
 )
-from carom.plots.style import LOOKS, Look, styled
+from carom.plots.style import LOOKS, Drawn, Look, styled
 from carom.plots.words import (
     axis_label,
     clearance,
@@ -48,6 +44,7 @@ from carom.plots.words import (
 
 if TYPE_CHECKING:
     from carom.motions.courses import Course
+    from carom.motions.history import LastingContact
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
     from carom.parameters import Scales
@@ -56,7 +53,7 @@ _TURNS = 8
 """Last turns of the shaft that are drawn of a long motion."""
 _LONG = 3.0
 """Ratio of the length of a motion to that of its last turns beyond which the rest is thinned."""
-_ONCE: dict[str, Any] = {"marker": ".", "ms": 3.4, "mew": 0.0, "color": "#5d6f87", "zorder": 1.5}
+_ONCE: Drawn = {"marker": ".", "ms": 3.4, "mew": 0.0, "color": "#5d6f87", "zorder": 1.5}
 
 
 @checked
@@ -85,9 +82,9 @@ def orbit(orbit: Orbit, periods: Count | None = None) -> Figure:
         clearance_circle(drawn, reach, wall)
     _draw_orbit(left, orbit, "rotating", 1)
     _draw_orbit(right, orbit, "fixed", count)
-    label_frame(left, "rotating", scales, plane_note(orbit, f"period $T$ = {time_in_words(orbit.period, scales)}"))
+    label_frame(left, "rotating", scales, _plane_note(orbit, f"period $T$ = {time_in_words(orbit.period, scales)}"))
     turns = f"{number(count * orbit.period / math.tau, 3)} turns of the shaft"
-    label_frame(right, "fixed", scales, plane_note(orbit, f"{counted(count, 'period')} = {turns}"))
+    label_frame(right, "fixed", scales, _plane_note(orbit, f"{counted(count, 'period')} = {turns}"))
     equilibrium = complex(orbit.rotor.system.arrays.offsets[orbit.leading_plane])
     _levitation(left, equilibrium, wall)
     inner = magnifier(left, once, wall=wall)
@@ -106,7 +103,7 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     wall = clearance(orbit.scales)
     path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6, wall=wall)
     direction_arrow(axes, line[times <= orbit.period], look)
-    impact_times, speeds = orbit_impacts(orbit, periods)
+    impact_times, speeds = _orbit_impacts(orbit, periods)
     turned = np.exp(1j * impact_times) if frame == "fixed" else np.ones_like(impact_times)
     impacts(axes, wall * orbit.path(impact_times, orbit.leading_plane) * turned, speeds, size=4.5)
     point(axes, complex(line[0]), "start", size=4.0, label="start, just after an impact")
@@ -149,20 +146,21 @@ def motion(trajectory: Trajectory, since: float = 0.0, title: str | None = None)
     last = trajectory.time - _TURNS * math.tau if long else since
     sides: tuple[tuple[Frame, Axes], ...] = (("rotating", both[0]), ("fixed", both[1]))
     bearing = f"touchdown bearing {trajectory.plane + 1}" if len(trajectory.rotor.system.contacts) > 1 else ""
+    wall = clearance(trajectory.scales)
+    reach = max(1.12, 1.06 * float(trajectory.radius(trajectory.sample()).max()))
     for frame, drawn in sides:
-        clearance_circle(drawn, wall=clearance(trajectory.scales))
+        clearance_circle(drawn, reach, wall)
         label_frame(drawn, frame, trajectory.scales, bearing)
         if long:
-            places = clearance(trajectory.scales) * trajectory.position(np.arange(since, last, math.tau), frame)
+            places = wall * trajectory.position(np.arange(since, last, math.tau), frame)
             words = "before: once a turn of the shaft"
             drawn.plot(places.real, places.imag, ls="none", **_ONCE, label=words, gid="once a turn")
         words = f"{LOOKS['path'].words}, last {counted(_TURNS, 'turn')}" if long else LOOKS["path"].words
         _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words))
-        bands_on_the_circle(drawn, trajectory, frame, since)
-        ends = clearance(trajectory.scales) * trajectory.position(np.array([since, trajectory.time]), frame)
+        _bands_on_the_circle(drawn, trajectory, frame, since)
+        ends = wall * trajectory.position(np.array([since, trajectory.time]), frame)
         point(drawn, complex(ends[0]), "start", size=3.5)
         point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {trajectory.outcome.words}")
-    wall = clearance(trajectory.scales)
     _levitation(both[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     title = title or f"{contacts_in_words(trajectory)} \N{EM DASH} {trajectory.outcome.words}"
     return key(figure, both, columns=4, title=title)
@@ -170,12 +168,12 @@ def motion(trajectory: Trajectory, since: float = 0.0, title: str | None = None)
 
 def _stretch(axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float, float], look: Look) -> None:
     """Draw the path and the impacts of a stretch of a motion."""
-    times = drawing_times(trajectory, *ends)
+    times = _drawing_times(trajectory, *ends)
     times = np.append(ends[0], times[times > ends[0]])
     wall = clearance(trajectory.scales)
     line = wall * trajectory.position(times, frame)
-    flight = np.where(flying(trajectory, times), line, complex(np.nan, np.nan))
-    path(axes, flight, look, wall=wall)
+    flight = np.where(_flying(trajectory, times), line, complex(np.nan, np.nan))
+    path(axes, flight, look)
     direction_arrow(axes, flight, look, fraction=0.9)
     log = trajectory.contacts
     shown = log.is_impact & (log.time >= ends[0]) & (log.time <= ends[1])
@@ -188,6 +186,79 @@ def _levitation(axes: Axes, equilibrium: complex, wall: float) -> None:
     virtual = abs(equilibrium) > 1.0
     words = LOOKS["contact-free"].words
     point(axes, wall * equilibrium, "contact-free", hollow=virtual, label=f"{words} (virtual)" if virtual else words)
+
+
+def _plane_note(orbit: Orbit, note: str = "") -> str:
+    """Return a note on a picture of an orbit, which names the contact plane of its first impact if there are several."""
+    plane = f"touchdown bearing {orbit.leading_plane + 1}" if len(orbit.rotor.system.contacts) > 1 else ""
+    return ", ".join(filter(None, (plane, note)))
+
+
+def _orbit_impacts(orbit: Orbit, periods: int) -> tuple[Floats, Floats]:
+    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each."""
+    kept = [*range(1, orbit.impacts), 0]
+    begins = np.concatenate([[orbit.period], np.cumsum(orbit.durations)[:-1]])[kept]
+    times = (orbit.period * np.arange(periods)[:, None] + begins).ravel()
+    return np.asarray(times, float), np.tile([orbit.sections[place].angular_speed for place in kept], periods)
+
+
+_KINDS = ("slide", "roll")
+
+
+_ARC_STEP = 0.03
+"""Angle [rad] between points of a band: its chords deviate from the circle by less than the width of a line."""
+
+
+_MOST_POINTS = 20_000
+"""Largest number of points of a band: it then covers the circle many times, and more points would not be visible."""
+
+
+def _flying(trajectory: Trajectory, times: Floats) -> np.ndarray:
+    """Return which times belong to free flight; the end of a contact does if a flight follows."""
+    free = np.ones(times.shape, bool)
+    for span in trajectory.lasting_contacts:
+        free &= (times < span.start) | ((times >= span.end) & (span.end < trajectory.time))
+    return free
+
+
+def _drawing_times(trajectory: Trajectory, since: float, end: float) -> Floats:
+    """Return the times at which a motion is drawn within a stretch: dense in flight, only the two ends of a lasting contact.
+
+    In contact the radius is 1, and :func:`_bands_on_the_circle` draws the rest.
+    """
+    # Enough points for smooth curves, but few enough for a small file.
+    even = np.linspace(since, end, int(np.clip(60.0 * (end - since), 2000, 12000)))
+    events = trajectory.segment_starts[1:]
+    times = np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
+    times = times[(times >= since) & (times <= end)]
+    ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
+    return times[_flying(trajectory, times) | np.isin(times, ends)]
+
+
+def _bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since: float = 0.0) -> None:
+    """Mark where on the circle the rotor slid or rolled, from a time on."""
+    for kind in _KINDS:
+        arcs = [
+            np.append(_arc(trajectory, span, frame, since), np.nan)
+            for span in trajectory.lasting_contacts
+            if span.kind == kind and span.end > since
+        ]
+        if arcs:
+            line = clearance(trajectory.scales) * np.concatenate(arcs)
+            look = LOOKS[kind].stroke | {"solid_capstyle": "butt", "dash_capstyle": "butt", "zorder": 3}
+            axes.plot(line.real, line.imag, **look, label=LOOKS[kind].words, gid=kind)
+
+
+def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:
+    start = max(span.start, since)
+    position, velocity = trajectory.at_plane(np.linspace(start, span.end, 16))
+    # On the wall (radius 1) the angular speed equals the tangential speed; the fixed frame adds the shaft speed, 1.
+    fastest = float(np.abs((position.conj() * velocity).imag + (frame == "fixed")).max())
+    points = int(np.ceil((span.end - start) * fastest / _ARC_STEP)) + 2
+    end = span.end
+    if points > _MOST_POINTS:
+        points, end = _MOST_POINTS, start + _MOST_POINTS * _ARC_STEP / fastest
+    return trajectory.position(np.linspace(start, end, points), frame)
 
 
 _NEAR = 0.12
@@ -221,12 +292,17 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     end = shown_until(motion)
     within = min(end, first_contacts(motion, FOLLOWED)) if until is None else min(until, motion.begins + motion.time)
     course = sampled(motion, within)
-    touches = bool(course.held.any()) or (course.impacts is not None and len(course.impacts) > 0)
+    falls = motion.rotor.weight is not None
+    if not falls:
+        course = replace(course, down=0.0)
+    # Without weight impacts lie all around: close to the wall they would be a comb.
+    touches = bool(course.held.any()) or (falls and course.impacts is not None and len(course.impacts) > 0)
     figure, (left, *close) = frames(1 + touches)
     wall = clearance(course.scales)
     clearance_circle(left, max(1.12, 1.06 * float(np.abs(course.place).max()) / wall), wall)
     _path(left, course, course.place.real, course.place.imag)
-    _arrow(left, course.down, wall)
+    if falls:
+        _arrow(left, course.down, wall)
     label_frame(
         left, "fixed", course.scales, f"the first {FOLLOWED} contacts" if until is None and within < end else ""
     )
@@ -239,6 +315,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
         jumps = np.append(np.abs(np.diff(angles)) > 180.0, False)
         _path(right, course, np.where(jumps, np.nan, angles), gap)
         _close_to_the_wall(right, course, angles, gap, middle)
+        right.set_xlabel(f"angle from the {'direction of gravity' if falls else 'x axis'} (°)")
         hardest = int(course.force.argmax())
         if course.impacts is None:
             for axes, where in ((left, course.place), (right, angles + 1j * gap)):
@@ -292,7 +369,6 @@ def _close_to_the_wall(axes: Axes, course: Course, angles: Floats, gap: Floats, 
         xlim=(middle - reach, middle + reach),
         xticks=middle + np.linspace(-reach, reach, _REACHES[reach]),
         ylim=(low - 0.08 * (near - low), near),
-        xlabel="angle from the direction of gravity (°)",
         ylabel="gap to the wall (µm)" if course.scales else axis_label("gap to the wall", "length", None),
         title="close to the wall; below 0: depth" if deep else "close to the wall",
     )

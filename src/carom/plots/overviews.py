@@ -15,7 +15,7 @@ from scipy.optimize import isotonic_regression  # type: ignore[import-untyped]
 
 from carom.base.arguments import Whole, checked
 from carom.base.outcome import InputError
-from carom.plots.figure import StyledFigure, narrow
+from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, StyledFigure, narrow
 from carom.plots.plane import (
     Complex,
     around,
@@ -29,13 +29,14 @@ from carom.plots.plane import (
     path,
     point,
 )
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, Drawn, styled
 from carom.plots.words import clearance, orbit_look, orbit_symbol, orbit_words
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet
     from carom.models import Rotor
     from carom.orbits.orbit import Orbit
+    from carom.orbits.simulated import SimulatedOrbit
     from carom.orbits.single_impact import OrbitSet
 
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
@@ -76,7 +77,7 @@ def equilibria_and_orbits(
     size = (ONE_COLUMN, 1.25 * ONE_COLUMN) if narrow() else (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS)
     figure, whole = one_axes(size)
     wall = _draw_equilibria(whole, orbits.rotor, plane, equilibria, 1.36)
-    _draw_orbits(whole, shown, wall)
+    _draw_orbits(whole, shown)
     _name(whole, shown, wall)
     return key(figure, [whole], columns=2)
 
@@ -97,14 +98,14 @@ def overview(study: Any) -> Figure:
     return equilibria_and_orbits(study.orbits, points)
 
 
-def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
+def _draw_orbits(axes: Axes, shown: Mapping[Orbit, Complex]) -> None:
     """Draw the paths of orbits, with a mark at the first impact of each and an entry of the legend for each kind."""
     for orbit, line in shown.items():
         meaning = orbit_look(orbit)
         look = LOOKS[meaning]
-        path(axes, line, look, label="", wall=wall)
+        path(axes, line, look, label="")
         direction_arrow(axes, line, look)
-        point(axes, complex(line[0]), meaning, hollow=meaning != "stable", size=3.2, label="", layer=5.0)
+        point(axes, complex(line[0]), meaning, hollow=meaning != "stable", size=3.2, label="")
     for meaning in dict.fromkeys(orbit_look(orbit) for orbit in reversed(list(shown))):
         look = LOOKS[meaning]
         marked = look.mark(3.2) | ({} if meaning == "stable" else {"mfc": "white"}) | look.stroke
@@ -153,7 +154,7 @@ def _draw_equilibria(axes: Axes, rotor: Rotor, plane: int, shown: Iterable[Equil
 def _name(axes: Axes, shown: Mapping[Orbit, Complex], wall: float) -> None:
     """Write names on a ring around the clearance circle, joined to the impact points by thin lines."""
     angles = spread_angles([np.angle(line[0]) for line in shown.values()], _LABEL_GAP)
-    look: dict[str, Any] = {
+    look: Drawn = {
         "bbox": {"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"},
         "arrowprops": {"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 2},
     }
@@ -169,7 +170,7 @@ _LINEAR_UP_TO = 2.0
 
 @checked
 @styled
-def multipliers(orbits: Iterable[Orbit]) -> Figure:
+def multipliers(orbits: Iterable[Orbit | SimulatedOrbit]) -> Figure:
     """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
 
     An orbit is stable if all its multipliers lie inside the circle.  A multiplier that leaves it through +1 means a
@@ -208,7 +209,7 @@ def _plane(axes: Axes, largest: float) -> None:
     axes.set(xlabel=rf"Re $\lambda$ ({note})", ylabel=rf"Im $\lambda$ ({note})")
 
 
-def _markers(axes: Axes, orbit: Orbit, shape: str) -> None:
+def _markers(axes: Axes, orbit: Orbit | SimulatedOrbit, shape: str) -> None:
     meaning, values = orbit_look(orbit), np.asarray(orbit.multipliers.values)
     stable = meaning == "stable"
     look = LOOKS[meaning].mark(4.8, filled=stable) | {"marker": shape, "mew": 0.9, "zorder": 3 if stable else 4}

@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.legend import Legend
 from numpy.typing import NDArray
 
 from carom.plots.figure import StyledFigure
@@ -17,8 +16,6 @@ from carom.plots.style import LOOKS, Look
 from carom.plots.words import axis_label, clearance, times_larger
 
 if TYPE_CHECKING:
-    from carom.motions.history import LastingContact
-    from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
     from carom.parameters import Scales
 
@@ -33,8 +30,6 @@ Frame = Literal["rotating", "fixed"]
 
 _MARGIN = 1.25
 """Size of an enlarged square, relative to what it shows."""
-_TOP_AXIS = 0.34
-"""Height of the ticks and the label of an axis at the top [inch]."""
 _FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")}
 
 
@@ -84,9 +79,9 @@ def path(
     look: Look,
     label: str | None = None,
     width: float | None = None,
-    wall: float = 1.0,
+    wall: float = np.inf,
 ) -> None:
-    """Draw a path; parts beyond the wall, at the radius `wall`, are faint and dotted, whatever its look.
+    """Draw a path; parts beyond a radius `wall` are faint and dotted, whatever its look, for an orbit that goes there is virtual.
 
     An empty `label` keeps the path out of the legend.
     """
@@ -165,20 +160,6 @@ def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Fl
     return times, orbit.path(times, seen) * complex(clearance(scales))
 
 
-def plane_note(orbit: Orbit, note: str = "") -> str:
-    """Return a note on a picture of an orbit, which names the contact plane of its first impact if there are several."""
-    plane = f"touchdown bearing {orbit.leading_plane + 1}" if len(orbit.rotor.system.contacts) > 1 else ""
-    return ", ".join(filter(None, (plane, note)))
-
-
-def orbit_impacts(orbit: Orbit, periods: int) -> tuple[Floats, Floats]:
-    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each."""
-    kept = [*range(1, orbit.impacts), 0]
-    begins = np.concatenate([[orbit.period], np.cumsum(orbit.durations)[:-1]])[kept]
-    times = (orbit.period * np.arange(periods)[:, None] + begins).ravel()
-    return np.asarray(times, float), np.tile([orbit.sections[place].angular_speed for place in kept], periods)
-
-
 def marker_size(count: int) -> float:
     """Return the marker size [pt], which decreases with the number of markers."""
     return float(np.clip(5.0 - 0.9 * np.log10(max(count, 1) / 6.0), 2.2, 5.0))
@@ -193,7 +174,6 @@ def point(
     size: float = 5.0,
     label: str | None = None,
     colour: str | None = None,
-    layer: float = 4.0,
     clip: bool = True,
 ) -> None:
     """Mark one or more points with the look of `meaning`; hollow means unstable or virtual.
@@ -215,7 +195,7 @@ def point(
         markeredgewidth=0.8 if hollow or ring else 0.4,
         rasterized=len(where) > MANY_MARKERS,
         label=look.words if label is None else label or "_",
-        zorder=layer + ring,
+        zorder=4.0 + ring,
         clip_on=clip,
         gid=meaning,
     )
@@ -261,15 +241,6 @@ def key(figure: Figure, drawn: Iterable[Axes], columns: int, title: str | None =
     return figure
 
 
-def legend_above(axes: Axes, handles: Sequence[Artist], columns: int, *, aside: bool = False) -> Legend:
-    """Add a legend above axes and below the title, where a legend of the figure would overlap the title.
-
-    `aside` leaves room for an axis with its label at the top.
-    """
-    above = _TOP_AXIS / float(axes.bbox.height / axes.figure.dpi) if aside else 0.0
-    return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0 + above), ncols=columns)
-
-
 def unique_entries(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:
     """Everything labelled in axes, without duplicates, and its words."""
     found: dict[str, Artist] = {}
@@ -277,59 +248,3 @@ def unique_entries(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:
         for handle, words in zip(*axes.get_legend_handles_labels(), strict=True):
             found.setdefault(words, handle)
     return list(found.values()), list(found)
-
-
-_KINDS = ("slide", "roll")
-_STEP = 0.03
-"""Angle [rad] between points of a band: its chords deviate from the circle by less than the width of a line."""
-_MOST_POINTS = 20_000
-"""Largest number of points of a band: it then covers the circle many times, and more points would not be visible."""
-
-
-def flying(trajectory: Trajectory, times: Floats) -> NDArray[np.bool_]:
-    """Return which times belong to free flight; the end of a contact does if a flight follows."""
-    free = np.ones(times.shape, bool)
-    for span in trajectory.lasting_contacts:
-        free &= (times < span.start) | ((times >= span.end) & (span.end < trajectory.time))
-    return free
-
-
-def drawing_times(trajectory: Trajectory, since: float = 0.0, until: float | None = None) -> Floats:
-    """Return the times at which a motion is drawn within a stretch: dense in flight, only the two ends of a lasting contact.
-
-    In contact the radius is 1, and :func:`bands_on_the_circle` draws the rest.
-    """
-    # Enough points for smooth curves, but few enough for a small file.
-    end = trajectory.time if until is None else until
-    even = np.linspace(since, end, int(np.clip(60.0 * (end - since), 2000, 12000)))
-    events = trajectory.segment_starts[1:]
-    times = np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
-    times = times[(times >= since) & (times <= end)]
-    ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
-    return times[flying(trajectory, times) | np.isin(times, ends)]
-
-
-def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since: float = 0.0) -> None:
-    """Mark where on the circle the rotor slid or rolled, from a time on."""
-    for kind in _KINDS:
-        arcs = [
-            np.append(_arc(trajectory, span, frame, since), np.nan)
-            for span in trajectory.lasting_contacts
-            if span.kind == kind and span.end > since
-        ]
-        if arcs:
-            line = clearance(trajectory.scales) * np.concatenate(arcs)
-            look = LOOKS[kind].stroke | {"solid_capstyle": "butt", "dash_capstyle": "butt", "zorder": 3}
-            axes.plot(line.real, line.imag, **look, label=LOOKS[kind].words, gid=kind)
-
-
-def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:
-    start = max(span.start, since)
-    position, velocity = trajectory.at_plane(np.linspace(start, span.end, 16))
-    # On the wall (radius 1) the angular speed equals the tangential speed; the fixed frame adds the shaft speed, 1.
-    fastest = float(np.abs((position.conj() * velocity).imag + (frame == "fixed")).max())
-    points = int(np.ceil((span.end - start) * fastest / _STEP)) + 2
-    end = span.end
-    if points > _MOST_POINTS:
-        points, end = _MOST_POINTS, start + _MOST_POINTS * _STEP / fastest
-    return trajectory.position(np.linspace(start, end, points), frame)

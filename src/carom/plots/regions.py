@@ -13,9 +13,8 @@ from matplotlib.patheffects import Normal, Stroke
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
 from carom.plots.diagrams import CURVES, curve_line
-from carom.plots.figure import StyledFigure
-from carom.plots.plane import legend_above
-from carom.plots.style import TWO_COLUMNS, styled
+from carom.plots.figure import TWO_COLUMNS, StyledFigure
+from carom.plots.style import Drawn, styled
 from carom.plots.words import label_parameter, with_symbols
 
 if TYPE_CHECKING:
@@ -26,6 +25,9 @@ _LONGEST_HALF = 100
 """Number of characters of a region's description that fit in half of the width."""
 _HEIGHT, _LINE = 0.6, 0.135
 """Height of the figure without the list of regions, relative to its width, and height of a line of this list [inch]."""
+
+_TOP_AXIS = 0.34
+"""Height of the ticks and the label of an axis at the top [inch]."""
 
 
 @checked
@@ -48,18 +50,21 @@ def region_map(found: RegionMap) -> Figure:
     for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
         curve_line(drawn, curve, units, virtual=False)
     for number, region in enumerate(found.regions, start=1):
-        _write(drawn, str(number), np.array(region.point) / units, "numeral", ha="center", va="center")
+        _write(drawn, str(number), tuple(np.array(region.point) / units), "numeral", ha="center", va="center")
     scales = found.model.scales
     aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
     label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
     drawn.set(xlim=np.array(found.plane.first_range) / units[0], ylim=np.array(found.plane.second_range) / units[1])
-    legend_above(drawn, [*_curve_key(found), *_mark_points(drawn, found, units)], 3, aside=aside)
+    # Above the axes and their labels at the top: one of the figure would overlap the title.
+    above = _TOP_AXIS / float(drawn.bbox.height / figure.dpi) if aside else 0.0
+    handles = [*_curve_key(found), *_mark_points(drawn, found, units)]
+    drawn.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0 + above), ncols=3)
     handles = [Line2D([], [], ls="none", label=with_symbols(line)) for line in lines]
     figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
     return figure
 
 
-def _write(axes: Axes, words: str, place: Any, gid: str, shift: float = 0.0, **options: Any) -> None:
+def _write(axes: Axes, words: str, place: tuple[float, float], gid: str, shift: float = 0.0, **options: Any) -> None:
     """Write words at a place, or shifted from it to the left and downward, readable upon lines."""
     outline = [Stroke(linewidth=2.5, foreground="#ffffff"), Normal()]
     look = options | {"textcoords": "offset points", "fontsize": 7, "zorder": 8, "path_effects": outline}
@@ -103,7 +108,7 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
 
     def mark(place: tuple[float, float], words: str, marker: str, size: float, face: str, edge: str = _BLACK) -> None:
         x, y = np.array(place) / units
-        look: dict[str, Any] = {"ls": "none", "marker": marker, "ms": size, "mfc": face, "mec": edge, "zorder": 6}
+        look: Drawn = {"ls": "none", "marker": marker, "ms": size, "mfc": face, "mec": edge, "zorder": 6}
         (entries[words],) = axes.plot([x], [y], **look, gid=words, label=words)
 
     for point in found.codimension2:
@@ -113,7 +118,7 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
         look = ("resonance of the multipliers", "D", 4.0) if resonance else ("two at once", "o", 4.5)
         mark(point.value, *look, _BLACK)
         if resonance:
-            _write(axes, resonance, np.array(point.value) / units, "resonance", 4.0, ha="right", va="top")
+            _write(axes, resonance, tuple(np.array(point.value) / units), "resonance", 4.0, ha="right", va="top")
     for change in found.unexplained:
         mark(change.point, "change of motions on no curve found", "x", 4.0, _UNEXPLAINED, _UNEXPLAINED)
     if found.present is not None:

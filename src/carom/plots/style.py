@@ -37,11 +37,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.base.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
-from carom.plots.figure import ONE_COLUMN as ONE_COLUMN
-from carom.plots.figure import TWO_COLUMNS as TWO_COLUMNS
 from carom.plots.figure import arrange, drawing
 
 Arguments = ParamSpec("Arguments")
+Drawn = dict[str, Any]
+"""How something is drawn: arguments of matplotlib."""
 
 
 ZONE_SHADES = ("#ffffff", "#faf7ef", "#f5f0e1", "#efe7d0")
@@ -76,11 +76,11 @@ class Look:
     hatch: str = ""
 
     @property
-    def stroke(self) -> dict[str, Any]:
+    def stroke(self) -> Drawn:
         """Colour, style and width of a line, as arguments of matplotlib."""
         return {"color": self.colour, "ls": self.line, "lw": self.width}
 
-    def mark(self, size: float, *, filled: bool = True) -> dict[str, Any]:
+    def mark(self, size: float, *, filled: bool = True) -> Drawn:
         """A point of a size [pt], filled or hollow, as arguments of matplotlib."""
         face = self.colour if filled else "none"
         return {"ls": "none", "marker": self.marker, "ms": size, "mfc": face, "mec": self.colour}

@@ -20,9 +20,10 @@ from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, InputError
 from carom.parameters import SETTINGS, Field
 from carom.parameters.formats import shown_from_si
+from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS
 from carom.plots.maps import BLANKS, SHADES, cell_edges, draw_map, mark_present
 from carom.plots.plane import Floats, one_axes
-from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
+from carom.plots.style import styled
 from carom.plots.words import parameter_label
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ _SHARES = MappingProxyType(
 _MOST_STEPS = 9
 """Largest count up to which each number has a shade of its own."""
 _PRESENT = "the machine as it is"
-_LONGEST = 60
+_LONGEST = 70
 """Letters of a line that fit along the side of a figure."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
 """Range of plain numbers on a logarithmic axis, and largest ratio of its ends with such ticks."""

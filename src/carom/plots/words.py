@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
+    from carom.orbits.simulated import SimulatedOrbit
     from carom.parameters import Field, Scales
 
 _ORBITS = re.compile(r"\b[BR]\d+,[a-d](?:/[a-d])*")
@@ -28,7 +29,7 @@ _ORBITS = re.compile(r"\b[BR]\d+,[a-d](?:/[a-d])*")
 def orbit_symbol(name: str) -> str:
     """Return an orbit name as mathematical text: ``"B1,d"`` becomes B with the subscript 1,d."""
     letter, subscript = name[:1], name[1:].replace(" ", r"\,")
-    return rf"${letter}_{{\mathrm{{{subscript}}}}}$" if subscript else f"${letter}$"
+    return rf"${letter}_{{\mathrm{{{subscript}}}}}$" if subscript[:1].isdigit() else name
 
 
 def with_symbols(text: str) -> str:
@@ -36,14 +37,14 @@ def with_symbols(text: str) -> str:
     return _ORBITS.sub(lambda match: orbit_symbol(match[0]), text)
 
 
-def orbit_look(orbit: Orbit) -> str:
+def orbit_look(orbit: Orbit | SimulatedOrbit) -> str:
     """Return the key of :data:`carom.plots.style.LOOKS` for the kind of an orbit."""
     if not orbit.admissible:
         return "virtual"
     return "stable" if orbit.stable else "unstable"
 
 
-def orbit_words(orbit: Orbit) -> str:
+def orbit_words(orbit: Orbit | SimulatedOrbit) -> str:
     """Return the name and kind of an orbit, for example ``B1,d — admissible, stable``."""
     return f"{orbit_symbol(orbit.name)} \N{EM DASH} {LOOKS[orbit_look(orbit)].words}"
 
@@ -140,7 +141,7 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
         return False
     conversion, size = CONVERSIONS[field.name], partner.usual_size
 
-    def to_machine(values: ArrayLike) -> Any:
+    def to_machine(values: ArrayLike) -> object:
         return conversion.value(np.asarray(values, float), scales) / size
 
     def from_machine(values: ArrayLike) -> object:

@@ -2,14 +2,12 @@
 
 ==================  ===============================================================================================
 ``figures``         the figures of a study with captions, first where disturbances end now and after the advised change
-``page``            the HTML page of a study
-``drop``            the HTML page of a drop
+``page``            the HTML pages of a study and of a drop
 ``film``            a drop in slow motion on it
 ``html``            what pages share: figures in files and embedded, formulas in text
 ==================  ===============================================================================================
 """
 
-from carom.report.drop import write_drop_report
-from carom.report.page import report_page, write_report
+from carom.report.page import report_page, write_drop_report, write_report
 
 __all__ = ["report_page", "write_drop_report", "write_report"]

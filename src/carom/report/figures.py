@@ -12,11 +12,12 @@ from matplotlib.figure import Figure
 
 from carom import plots
 from carom.attractors import Ending
+from carom.base.outcome import Outcome
 from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.disturbances.plans import ITS_INSTANT
 from carom.models import Rotor, axis
-from carom.motions.courses import shown_until
+from carom.motions.courses import FOLLOWED, first_contacts, shown_until
 from carom.motions.simulation import simulate
 from carom.parameters import in_terms_of
 from carom.report.html import ReportPicture
@@ -63,7 +64,7 @@ def pictures(study: Study) -> list[ReportPicture]:
             f"How the rotor bounces for ever on {orbit.name}, with an impact every {study.wording.time(orbit.period)}: above as seen "
             "turning with the shaft, where each bounce is the same loop, below as seen in the room."
         )
-        figures.append(ReportPicture(f"orbit-{_file_name(orbit.name)}", "method", words, partial(plots.orbit, orbit)))
+        figures.append(ReportPicture(f"orbit-{_file_name(orbit.name)}", "method", words, orbit.plot))
     if possible:
         words = (
             "A small disturbance of an orbit is multiplied by these numbers from impact to impact: the orbit is stable if all lie "
@@ -126,11 +127,13 @@ def _of_loads(study: Study) -> Iterator[ReportPicture]:
             at = f" at touchdown bearing {plane + 1}" if several else ""
             bearing, mark = (f", touchdown bearing {plane + 1}", f"-{plane + 1}") if several else ("", "")
             title, seen = f"{name.replace('_', ' ').capitalize()}{bearing}", motion.seen_at(plane)
-            words = f"Orbit of the shaft{at} {when}, in the fixed frame{', and its gap to the bearing' if touched(seen) else ''}."
+            words = f"Orbit of the shaft{at} {when}, in the fixed frame."
             yield ReportPicture(f"{name}{mark}", "loads", words, partial(plots.drop_orbit, seen, title=title))
             if touched(seen):
-                words = f"Distance from the centre, force of contact and slip over time{at} {when}."
-                loads = partial(plots.touchdown, seen, title=title, until=shown_until(seen))
+                until = _until(seen)
+                cut = f" Drawn: the first {FOLLOWED} contacts." if until < shown_until(seen) else ""
+                words = f"Distance from the centre, force of contact and slip over time{at} {when}.{cut}"
+                loads = partial(plots.touchdown, seen, title=title, until=until)
                 yield ReportPicture(f"{name}-loads{mark}", "loads", words, loads)
 
 
@@ -145,10 +148,16 @@ def _history(study: Study, example: Ending) -> Figure:
     else:
         motion = simulate(study.rotor, example.start.state, LONGEST_SHOWN, settle=True)
     if touched(motion):
-        return plots.touchdown(motion)
+        return plots.touchdown(motion, until=_until(motion))
     # A motion that stays in the last zone is drawn enlarged, without zones.
     zones, nearest = study.case.zones, float(motion.radius(motion.sample()).min())
     return plots.radius(motion, zones if nearest <= zones.limits[-1] else None)
+
+
+def _until(motion: Trajectory) -> float:
+    """Until when a motion is drawn over time: one that goes on bouncing for contacts that can be told apart."""
+    until = shown_until(motion)
+    return min(until, first_contacts(motion, FOLLOWED)) if motion.outcome is Outcome.BOUNCING else until
 
 
 def touched(motion: Trajectory) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.plots.figure import StyledFigure
+from carom.plots.figure import TWO_COLUMNS, StyledFigure
 from carom.plots.plane import (
     Complex,
     Floats,
@@ -21,7 +21,7 @@ from carom.plots.plane import (
     path,
     point,
 )
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, styled
 from carom.plots.words import clearance, orbit_look, orbit_symbol
 from carom.reproductions.mora2014.drawing.panels import letter
 
@@ -86,7 +86,7 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     count = max(1, round(motion.span / orbit.period / (1 if inner is None else 2)))
     times, line = _path(orbit, count)
     line = line * np.exp(1j * times)
-    path(fixed, line, look, label=words)
+    path(fixed, line, look, label=words, wall=1.0)
     direction_arrow(fixed, line[times <= 0.4 * motion.span], look)
     at_impacts = line[:: (len(times) - 1) // count]
     impacts(fixed, at_impacts, np.full(len(at_impacts), orbit.angular_speed), size=4.0)
@@ -109,7 +109,7 @@ def _path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
 
 def _loop(axes: Axes, orbit: Orbit, once: np.ndarray, arrow: bool = True) -> None:
     look = LOOKS[orbit_look(orbit)]
-    path(axes, once, look, label=f"orbit, {look.words}")
+    path(axes, once, look, label=f"orbit, {look.words}", wall=1.0)
     if arrow:
         direction_arrow(axes, once, look)
     impacts(axes, once[:1], np.array([orbit.angular_speed]), size=4.5)

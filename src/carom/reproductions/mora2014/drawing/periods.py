@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
 from carom.plots.diagrams import POINTS, mark_point
-from carom.plots.figure import StyledFigure
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.figure import TWO_COLUMNS, StyledFigure
+from carom.plots.style import LOOKS, styled
 from carom.plots.words import orbit_look, orbit_symbol, times_larger
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, letter
 from carom.reproductions.mora2014.periods import LONGEST_DRAWN

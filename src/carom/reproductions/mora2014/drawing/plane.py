@@ -12,8 +12,8 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from carom.bifurcations.conditions import spectral_radii
 from carom.plots.diagrams import CURVES, branch_line, curve_line, mark_point
-from carom.plots.figure import StyledFigure
-from carom.plots.style import TWO_COLUMNS, styled
+from carom.plots.figure import TWO_COLUMNS, StyledFigure
+from carom.plots.style import styled
 from carom.plots.words import with_symbols
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 

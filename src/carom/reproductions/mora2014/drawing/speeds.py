@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.diagrams import branch_line, mark_point
-from carom.plots.figure import StyledFigure
-from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
+from carom.plots.figure import TWO_COLUMNS, StyledFigure
+from carom.plots.style import LOOKS, Look, styled
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
 if TYPE_CHECKING:
