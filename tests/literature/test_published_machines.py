@@ -10,7 +10,8 @@ from scipy.optimize import brentq
 from carom import State, find_equilibria, load, simulate
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
-from carom.parameters import ENTRIES, Machine, read_quantity
+from carom.parameters import Machine, read_quantity
+from carom.parameters.terms import ENTRIES
 from carom.rotors import Material, find_whirls
 
 # The rotor-stator rig of DTU (github.com/SV3A/masterproject-contact-code): settings.toml, in kg, m, s and N.

@@ -9,8 +9,9 @@ import pytest
 from machines import REAL
 from refusals import error_of
 
-from carom.parameters import ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, TERM_FIELDS, Machine, field_to_vary
+from carom.parameters import HELPER_FIELDS, MACHINE_FIELDS, TERM_FIELDS, Machine, field_to_vary
 from carom.parameters.quantities import read_decimal
+from carom.parameters.terms import ENTRIES
 
 PLAIN = {name: getattr(REAL, name) for name in MACHINE_FIELDS}
 BEARING = {"magnetic_bearings": 2, "force_current_factor": "70 N/A", "negative_stiffness": "210 N/mm"}

@@ -15,7 +15,7 @@ from carom.base.outcome import InputError, Outcome, shown
 from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
 from carom.disturbances.echo import Echo, in_both_units
 from carom.disturbances.single import Part, Single, read_single
-from carom.parameters import Scales, own_size, own_unbalance, usual_kick
+from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.formats import format_angle, format_quantity
 
 if TYPE_CHECKING:
@@ -233,10 +233,7 @@ class Disturbance:
 
         scales = rotor_of(machine).scales
         pairs = zip(cls.measured_in.items(), sizes, strict=False)
-        given: dict[str, Any] = {
-            name: own_unbalance(name, size, scales) if kind == "unbalance" else own_size(name, size, kind, scales)
-            for (name, kind), size in pairs
-        }
+        given: dict[str, Any] = {name: own_size(name, size, kind, scales) for (name, kind), size in pairs}
         if "fastest" in cls.measured_in:
             given.setdefault("fastest", usual_kick(scales))
         return cls(**given, **others)

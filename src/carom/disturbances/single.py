@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.base.outcome import InputError
-from carom.parameters import Scales, read_size, read_unbalance
+from carom.parameters import Scales, read_size
 from carom.parameters.formats import format_angle
 from carom.parameters.quantities import comma_advice, without_separators
 
@@ -123,13 +123,11 @@ def _number(option: str, part: Part, text: str, scales: Scales | None, bare: boo
         return int(number)
     if part.kind == "angle" and not text.strip("0."):
         return 0.0
-    if part.kind == "unbalance":
-        size = read_unbalance(option, text, scales).own(scales)
-        if not size > 0.0:
-            allowed = "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm"
-            raise InputError(option, text, allowed)
-        return size
-    return read_size(option, text, part.kind, scales, bare=bare).own(scales)
+    size = read_size(option, text, part.kind, scales, bare=bare).own(scales)
+    if part.kind == "unbalance" and not size > 0.0:
+        allowed = "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm"
+        raise InputError(option, text, allowed)
+    return size
 
 
 def split_text(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:

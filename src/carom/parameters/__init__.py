@@ -29,40 +29,28 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
-from carom.parameters.formats import Size, own_size, own_time, own_unbalance, read_size, read_unbalance
+from carom.parameters.formats import Size, own_size, own_time, read_size
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.machine import ControlLimit, Machine
 from carom.parameters.machine_file import SETTINGS, Case, field_to_set
 from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
-from carom.parameters.requirement import (
-    SHOCK_DURATION,
-    SURVIVE_ENTRIES,
-    Required,
-    Requirement,
-    Shock,
-    usual_kick,
-)
+from carom.parameters.requirement import SHOCK_DURATION, Required, Requirement, Shock, usual_kick
 from carom.parameters.scaling import GRAVITY, UNITS, Scales
-from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits, Zones
-from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_vary
+from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits, Zones
+from carom.parameters.terms import HELPER_FIELDS, TERM_FIELDS, TERMS, field_to_vary
 from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
-    "DRIVE_FIELDS",
-    "ENTRIES",
     "GRAVITY",
-    "GRAVITY_FIELDS",
     "HELPER_FIELDS",
     "LIMIT_FIELDS",
     "MACHINE_FIELDS",
     "PARAMETERS",
     "PHYSICAL_PARTNER",
-    "SETTABLE",
     "SETTINGS",
     "SHOCK_DURATION",
-    "SURVIVE_ENTRIES",
     "TERMS",
     "TERM_FIELDS",
     "TOUCHDOWN_FIELDS",
@@ -90,10 +78,8 @@ __all__ = [
     "in_terms_of",
     "own_size",
     "own_time",
-    "own_unbalance",
     "read_quantity",
     "read_size",
-    "read_unbalance",
     "unknown_name",
     "usual_kick",
 ]

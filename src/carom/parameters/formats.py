@@ -209,10 +209,11 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
     given : object
         A real number, or text; in ``"20 g"`` the unit is the standard gravity.
     kind : {"length", "velocity", "acceleration", "unbalance", "impulse", "time", "speed", "angle"}
+        An unbalance may be given by the eccentricity that it is of the whole mass; without scales it is a number in clearances.
     scales : Scales or None
         Needed for values with units.
     bare : bool
-        Whether text without a unit is allowed where the scales are known.
+        Whether text without a unit is allowed where the scales are known; never that of an unbalance.
 
     Raises
     ------
@@ -221,6 +222,23 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
     """
     if kind not in _KINDS:
         raise InputError("kind", kind, f"one of: {', '.join(_KINDS)}")
+    return _read_unbalance(name, given, scales) if kind == "unbalance" else _read(name, given, kind, scales, bare)
+
+
+def _read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
+    if scales is None:
+        return _read(name, given, "length", scales)
+    try:
+        return _read(name, given, "unbalance", scales, bare=False)
+    except InputError as problem:
+        try:
+            eccentricity = _read(name, given, "length", scales, bare=False)
+        except InputError:
+            raise problem from None
+    return Size(float(Decimal(repr(eccentricity.value)) * Decimal(repr(scales.mass))), True, "unbalance")
+
+
+def _read(name: str, given: object, kind: str, scales: Scales | None, bare: bool = True) -> Size:
     (words, example), (own, unit) = _KINDS[kind], UNITS.get(kind, ("rad", "rad"))
     needs_unit = scales is not None and not bare
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
@@ -246,27 +264,6 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
 def own_size(name: str, given: object, kind: str, scales: Scales | None) -> float:
     """Convert text with a unit to the units of the equations; a number is already in these."""
     return read_size(name, given, kind, scales).own(scales)
-
-
-@checked
-def read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
-    """Read an unbalance, or the eccentricity that it is of the whole mass; without scales a number in clearances."""
-    if scales is None:
-        return read_size(name, given, "length", scales)
-    try:
-        return read_size(name, given, "unbalance", scales, bare=False)
-    except InputError as problem:
-        try:
-            eccentricity = read_size(name, given, "length", scales, bare=False)
-        except InputError:
-            raise problem from None
-    return Size(float(Decimal(repr(eccentricity.value)) * Decimal(repr(scales.mass))), True, "unbalance")
-
-
-@checked
-def own_unbalance(name: str, given: object, scales: Scales | None) -> float:
-    """Convert text with a unit of an unbalance or an eccentricity to clearances; a number is already in these."""
-    return read_unbalance(name, given, scales).own(scales)
 
 
 @checked

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 import warnings
@@ -17,6 +16,7 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSIC
 from carom.parameters.formats import format_entry, number
 from carom.parameters.numbers import Parameters
 from carom.parameters.scaling import CONVERSIONS, Scales
+from carom.parameters.tables import toml_line
 from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS, Resolved, resolve
 
 LEAST_RADIUS = 5.0
@@ -274,9 +274,7 @@ def warn_of_proportions(machine: Machine | None) -> None:
 
 def _line(name: str, value: Any) -> str:
     field = ENTRIES[name]
-    if isinstance(value, str):
-        text = json.dumps(value, ensure_ascii=False)
-    else:
-        number = str(int(value)) if field.whole else repr(float(value))
-        text = f'"{number} {field.unit}"' if field.unit else number
-    return f"{name} = {text}  # {field.symbol}: {field.words}"
+    if not isinstance(value, str):
+        plain = int(value) if field.whole else float(value)
+        value = f"{plain!r} {field.unit}" if field.unit else plain
+    return toml_line(name, value, f"{field.symbol}: {field.words}")

@@ -12,7 +12,7 @@ from typing import Literal, TypeVar
 from carom.base.arguments import Positive, Whole, checked
 from carom.base.outcome import InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, unknown_names
-from carom.parameters.formats import read_size, read_unbalance
+from carom.parameters.formats import read_size
 from carom.parameters.scaling import GRAVITY, Scales
 
 SHOCK_DURATION = 0.011
@@ -278,10 +278,7 @@ def _read_node(name: str, given: object, scales: Scales | None) -> int:
 def _size(name: str, given: object, scales: Scales | None, kind: str) -> float:
     """Read a size above 0, in SI units where the scales are known; there it needs a unit."""
     text = given if scales is None or isinstance(given, str) else shown(given)
-    if kind == "unbalance":
-        size = read_unbalance(name, text, scales)
-    else:
-        size = read_size(name, text, kind, scales, bare=False)
+    size = read_size(name, text, kind, scales, bare=False)
     if not size.value > 0.0:
         raise InputError(name, shown(given), "must be above 0")
     return size.value

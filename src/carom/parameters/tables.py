@@ -85,9 +85,9 @@ def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
     problems.raise_all()
 
 
-def toml_line(name: str, value: object, unit: str = "") -> str:
-    """An entry of a table as TOML states it, bit for bit: a number or a list of numbers in the SI unit that follows as a remark, or text."""
-    return f"{name} = {json.dumps(value, ensure_ascii=False)}" + (f"  # {unit}" if unit else "")
+def toml_line(name: str, value: object, remark: str = "") -> str:
+    """An entry of a table as TOML states it, bit for bit: a number or a list of numbers, in the SI unit that the remark states, or text."""
+    return f"{name} = {json.dumps(value, ensure_ascii=False)}" + (f"  # {remark}" if remark else "")
 
 
 @dataclasses.dataclass(frozen=True)

@@ -24,7 +24,6 @@ from carom.parameters import (
     Size,
     Zones,
     read_size,
-    read_unbalance,
     unknown_name,
     usual_kick,
 )
@@ -283,4 +282,4 @@ def _size(where: str, given: object, scale: str | None, scales: Scales | None) -
     """Read a size; what has no unit stays as it is."""
     if scale is None:
         return given
-    return read_unbalance(where, given, scales) if scale == "unbalance" else read_size(where, given, scale, scales)
+    return read_size(where, given, scale, scales)
