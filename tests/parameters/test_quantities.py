@@ -14,9 +14,8 @@ from refusals import ALLOWED, error_of
 
 from carom.base.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, quantities, read_quantity, unknown_name
-from carom.parameters.common_units import COMMON_UNITS
 from carom.parameters.formats import format_entry
-from carom.parameters.quantities import read_decimal, read_exact, without_separators
+from carom.parameters.quantities import COMMON_UNITS, read_decimal, read_exact, without_separators
 from carom.parameters.terms import ENTRIES, SETTABLE
 
 # ------------------------------------------------------------------------------------------ units

@@ -8,11 +8,10 @@ from enum import Enum
 from importlib import import_module
 from numbers import Complex
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple, TypeVar, overload
+from typing import Any, ClassVar, Literal, NamedTuple, TypeVar, overload
 
 import numpy as np
 
-from carom.base.boxes import box
 from carom.base.outcome import InputError
 from carom.base.tabular import Tabular
 
@@ -35,8 +34,15 @@ _KINDS = {
 }
 KINDS = MappingProxyType({name: kind for kind, names in _KINDS.items() for name in names.split()})
 """Attributes in units of the equations, each with its property of the scales of a rotor: in SI units, people see more."""
+BOXES = {"figures": "carom.plots", "proofs": "carom.proofs"}
+"""Packages that stand above those that ask for them: the layers forbid imports from above, so they are named as data."""
 _OF_THE_MACHINE = ("rotor", "model", "parameters", "numbers")
 """Attributes that know the scales of the machine, where a result does not itself."""
+
+
+def box(name: Literal["figures", "proofs"]) -> Any:
+    """The package that draws results, or the one that proves; the second needs the extra ``carom[proof]``."""
+    return import_module(BOXES[name])
 
 
 class Result(Tabular):

@@ -2,7 +2,6 @@
 
 ========================  ========================================================================================================================
 ``fields``                names, symbols, units and ranges of all numbers
-``common_units``          units of machine files as pint converts them
 ``terms``                 terms that stand for the numbers of a machine, with their formulas; entries in whatever terms -> numbers
 ``tables``                tables that files of all machines share, each entry declared once: :class:`Zones`, :class:`Gravity` and the like
 ``quantities``            text with units -> float in SI units, and exact numbers for proofs

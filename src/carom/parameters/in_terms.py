@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localcontext
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal, localcontext
 from typing import Annotated, Literal, NamedTuple
 
 from carom.base.arguments import checked, whole
@@ -108,11 +108,12 @@ def in_terms_of(case: Case, name: str, value: object, side: Side = "nearest", di
     wanted = read_quantity(case.parameters.varied[name], value)
     with localcontext(DECIMALS):
         stated = _stated(case, name, Decimal(repr(wanted)))
-        number = _rounded(stated.exact, digits, _ROUNDING[side])
+        rounding = Context(prec=digits, rounding=_ROUNDING[side])
+        number = rounding.plus(stated.exact)
         after = _changed(case, stated, number)
         while (side == "up" and _value(after, name) < wanted) or (side == "down" and _value(after, name) > wanted):
             # Rounding of what follows from the entry has put the last bit on the other side.
-            number += Decimal(1 if side == "up" else -1).scaleb(_last_digit(number, digits))
+            number = rounding.next_plus(number) if side == "up" else rounding.next_minus(number)
             after = _changed(case, stated, number)
         return InTerms(
             stated.entry,
@@ -178,15 +179,6 @@ def _beside(case: Case, entry: str) -> Iterator[str]:
         yield f"damping ratio {short(gamma / (2.0 * omega), _SECONDARY_DIGITS)}"
     if numbers.scales and field == "stiffness" and entry != "natural_frequency":
         yield f"natural frequency {short(omega * numbers.scales.speed / math.tau, _SECONDARY_DIGITS)} Hz"
-
-
-def _rounded(exact: Decimal, digits: int, rounding: str) -> Decimal:
-    return exact.quantize(Decimal(1).scaleb(_last_digit(exact, digits)), rounding) if exact else exact
-
-
-def _last_digit(number: Decimal, digits: int) -> int:
-    """Power of ten of the last significant digit."""
-    return number.adjusted() - digits + 1
 
 
 def _plain(number: Decimal) -> str:

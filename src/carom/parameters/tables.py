@@ -301,6 +301,8 @@ class Zones(Table):
     heading: ClassVar = "zones"
     texts: ClassVar = ("limits",)
     is_in_si: ClassVar = False
+    labels: ClassVar = ("A", "B", "C", "D")
+    """Names of the zones, from the smallest amplitude to the largest."""
 
     def __post_init__(self) -> None:
         given: object = self.limits
@@ -310,11 +312,6 @@ class Zones(Table):
             words = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5], in [zones]"
             raise InputError("limits", shown(given), words)
         object.__setattr__(self, "limits", tuple(numbers))
-
-    @property
-    def labels(self) -> tuple[str, str, str, str]:
-        """Names of the zones, from the smallest amplitude to the largest."""
-        return ("A", "B", "C", "D")
 
     @checked
     def zone(self, radius: float) -> str:

@@ -145,7 +145,7 @@ class TouchdownBearing(Table):
     def _wrong(self) -> list[InputError]:
         """What does not fit together: entries that must be left out, and those that are missing."""
         present = self.given.keys()
-        refused, needed = self._rules(present) if self.is_compliant else (self._rules_of_rigid(), [])
+        refused, needed = self._rules(present)
         needed += [
             (name, words, not present.isdisjoint(others)) for others, names, words in _TOGETHER for name in names
         ]
@@ -155,12 +155,11 @@ class TouchdownBearing(Table):
             if applies and name in present
         ] + [InputError(name, None, words) for name, words, applies in needed if applies and name not in present]
 
-    def _rules_of_rigid(self) -> list[_Rule]:
-        others = sorted({*OF_LAW, *OF_BALLS} - {"restitution"})
-        return [(name, "the law of a rigid wall has none", True) for name in others]
-
     def _rules(self, present: Set[str]) -> tuple[list[_Rule], list[_Rule]]:
-        """Entries that a compliant bearing must not have, and those that it needs."""
+        """Entries that a bearing of this law must not have, and those that it needs."""
+        if not self.is_compliant:
+            others = sorted({*OF_LAW, *OF_BALLS} - {"restitution"})
+            return [(name, "the law of a rigid wall has none", True) for name in others], []
         law, is_linear = self.law, self.law == "kelvin-voigt"
         own, other = ("damping", "dissipation") if is_linear else ("dissipation", "damping")
         restitutes, speed = "restitution" in present, "restitution_speed"

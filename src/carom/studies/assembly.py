@@ -15,10 +15,9 @@ from typing import Any, ClassVar, NamedTuple, get_args
 
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.base.arguments import checked
-from carom.base.boxes import box
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.base.results import in_a_line
+from carom.base.results import box, in_a_line
 from carom.closed_forms import contact_free_kick
 from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.exact_results import exact_results
