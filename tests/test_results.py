@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.base.results import WIDEST, Result, fields_of, in_a_line, in_si
+from carom.base.results import WIDEST, Result, in_a_line, in_si, record
 
 
 class Colour(enum.Enum):
@@ -133,7 +133,7 @@ def test_a_machine_shows_what_its_file_says_and_what_follows():
 def test_numbers_of_a_document_have_twins_in_si_units_where_the_machine_is_known():
     scales = carom.parameters.Scales(2.0, 1e-3, 100.0)
     document = {"radius": 0.5, "found": None, "bracket": [None, 3.0], "name": "x"}
-    twins = in_si(document, scales, "radius", found="velocity", bracket="time")
+    twins = in_si(document, scales, radius="length", found="velocity", bracket="time")
     assert twins == {"radius_si": 0.5 * scales.length, "found_si": None, "bracket_si": [None, 3.0 * scales.time]}
-    assert in_si(document, None, "radius", found="velocity") == {}
-    assert fields_of(scales, "mass", unit="velocity", size="length.real") == {"mass": 2.0, "unit": 0.1, "size": 1e-3}
+    assert in_si(document, None, radius="length") == {}
+    assert record(scales, "mass unit=velocity size=length.real") == {"mass": 2.0, "unit": 0.1, "size": 1e-3}

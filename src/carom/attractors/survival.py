@@ -11,7 +11,7 @@ import numpy as np
 from carom.attractors.intervals import CONFIDENCE, exact_interval
 from carom.base.arguments import Count, Reals, Whole, checked
 from carom.base.outcome import Outcome
-from carom.base.results import fields_of
+from carom.base.results import record
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.ensembles import Endings, settle
@@ -254,5 +254,5 @@ def document_of(survival: Survival | None) -> dict[str, object]:
     """Document of the survival for JSON; without a survival the motion is not irregular."""
     if survival is None:
         return {"transient": False, "half_life_impacts": None}
-    half_life = fields_of(survival, half_life_impacts="half_life", half_life_interval_impacts="interval")
+    half_life = record(survival, "half_life_impacts=half_life half_life_interval_impacts=interval")
     return {"transient": survival.transient, **half_life, "survival": survival.words}

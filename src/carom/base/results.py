@@ -139,15 +139,6 @@ def format_value(kind: str, value: object, scales: object) -> str:
     return f"{in_a_line(value, scales)}{beside}"
 
 
-def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, object]:
-    """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``, ``kind="edge.kind"``.
-
-    What has a method ``document`` is given by that; of ``None`` every attribute is ``None``.
-    """
-    keys = dict(zip(names, names, strict=True)) | renamed
-    return {key: _plain(_attribute(entry, name)) for key, name in keys.items()}
-
-
 def _attribute(entry: object, path: str) -> object:
     for name in path.split("."):
         entry = None if entry is None else getattr(entry, name)
@@ -166,13 +157,14 @@ def record(entry: object, columns: str, scales: object = None) -> dict[str, Any]
     """Attributes as plain data for JSON, by the declaration of their columns: ``"name kind=edge.kind period: lost=size:velocity"``.
 
     A column is a key, behind ``=`` the attribute where it has another name, and behind ``:`` what kind of number it is, by default that of :data:`KINDS`.
-    With scales such a number is there once more, in SI units under a key that ends in ``_si``.
+    With scales such a number is there once more, in SI units under a key that ends in ``_si``.  What has a method ``document`` is
+    given by that; of ``None`` every attribute is ``None``.
     """
     found, kinds = dict[str, object](), dict[str, str]()
     for column in columns.split():
         named, is_number, kind = column.partition(":")
         key, _, name = named.partition("=")
-        found |= fields_of(entry, **{key: name or key})
+        found[key] = _plain(_attribute(entry, name or key))
         if is_number:
             kinds[key] = kind or KINDS[key]
     return found | in_si(found, scales, **kinds)
@@ -220,14 +212,13 @@ def flags(values: object, meanings: Iterable[str]) -> dict[str, Any]:
     return {"flag_values": values, "flag_meanings": words}
 
 
-def in_si(values: Mapping[str, object], scales: object, /, *names: str, **kinds: str) -> dict[str, object]:
+def in_si(values: Mapping[str, object], scales: object, **kinds: str) -> dict[str, object]:
     """Some numbers of a document once more, in SI units under keys that end in ``_si``; nothing without scales.
 
-    What a number is says :data:`KINDS`, or the name of a property of the scales: ``lost="velocity"``.
+    What a number is says the name of a property of the scales: ``lost="velocity"``.
     """
     if scales is None:
         return {}
-    kinds = {name: KINDS[name] for name in names} | kinds
     return {f"{name}_si": _times(values[name], getattr(scales, kind)) for name, kind in kinds.items()}
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.attractors import MotionName
 from carom.base.outcome import Outcome
-from carom.base.results import Column, fields_of, in_si
+from carom.base.results import Column, in_si, record
 from carom.basins.brackets import SmallestUnrecovered
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
@@ -88,7 +88,7 @@ def basin_document(
     """
     scales, attributes = basin.scales, basin.dataset.attrs
     document: dict[str, Any] = {
-        **fields_of(basin, "starts", "fractions", "beyond_model", "unresolved", "irregular"),
+        **record(basin, "starts fractions beyond_model unresolved irregular"),
         **_loss(smallest, basin, "kick"),
         "harmless_kick": contact_free,
         "recovered": _share(basin.share_recovered),
@@ -105,7 +105,7 @@ def basin_document(
     }
     document |= in_si(document, scales, harmless_kick="velocity")
     if scales is not None:
-        document["scales_si"] = fields_of(scales, *SCALING)
+        document["scales_si"] = record(scales, " ".join(SCALING))
     model = basin.plan.model
     if smallest is not None and smallest.kind != "kick":
         document |= _loss(smallest, basin, smallest.kind)
@@ -146,7 +146,7 @@ def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict
 
 def _share(share: Share) -> dict[str, object]:
     method = "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area"
-    return fields_of(share, "fraction", "count", "low", "high") | {"method": method}
+    return record(share, "fraction count low high") | {"method": method}
 
 
 def _terms(gains: GainMap, case: Case) -> list[dict[str, object]]:
@@ -154,7 +154,7 @@ def _terms(gains: GainMap, case: Case) -> list[dict[str, object]]:
     shown = []
     for varied in gains.axes:
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]
-        shown.append(fields_of(stated[0], "entry", "unit") | {"values": [each.value for each in stated]})
+        shown.append(record(stated[0], "entry unit") | {"values": [each.value for each in stated]})
     return shown
 
 

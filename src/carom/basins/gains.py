@@ -14,7 +14,7 @@ import numpy as np
 from carom.base.arguments import Count, Whole, checked
 from carom.base.outcome import Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.base.results import fields_of
+from carom.base.results import record
 from carom.basins.dataset import Mapped, provenance
 from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
 from carom.basins.shares import Population, Share
@@ -136,7 +136,7 @@ def map_gains(
         **provenance(rotor, disturbances),
         "title": "Share of disturbances that come back to levitation, against two parameters",
         **limits,
-        "present_share": json.dumps(fields_of(now["share"], "fraction", "low", "high", "count", "total")),
+        "present_share": json.dumps(record(now["share"], "fraction low high count total")),
     }
     return GainMap(dataset)
 

@@ -15,7 +15,7 @@ import numpy as np
 from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
 from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.base.arguments import Truths, Whole, checked
-from carom.base.results import fields_of
+from carom.base.results import record
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
 from carom.disturbances.plans import ANY_INSTANT, ITS_INSTANT, instants_words
 from carom.parameters import Scales
@@ -141,7 +141,7 @@ class Share:
         of = self.population
         si = {} if of.up_to_si is None else {"up_to_si": of.up_to_si}
         when = {"at": of.at} if of.at else {}
-        return fields_of(of, "of", "up_to") | si | when | fields_of(self, estimate="fraction", low="low", high="high")
+        return record(of, "of up_to") | si | when | record(self, "estimate=fraction low high")
 
 
 @checked

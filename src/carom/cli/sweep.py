@@ -97,17 +97,17 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: Failures) -> dict[str, object]:
-    from carom.base.results import fields_of
+    from carom.base.results import record
 
     return {
         "store": str(tally.store),
         "kind": plan.task.kind,
         "disturbances": plan.task.words,
         "axes": {axis.name: axis.count for axis in plan.axes},
-        **fields_of(tally, "points", "done", "failed", "waiting"),
+        **record(tally, "points done failed waiting"),
         "chunks": plan.chunks,
         "starts": plan.points * plan.task.starts,
-        **fields_of(tally, "computed", "seconds", "rate"),
+        **record(tally, "computed seconds rate"),
         "damaged": len(tally.damaged),
         "failures": failures,
     }

@@ -66,11 +66,11 @@ class _Stated(NamedTuple):
     entry: str
     exact: Decimal
     unit: str
-    letter: bool
     field: Field
 
     def written(self, number: str) -> str:
-        return f"{self.unit} {number}" if self.letter else f"{number} {self.unit}".rstrip()
+        is_letter = self.unit and self.unit == self.field.letter
+        return f"{self.unit} {number}" if is_letter else f"{number} {self.unit}".rstrip()
 
 
 @checked
@@ -139,9 +139,8 @@ def _stated(case: Case, name: str, value: Decimal) -> _Stated:
         value = TERMS[entry].entry(value, *(_needed(machine, need) for need in TERMS[entry].needs))
     field, written = SETTABLE.get(entry) or case.parameters.varied[entry], given.get(entry)
     unit = (unit_of(field, written) if isinstance(written, str) else "") or field.usual_unit
-    if field.letter and unit == field.letter:
-        return _Stated(entry, value, unit, letter=True, field=field)
-    return _Stated(entry, value / unit_factor(field, unit, unit) if unit else value, unit, letter=False, field=field)
+    size = unit_factor(field, unit, unit) if unit and unit != field.letter else 1
+    return _Stated(entry, value / size, unit, field)
 
 
 def _changed(case: Case, stated: _Stated, number: Decimal) -> Case:

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.base.arguments import Whole, checked
 from carom.base.outcome import STEADY_WORDS
-from carom.base.results import fields_of, in_si
+from carom.base.results import in_si, record
 from carom.parameters import Case, Zones
 from carom.sweeps.variables import LEVITATES, Variable, with_si
 
@@ -93,7 +93,7 @@ class StudyTask:
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
-        return fields_of(self, "kind", "disturbances", "zone_limits")
+        return record(self, "kind disturbances zone_limits")
 
     def evaluate(self, machine: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, object]:
         """Compute the values of one machine by variable name; a variable without a value is left out.

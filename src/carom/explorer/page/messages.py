@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, fields
 from typing import Any
 
-from carom.base.results import fields_of
+from carom.base.results import record
 from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
@@ -191,8 +191,8 @@ def loss_message(found: Loss, plane: DisturbancePlane, scales: Scales | None) ->
 def diagram_message(picture: DiagramPicture) -> Message:
     """Lines, bars and points of a diagram, by column."""
     return {
-        **fields_of(picture.control, "name", "words", "unit", "low", "high"),
-        **fields_of(picture, "speed_unit", "top"),
+        **record(picture.control, "name words unit low high"),
+        **record(picture, "speed_unit top"),
         "lines": [asdict(line) for line in picture.lines],
         "bars": [asdict(bar) for bar in picture.bars],
         "points": {one.name: [getattr(point, one.name) for point in picture.points] for one in fields(DiagramPoint)},

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from carom.base.outcome import CaromError
 from carom.base.progress import ShowProgress
-from carom.base.results import fields_of
+from carom.base.results import record
 from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
@@ -279,7 +279,7 @@ class Questions:
         return vars(find_hardest(rotor, self._plane(shown), self._judged(shown), case.limits, tell))
 
     def _verdict(self, shown: Shown, tell: ShowProgress) -> Message:
-        return fields_of(judge(shown.subject.case, tell), "lead", "advice", "survived")
+        return record(judge(shown.subject.case, tell), "lead advice survived")
 
     def _diagram(self, shown: Shown, tell: ShowProgress) -> Message:
         others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))

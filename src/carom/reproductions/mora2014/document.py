@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carom.base.results import fields_of
+from carom.base.results import record
 from carom.reproductions.mora2014.pictures import Picture
 from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.reproductions.mora2014.source import CITATION, machine_at
@@ -36,23 +36,21 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
         "source": CITATION,
         "parameters": {name: value for name, value in machine_at(0.1).as_dict().items() if name != "gamma"},
         "numbers": [
-            {"where": row.place, **fields_of(row, "quantity", "kind", "printed", *value, "unit", "agrees", "note")}
+            {"where": row.place, **record(row, f"quantity kind printed {' '.join(value)} unit agrees note")}
             for row in found.numbers
         ],
         "misprints": [
-            {"where": row.place, **fields_of(row, "printed", "right", "quantity", *value)} for row in found.misprints
+            {"where": row.place, **record(row, f"printed right quantity {' '.join(value)}")} for row in found.misprints
         ],
-        "curves": [fields_of(curve, "kind", "points", "admissible", ends="stops") for curve in found.plane.curves],
-        "codim2": [
-            fields_of(point, "kind", "value", "period") for curve in found.plane.curves for point in curve.codimension2
-        ],
+        "curves": [record(curve, "kind points admissible ends=stops") for curve in found.plane.curves],
+        "codim2": [record(point, "kind value period") for curve in found.plane.curves for point in curve.codimension2],
         "regions": [
             {
                 "name": region.source,
                 "part": region.part,
                 "point": list(region.point),
                 "motions": region.motions.words,
-                **fields_of(region.motions, "contact_free", "orbits", "stable_orbits", "rub", "rolling"),
+                **record(region.motions, "contact_free orbits stable_orbits rub rolling"),
                 "note": region.words,
             }
             for region in found.plane.regions
