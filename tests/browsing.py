@@ -33,7 +33,7 @@ def judge(case, tell):
     rest_of(rotor_of(case))  # refused where there is no levitation, as a study is
     return SimpleNamespace(
         advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
-        lead="Came back each time from what it must survive, vibration in zone C: no guarantee, as disturbances are samples.",
+        lead="Came back in every trial from what it must survive, vibration in zone C: sampled, not proven.",
         survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
     )
 questions.judge = judge

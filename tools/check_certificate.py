@@ -842,7 +842,7 @@ def rub_facts(m: Machine) -> dict:
     exists, found = positive(inner), {}
     for rub, words, sign in (("rub 1", "larger", 1), ("rub 2", "smaller", -1)):
         found[rub, "solution"] = Fact(
-            f"The balance of forces of a synchronous rub has two solutions; this is that of the {words} normal force.",
+            f"The balance of forces of a synchronous rub has two solutions; this is the one with the {words} normal force.",
             exists, {}, {"no rub is in balance, or both are one"},
         )  # fmt: skip
         if not exists:

@@ -2,8 +2,8 @@
 1. Levitation and rub
 =====================
 
-A rotor can stay in one place of the co-rotating frame in two ways: it levitates without contact, or it is pressed on the touchdown
-bearing and slides along it once a turn, the synchronous rub.  :func:`carom.find_equilibria` finds all of both.
+A rotor can be at rest in the co-rotating frame in two ways: it levitates without contact, or it is pressed against the touchdown
+bearing and slides round it once a turn, the synchronous rub.  :func:`carom.find_equilibria` finds all equilibria of both kinds.
 """
 
 import numpy as np
@@ -16,9 +16,9 @@ for equilibrium in equilibria:
     print(equilibrium.kind, equilibrium.status, "stable" if equilibrium.stable else "unstable", equilibrium.radius)
 
 # %%
-# What to see: the pentagon is levitation, the squares on the wall are rubs.  The filled one attracts, the hollow one does not.  The small
-# points are the same for speeds from 600 to 4000 rpm: as the speed rises levitation moves out to the wall at the right, is lost near the
-# natural frequency, and comes back in from the left.  This machine sits just inside the wall.
+# What to see: the pentagon is levitation, the squares on the wall are rubs.  The filled rub is stable, the hollow one is not.  The small
+# points are the equilibria at speeds from 600 to 4000 rpm: as the speed rises, levitation moves out to the wall at the right, is lost near the
+# natural frequency, and returns from the left.  This machine levitates just inside the wall.
 figure = equilibria.plot()
 (panel,) = figure.axes
 length = 1e3 * machine.parameters.scales.length

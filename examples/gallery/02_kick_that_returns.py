@@ -2,8 +2,8 @@
 2. A kick that comes back
 =========================
 
-A kick changes the velocity of the levitating rotor at once.  :func:`carom.simulate` follows it exactly; with ``settle=True`` until it is
-known where the motion ends.
+A kick is a sudden change of the velocity of the levitating rotor.  :func:`carom.simulate` computes the motion after it to rounding accuracy; with ``settle=True``
+until its outcome is certain.
 """
 
 import carom as cm
@@ -14,6 +14,6 @@ print(motion.outcome.meaning)
 print(len(motion.contacts), "impacts")
 
 # %%
-# What to see: the distance from the centre of the bearing over time.  The curve strikes the wall three times, at the triangles, misses it
-# narrowly at 77 ms, and dies out to the radius of levitation.
+# What to see: the distance from the bearing centre over time.  The rotor hits the wall three times, at the triangles, narrowly misses it
+# at 77 ms, and the curve decays to the radius of levitation.
 figure = cm.plots.radius(motion)

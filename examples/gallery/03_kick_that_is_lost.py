@@ -1,8 +1,8 @@
 """
-3. A kick that is lost
-======================
+3. A kick that does not come back
+=================================
 
-The same kick in another direction does not come back: the rotor goes on bouncing, one impact a period, for ever.
+After the same kick in another direction the rotor does not come back: it keeps bouncing periodically, with one impact a period.
 """
 
 import carom as cm
@@ -14,6 +14,6 @@ print(len(motion.contacts), "impacts until it has settled,", motion.multiplicity
 
 # %%
 # What to see: on the left, in the frame that turns with the shaft, the last eight turns are one small loop that touches the wall once: that is
-# regular bouncing.  The points say where the rotor was once a turn before.  On the right the same loop as seen from outside, its impacts all
+# regular bouncing.  The points are positions once a turn before that.  On the right is the same motion in the fixed frame, with its impacts all
 # round the bearing.
 figure = cm.plots.motion(motion)

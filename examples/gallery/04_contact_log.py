@@ -14,6 +14,6 @@ impulse = log.normal_impulse
 print(f"{log.sizes['contact']} impacts, the hardest {float(impulse.max()):.3g} {impulse.units}")
 
 # %%
-# What to see: in the middle each stem is an impact, its height the impulse.  The fourth impact is the hardest; later they settle at 9 N s, which is
-# what the bearing has to bear in regular bouncing.
+# What to see: in the middle each stem is an impact, its height the impulse.  The fourth impact is the hardest; later impulses settle at 9 N s, which the
+# bearing has to carry in regular bouncing.
 figure = cm.plots.touchdown(motion)

@@ -2,8 +2,8 @@
 5. Chatter
 ==========
 
-Impacts may follow each other ever faster, infinitely many in a finite time.  carom sums the series of the bounces, and the rotor slides
-along the bearing afterwards.  With a restitution of 0.5 that takes few bounces.
+Impacts may follow each other ever faster, infinitely many in a finite time.  carom sums the series of the bounces, after which the rotor slides
+along the bearing.  With a restitution of 0.5 this takes few bounces.
 """
 
 import carom as cm
@@ -13,8 +13,8 @@ motion = cm.simulate(machine, cm.kick("100 mm/s"), until="120 ms")
 print(len(motion.contacts), "impacts;", [contact.kind for contact in motion.lasting_contacts])
 
 # %%
-# What to see: the last bounces before the slide, enlarged.  Each is lower and shorter than the one before, by the same factor; at 13.5 ms
-# infinitely many have passed, and the thick line along the wall is the slide.
+# What to see: the last bounces before sliding, enlarged.  Each is shorter than the one before by the same factor; by 13.5 ms
+# infinitely many have occurred, and the thick line along the wall is the sliding.
 first = motion.lasting_contacts[0]
 figure = cm.plots.radius(motion)
 (panel, *_) = figure.axes

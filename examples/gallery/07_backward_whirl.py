@@ -2,8 +2,8 @@
 7. Backward whirl
 =================
 
-Friction pulls a rotor that slides against its rotation ever faster backward, until it rolls round the bearing at many times the speed
-of the shaft.  This is the motion that destroys machines.
+Friction accelerates the whirl of a rotor that slides backward along the wall, until it rolls round the bearing at many times the shaft
+speed.  This is the motion that destroys machines.
 """
 
 import carom as cm
@@ -20,6 +20,6 @@ motion = cm.simulate(machine, cm.State(1.0, -1j * (whirl + 1.0)), until=3.2)
 print([contact.kind for contact in motion.lasting_contacts])
 
 # %%
-# What to see: the force on the bearing grows four-hundredfold within 16 ms, a turn of the shaft being 34 ms; mind the logarithmic axis.  Where
-# the friction force drops the slip has ended and the rotor rolls.  No wall is rigid under 4 MN: the study says so, and calls it *no model*.
+# What to see: the force on the bearing grows four-hundredfold within 16 ms (a turn of the shaft takes 34 ms); note the logarithmic axis.  Where
+# the friction force drops, slip has ended and the rotor rolls.  No wall is rigid under 4 MN: the study says so and states *no model* for this force.
 figure = cm.plots.touchdown(motion)

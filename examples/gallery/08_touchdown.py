@@ -11,6 +11,6 @@ machine = cm.load("../keogh-cole.toml", ["restitution=0.6"])
 motion = cm.simulate(machine, cm.kick("100 mm/s", "60 deg"), until="100 ms")
 
 # %%
-# What to see: from top to bottom, the bounces fade to lasting contact at 41 ms; the impulses shrink, and a force of about
-# 1 kN takes their place; the slip stays, for the rotor slides and does not roll; friction takes energy that the drive supplies.
+# What to see: from top to bottom, the bounces decay to lasting contact at 41 ms; the impulses shrink, and a force of about
+# 1 kN replaces them; slip persists, because the rotor slides and does not roll; friction dissipates energy that the drive supplies.
 figure = cm.plots.touchdown(motion, cm.motions.energy_ledger(motion))

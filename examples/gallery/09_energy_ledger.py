@@ -2,8 +2,8 @@
 9. Where the energy comes from
 ==============================
 
-The ledger of a motion lists what every force did to the rotor.  Contact itself never supplies energy, but through friction the drive of
-the shaft does.  The balance closes to rounding.
+The energy ledger of a motion lists the work of every force.  Contact itself never supplies energy, but the drive of the shaft does, through
+friction.  The balance closes to rounding.
 """
 
 import carom as cm
@@ -14,6 +14,6 @@ ledger = cm.motions.energy_ledger(motion)
 print(f"error of the balance: {ledger.imbalance:.1e} of the largest energy")
 
 # %%
-# What to see: the contact takes 40 J in three impacts, the falling line, and the drive of the shaft supplies as much, the rising line, since
-# friction pulls the rotor along.  The energy of the rotor itself, near zero, hardly shows.
+# What to see: contact dissipates 40 J in three impacts (falling line), and the drive of the shaft supplies as much (rising line) through
+# friction.  The energy of the rotor itself, near zero, is hardly visible.
 figure = ledger.plot()

@@ -2,7 +2,7 @@
 10. Save a motion and read it again
 ===================================
 
-A motion is stored exactly, to the last bit, with the rotor it belongs to.
+A motion is saved to the last bit, together with its rotor.
 """
 
 import tempfile
@@ -21,6 +21,6 @@ print(again.final == motion.final, len(again.contacts))
 # %%
 # For other programs, its course at any times is a dataset with units.
 #
-# What to see: the motion as it was read back.  It hops along the wall from levitation at the left to where it will bounce, at the right.
+# What to see: the motion as read back.  The rotor hops along the wall from levitation at the left to the place of regular bouncing at the right.
 print(list(motion.to_dataset().data_vars))
 figure = again.plot()

@@ -2,7 +2,7 @@
 11. All orbits with one impact a period
 =======================================
 
-:func:`carom.find_orbits` solves the equation of the periods for all its roots, so the list is complete, and it says why.
+:func:`carom.find_orbits` finds all roots of the equation of the periods, so the list is complete; the result states the argument.
 """
 
 import carom as cm
@@ -15,5 +15,5 @@ print(orbits.argument)
 
 # %%
 # What to see: each orbit is a loop that touches the wall once, in the frame that turns with the shaft.  Only the large solid one, B1,d, is
-# stable: on it the machine bounces for ever.  The dashed ones are unstable; those beside the rub are too small to be seen here, and :meth:`carom.orbits.Orbit.plot` enlarges them.
+# stable: bouncing on it persists.  The dashed ones are unstable; those next to the rub are too small to be seen here, and :meth:`carom.orbits.Orbit.plot` enlarges them.
 figure = orbits.plot(cm.find_equilibria(machine))

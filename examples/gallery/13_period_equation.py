@@ -15,7 +15,7 @@ orbits = cm.find_orbits(machine)
 periods = np.linspace(0.05, 30.0, 2000)
 
 # %%
-# What to see: the curve crosses zero at two periods only, the dots.  It oscillates on above zero; in the shaded range a bound excludes roots.
+# What to see: the curve crosses zero at two periods only, the dots.  Beyond them it oscillates above zero; in the shaded range a bound excludes roots.
 figure = plt.figure()
 axes = figure.subplots()
 axes.plot(periods, cm.orbits.period_condition(machine, periods))

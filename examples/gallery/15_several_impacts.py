@@ -2,8 +2,8 @@
 15. Orbits with several impacts
 ===============================
 
-Such orbits are searched: stretches of simulated motions are guesses for Newton's method.  Each orbit found is checked; nothing proves that
-they are all, but the share of fresh motions that end on one of them is measured.
+Such orbits are found by search: sections of simulated motions are initial guesses for Newton's method.  Each orbit found is checked; the list may be
+incomplete, but the share of new motions that end on one of the orbits is measured.
 """
 
 import carom as cm
@@ -15,7 +15,7 @@ for orbit in orbits:
 print(orbits.argument)
 
 # %%
-# What to see: the stable one of the orbits with two impacts.  On the left both impacts are nearly at the same place: it was born from the orbit
-# with one, where that doubles its period, and is close to it still.
+# What to see: the stable orbit with two impacts.  On the left both impacts are nearly at the same place: the orbit was born in a period doubling of
+# the orbit with one impact, and is still close to it.
 (doubled,) = (orbit for orbit in orbits if orbit.impacts == 2 and orbit.stable)
 figure = doubled.plot()

@@ -2,7 +2,7 @@
 16. The orbit on which a motion has settled
 ===========================================
 
-A motion approaches its orbit without reaching it.  :func:`carom.orbits.orbit_of_motion` reads which contacts follow one another and closes
+A motion approaches its orbit without reaching it.  :func:`carom.orbits.orbit_of_motion` reads the sequence of contacts and closes
 the orbit exactly.
 """
 
@@ -15,5 +15,5 @@ print(f"period {orbit.period:.12f}, known exactly: {cm.find_orbits(machine)['B1,
 print(orbit.margins)
 
 # %%
-# What to see: three periods of the orbit.  All bounces are alike, since the orbit is closed exactly, not read from a decaying motion.
+# What to see: three periods of the orbit.  All bounces are identical, because the orbit is closed exactly, not taken from a decaying motion.
 figure = cm.plots.radius(orbit.trajectory(3))

@@ -2,8 +2,8 @@
 17. An orbit along the damping
 ==============================
 
-:func:`carom.continue_orbit` follows an orbit through folds and through stretches where it is no motion of the machine, and finds the special
-points on the way.
+:func:`carom.continue_orbit` follows an orbit through folds and through intervals where it is virtual, and finds the special
+points on the branch.
 """
 
 from matplotlib.figure import Figure
@@ -17,7 +17,7 @@ for point in branch.special:
     print(f"{point.kind:16s} {point.value:9.3f} N s/m")
 
 # %%
-# What to see: the branch turns back at the fold, the rightmost point: beyond this damping the motion does not exist.  It is stable on the
+# What to see: the branch turns back at the fold, the rightmost point: beyond this damping the orbit does not exist.  It is stable on the
 # upper part, between the fold and the next special point, the period doubling.
 figure = Figure(figsize=(6.0, 3.6), layout="constrained")
 panel = figure.subplots()

@@ -15,6 +15,6 @@ doubled = cm.bifurcations.switch(doubling, (0.08, 0.0834))
 print(f"orbits of period {doubled.period.min():.4f} to {doubled.period.max():.4f}; ends: {doubled.stops}")
 
 # %%
-# What to see: the middle orbit of the new branch.  On the left there are two loops and two impacts where the orbit from which it was born has
+# What to see: the middle orbit of the new branch.  On the left it has two loops and two impacts; the orbit from which it branched off has
 # one.
 figure = doubled.orbits[len(doubled) // 2].plot()

@@ -2,7 +2,7 @@
 19. Grazing
 ===========
 
-An orbit that touches the wall without speed between its impacts grazes.  There the sequence of contacts changes.
+An orbit that touches the wall with zero radial speed between its impacts grazes.  There the sequence of contacts changes.
 """
 
 import carom as cm
@@ -13,6 +13,6 @@ branch = cm.continue_orbit(cm.find_orbits(machine)["B1,d"], "gamma", (0.05, 0.1)
 print(f"grazes at gamma = {grazing.value:.10f}; beyond it is {branch.orbits[0].reason or 'admissible'}")
 
 # %%
-# What to see: between two impacts, at the triangles, the curve just touches the wall.  With less damping it would cross it: the orbit is no
-# motion any more.
+# What to see: between two impacts, at the triangles, the curve just touches the wall.  With less damping it would cross the wall: the orbit is then
+# virtual.
 figure = cm.plots.radius(grazing.orbit.trajectory(2))

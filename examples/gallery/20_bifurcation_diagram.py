@@ -13,7 +13,7 @@ for point in diagram.points:
     print(f"{point.kind:22s} {point.name:16s} {point.value:8.1f} N s/m")
 
 # %%
-# What to see: in the lowest panel each bar is a motion that can hold the rotor.  Right of where the bar of bouncing ends (two orbits meet, the
-# black triangles) and that of the rub (the cross) only levitation and, after a violent start, backward whirl are left.  The dotted line is
-# the machine as it is: it has all four.
+# What to see: in the lowest panel each bar is a motion that can persist.  To the right of the ends of bouncing (two orbits meet, the
+# black triangles) and of the rub (the cross) only levitation and, after a violent start, backward whirl are left.  The dotted line is
+# the present machine: it has all four motions.
 figure = diagram.plot()

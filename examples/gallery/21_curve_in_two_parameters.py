@@ -18,8 +18,8 @@ curve = cm.continue_curve(fold, plane)
 print(curve.kind, len(curve.points), "points; ends:", curve.stops)
 
 # %%
-# What to see: to the right of the curve, at more damping, no orbit with one impact a period exists.  The star is the machine: at its speed 240
-# N s/m more are enough, and the faster it runs the more it needs.
+# What to see: to the right of the curve, at higher damping, no orbit with one impact a period exists.  The star is the machine: at its speed another
+# 240 N s/m are enough, and the faster it runs the more it needs.
 figure = Figure(figsize=(5.0, 3.8), layout="constrained")
 panel = figure.subplots()
 rpm = np.pi / 30.0

@@ -2,7 +2,7 @@
 22. Regions of damping and stiffness
 ====================================
 
-All curves of a plane, and which motions coexist in the regions between them.
+All bifurcation curves in the plane of two parameters, and the motions that coexist in the regions between them.
 """
 
 import carom as cm
@@ -14,6 +14,6 @@ for region in regions.regions[:3]:
     print(region.motions)
 
 # %%
-# What to see: below the green curve the machine levitates, above it it cannot.  Between the dashed and the black line it can also bounce for
-# ever.  Each area has a number, and the list below tells the motions in it; the star is the machine.
+# What to see: below the green curve the machine levitates, above it cannot.  Between the dashed and the black line it can also keep
+# bouncing.  Each region has a number, and the list below states its motions; the star is the machine.
 figure = regions.plot()

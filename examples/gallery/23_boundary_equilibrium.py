@@ -2,7 +2,7 @@
 23. Orbits that shrink into the wall
 ====================================
 
-Where levitation meets the wall, bouncing orbits may shrink to nothing: the non-smooth Hopf bifurcation.  It decides what becomes of the
+Where levitation reaches the wall, bouncing orbits may shrink to zero amplitude: the non-smooth Hopf bifurcation.  It determines the motion of the
 rotor when the damping falls.
 """
 
@@ -13,7 +13,7 @@ machine = cm.load("../source-paper.toml")
 print(boundary.words)
 
 # %%
-# What to see: near the wall, enlarged, a small unstable loop beside levitation, the pentagon.  It bounds what levitation recovers from, and
-# shrinks into it as the damping falls.
+# What to see: near the wall, enlarged, a small unstable loop next to levitation, the pentagon.  It limits the disturbances that come back, and
+# shrinks to levitation as the damping falls.
 near = machine.replace(gamma=boundary.value + 0.002)
 figure = cm.find_orbits(near)["B1,b"].plot()

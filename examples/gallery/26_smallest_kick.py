@@ -1,8 +1,8 @@
 """
-26. The smallest kick that is lost
-==================================
+26. The smallest kick that does not come back
+=============================================
 
-A search over sizes and directions brackets the size at which kicks begin to be lost.  Up to a smaller size contact is impossible: that is
+A search over sizes and directions brackets the smallest kick that does not come back.  Up to a smaller size contact is impossible, which is
 proven.
 """
 
@@ -15,6 +15,6 @@ unit = 1e3 * machine.parameters.scales.velocity
 print(f"no contact up to {smallest.contact_free * unit:.3g} mm/s; lost from {smallest.size * unit:.4g} mm/s on")
 
 # %%
-# What to see: the small circle at the edge of the green core is the smallest lost kick.  Inside the dashed ring no kick reaches the wall.
+# What to see: the small circle at the edge of the green core is the smallest kick found that does not come back.  Inside the dashed ring no kick leads to contact.
 basin = cm.map_basins(machine, cm.Grid(kicks, (40, 60)))
 figure = basin.plot(smallest)

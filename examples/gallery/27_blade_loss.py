@@ -1,8 +1,8 @@
 """
-27. The loss of a blade
-=======================
+27. Blade loss
+==============
 
-The unbalance of the levitating rotor changes at once by that of the lost blade.  Only the phase of this change is left to chance: the picture is a ring.
+The unbalance of the levitating rotor changes suddenly by that of the lost blade.  Only the phase of this change is random: the picture is a ring.
 """
 
 import carom as cm
@@ -13,5 +13,5 @@ basin = cm.map_basins(machine, cm.Grid(loss, (360,)))
 print(basin.share_recovered.words)
 
 # %%
-# What to see: some phases of the change, relative to the unbalance before at the right, come back; at the others the rotor rubs.  Where a blade is lost is chance, so the share of green is the chance to come back.
+# What to see: at some phases of the change, measured from the previous unbalance at the right, the rotor comes back; at the others it rubs.  The phase is random, so the green share is the probability of recovery.
 figure = basin.plot()

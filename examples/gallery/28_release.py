@@ -12,6 +12,6 @@ basin = cm.map_basins(machine, cm.Grid(cm.disturbances.ContactRelease("fixed"), 
 print(basin.share_recovered.words)
 
 # %%
-# What to see: each place on the ring is one where the rotor may lie when it is lifted.  From those at the left it levitates, from those at the
-# right it goes on bouncing: the unbalance decides, not gravity.
+# What to see: each point on the ring is a position at which the rotor may lie when it is lifted.  From those at the left it levitates, from those at the
+# right it keeps bouncing: the unbalance decides, not gravity.
 figure = basin.plot()

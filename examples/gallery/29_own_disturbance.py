@@ -2,7 +2,7 @@
 29. A disturbance of your own
 =============================
 
-A frozen dataclass with the coordinates by which it varies, and the starts to which it leads, goes wherever a built-in one does.
+A frozen dataclass with the coordinates of the disturbance and the states at which motions start can be used wherever a built-in disturbance can.
 """
 
 from dataclasses import dataclass
@@ -40,6 +40,6 @@ basin = cm.map_basins(machine, cm.Grid(HeldAside(), (40, 60)))
 print(basin.share_recovered.words)
 
 # %%
-# What to see: let go from the small green area around levitation the rotor comes back; from further away it rubs or bounces.  The white part lies
+# What to see: released from the small green area around levitation the rotor comes back; from further away it rubs or bounces.  The white part lies
 # beyond the wall.
 figure = basin.plot()

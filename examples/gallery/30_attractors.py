@@ -2,7 +2,7 @@
 30. Where disturbances end
 ==========================
 
-A seeded sample of kicks and of starts within the clearance, followed until each motion is known.  The intervals are those at 95 %
+A seeded sample of kicks and of starts within the clearance, simulated until each outcome is certain.  The intervals have 95 %
 confidence.
 """
 
@@ -14,6 +14,6 @@ for attractor in found:
     print(f"{attractor.name.words:22s} {attractor.share_of_disturbances:6.1%}")
 
 # %%
-# What to see: two bars: two thirds of the disturbances end in regular bouncing.  The motions without a bar exist, and hold the rotor once it is
-# there, but no disturbance of this sample reached them.
+# What to see: two bars: two thirds of the disturbances end in regular bouncing.  The motions without a bar exist and persist once reached,
+# but no disturbance of this sample reached them.
 figure = found.plot()

@@ -1,8 +1,8 @@
 """
-31. Which gains bring back more
-===============================
+31. Which gains bring back more kicks
+=====================================
 
-The share of kicks that comes back, over stiffness (P gain) and damping (D gain).
+The share of kicks that come back, over stiffness (P gain) and damping (D gain).
 """
 
 import carom as cm
@@ -14,6 +14,6 @@ ranges = (("5e5 N/m", "2e6 N/m"), ("700 N s/m", "5000 N s/m"))
 gains = cm.map_gains(machine, sample, ranges=ranges, shape=(10, 10))
 
 # %%
-# What to see: above the solid line 99 % of the kicks come back.  The star is the machine as it is: twice its damping is not enough, three times is.
-# Where it is hatched the machine cannot levitate.
+# What to see: above the solid line at least 99 % of the kicks come back.  The star is the present machine: twice its damping is not enough, three times is.
+# In the hatched area the machine cannot levitate.
 figure = gains.plot()

@@ -18,6 +18,6 @@ data = cm.run_sweep(plan_sweep(case, axes, cm.disturbances.Sample(kicks, 60, see
 print(dict(data.sizes))
 
 # %%
-# What to see: each cell is a machine, its colour the share of kicks that it comes back from.  At 5000 N s/m all do, at any speed; with less
-# damping a faster rotor fares better than one near its critical speed, where it cannot even levitate.
+# What to see: each cell is a machine, its colour the share of kicks that come back.  At 5000 N s/m all come back, at any speed; with less
+# damping a faster rotor does better than one near its critical speed, where it cannot even levitate.
 figure = cm.plots.sweep_map(data, "recovered")

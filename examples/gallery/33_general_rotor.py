@@ -2,8 +2,8 @@
 33. A rotor with two bearings
 =============================
 
-A rotor given by its matrices: displacement and tilt, with a touchdown bearing at each end.  All functions take it; what they claim of it is
-listed in the documentation.
+A rotor given by its matrices: displacement and tilt, with a touchdown bearing at each end.  All functions take it; the documentation lists what
+each of them guarantees.
 """
 
 import numpy as np
@@ -24,6 +24,6 @@ motion = cm.simulate(rotor, cm.kick(1.2, angle=1.3), until=12)
 print([len(motion.seen_at(plane).contacts) for plane in (0, 1)], "impacts at the two bearings")
 
 # %%
-# What to see: the motion at the second bearing, in both frames.  It strikes there four times.  The kinks inside the circle are impacts at the
-# first bearing, which act on it through the tilt.
+# What to see: the motion at the second bearing, in both frames.  The rotor hits this bearing four times.  The kinks inside the circle are impacts at the
+# first bearing, which act here through the tilt.
 figure = motion.seen_at(1).plot()

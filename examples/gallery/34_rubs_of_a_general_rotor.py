@@ -2,7 +2,7 @@
 34. Rubs at two bearings at once
 ================================
 
-The same rotor may rub at one bearing or at both.  At up to two planes all equilibria are found.
+The same rotor may rub at one bearing or at both.  With contact at up to two bearings all equilibria are found.
 """
 
 import numpy as np
@@ -24,8 +24,8 @@ for equilibrium in equilibria:
     print(equilibrium.kind, equilibrium.status, "stable" if equilibrium.stable else "unstable")
 
 # %%
-# What to see: a circle for each bearing.  The filled square is the one stable rub; it touches at both bearings.  Grey squares would need a wall
-# that pulls.  The thin line is how the rotor bounces towards the rub after a kick.
+# What to see: a circle for each bearing.  The filled square is the only stable rub; it touches at both bearings.  Grey squares would need a wall
+# that pulls.  The thin line is the motion after a kick, which bounces and ends in the rub.
 figure = equilibria.plot()
 motion = cm.simulate(rotor, cm.kick(0.6, angle=1.6), settle=True)
 times = np.linspace(0.0, 40.0, 4000)

@@ -16,6 +16,6 @@ print(counts)
 # %%
 # The period of the stable orbit, with a guaranteed error.
 #
-# What to see: the orbits of which the theorems speak.  That there is no other loop with one impact is one of them.
+# What to see: the orbits to which the theorems refer.  One theorem is that no other orbit with one impact a period exists.
 print({name: str(ball) for name, ball in proof["B1,d solution"].enclosures.items()})
 figure = cm.find_orbits(cm.load("../source-paper.toml")).plot()

@@ -3,7 +3,7 @@
 ======================
 
 At this damping the orbit of twice the period is unstable and the rotor bounces without repeating itself.  A positive Lyapunov exponent
-says how fast neighbouring motions separate; it does not say that the motion lasts.
+is the rate at which neighbouring motions separate; it does not mean that the motion persists.
 """
 
 import carom as cm
@@ -15,5 +15,5 @@ exponents = cm.orbits.lyapunov_exponents(machine, motion.final, impacts=2000, tr
 print(exponents.values.round(4), "+-", exponents.errors.round(4))
 
 # %%
-# What to see: the last five turns of the shaft.  The loops on the left resemble each other, but none repeats.
+# What to see: the last five turns of the shaft.  The loops on the left resemble each other, but none repeats exactly.
 figure = cm.plots.motion(motion, since=motion.time - 30.0)

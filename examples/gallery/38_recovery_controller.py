@@ -3,7 +3,7 @@
 ===========================================
 
 When contact has persisted for three turns of the shaft, the magnetic bearings add a force that turns with it, against the unbalance.  Such
-compensation needs the right phase; a controller that does not know it tries one after another (Su, Gu, Keogh, Yu and Ren, Mechanical Systems
+compensation needs the right phase; a controller that does not know it tries one phase after another (Su, Gu, Keogh, Yu and Ren, Mechanical Systems
 and Signal Processing, 2022, 108174).
 """
 
@@ -36,8 +36,8 @@ searched = share_back(np.deg2rad([160.0, 250.0, 340.0, 70.0]))
 print(f"without: {share_back([]):.1%}, phases tried in turn: {searched:.1%}")
 
 # %%
-# What to see: with a phase that is off by up to 20 degrees every kick tried comes back, beyond 30 degrees nearly none, as without compensation.
-# One of the four phases that are tried in turn is near enough.
+# What to see: with a phase error of up to 20 degrees every kick tried comes back, beyond 30 degrees nearly none, as without compensation.
+# One of the four phases tried in turn is close enough.
 figure = plt.figure(figsize=(5.6, 3.2), layout="constrained")
 axes = figure.subplots()
 axes.plot(errors, 100.0 * np.array(shares), "o-", ms=4, color="#1f4e79", label="one phase")

@@ -1,9 +1,9 @@
 """
-39. A flexible rotor falls
-==========================
+39. A flexible rotor is dropped
+===============================
 
-The magnetic bearing rig of TU Munich, with its shaft of 8 mm, loses levitation: which force meets the touchdown bearings, and how many vectors does
-the reduced rotor need to tell it?
+The magnetic bearing rig of TU Munich, with its 8 mm shaft, loses levitation: what force acts on the touchdown bearings, and how many vectors does
+the reduced rotor need to predict it?
 """
 
 import matplotlib.pyplot as plt
@@ -23,8 +23,8 @@ for accuracy in (0.3, 0.1, 0.02, 0.005):
     )
 
 # %%
-# What to see: with 2 and 0.5 percent the curves lie on each other.  The error is stated for the first contact of a rotor that comes straight and of a wall
-# without damping; so even where 30 percent are accepted, the peak of this drop is off by 3 percent only.
+# What to see: with 2 and 0.5 percent the curves coincide.  The error is stated for the first contact of a rotor that arrives parallel and of a wall
+# without damping; so even where 30 percent are accepted, the error of the peak force in this drop is only 3 percent.
 figure = plt.figure(figsize=(5.6, 3.2), layout="constrained")
 axes = figure.subplots()
 looks = zip(curves.items(), ("#c7c7c7", "#56b4e9", "#0072b2", "#1a1a1a"), (2.6, 1.8, 2.4, 1.0), strict=True)

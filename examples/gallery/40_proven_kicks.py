@@ -2,7 +2,7 @@
 40. Kicks that are proven to come back
 ======================================
 
-Which kicks are proven to come back, and after how many impacts.  Needs ``pip install "carom[proof]"``.
+Kicks that are proven to come back, and the largest number of impacts before.  Needs ``pip install "carom[proof]"``.
 """
 
 from carom.proofs import ProvenKicks, prove_kicks
@@ -12,6 +12,6 @@ kicks = ProvenKicks.of(proof)
 print(kicks.words)
 
 # %%
-# What to see: kicks inside the dashed circle never touch; all others touch, and come back through contact.  Grey rings are open: next to them some
-# flights only just reach the wall, or reach it twice, which one impact does not allow.  More time, and ``most_impacts=2``, proves the whole disc.
+# What to see: after kicks inside the dashed circle the rotor never touches; after the others it may touch, and comes back.  Grey rings are open: there some
+# flights just reach the wall, or reach it twice, while only one impact is allowed.  More time, and ``most_impacts=2``, proves the whole disc.
 figure = kicks.plot()

@@ -16,10 +16,10 @@ def test_a_drop_in_words(carom):
     code, out, err = carom(*SHORT)
     words = " ".join(out.split())
     assert (code, err) == (0, "")
-    assert "Release: rotor centre 0.0986 mm from the middle at -91.3°" in words
-    assert "Followed for 20 ms, and not settled by then." in words
+    assert "Release: rotor centre 0.0986 mm from the bearing centre at -91.3°" in words
+    assert "Not settled after 20 ms." in words
     assert "peak force 1,320 N, 5.99 ms after the release" in words
-    assert "pressure of balls: 2.34 GPa, limit 4.2 GPa: kept" in words
+    assert "ball pressure: 2.34 GPa, limit 4.2 GPa: kept" in words
     assert "add --out DIR" in words
 
 

@@ -41,8 +41,8 @@ def test_the_address_is_the_first_line_and_an_interrupt_ends_it():
         out, err = process.communicate(timeout=120)
     assert (process.returncode, out, err) == (130, "", "carom: interrupted\n")
     assert " ".join(said.split()) == (
-        "balanced-rotor: it must survive kicks up to 100 mm/s, which disturb levitation; angles count from the x axis that turns with the "
-        "shaft, in the sense of rotation (the unbalance lies at 12°)."
+        "balanced-rotor: it must survive kicks up to 100 mm/s, which disturb levitation; angles are measured from the x axis that turns with the "
+        "shaft, in the sense of rotation (unbalance at 12°)."
     )
 
 

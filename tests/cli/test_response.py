@@ -46,7 +46,7 @@ def test_text_and_files(carom, machine, tmp_path):
     code, out, _ = carom("response", machine, "--operating", "1700 rpm,1800 rpm", "--out", tmp_path / "out")
     assert code == 0
     assert "1,337 µm peak to peak" in out
-    assert "No levitation is possible from 1,147 rpm to 1,725 rpm" in out
+    assert "Levitation is impossible from 1,147 rpm to 1,725 rpm" in out
     assert "it touches" in out
     assert "add --out" not in out
     assert str(tmp_path / "out") in out

@@ -38,7 +38,7 @@ FOLDS = {
         [-0.5358110635317807, 0.1906196909425109, -0.24580763987569265, -0.6909383406027721],
     ),
 }
-"""Speed of each point in docs/theory/walls-that-give-way.md: period and state (place, velocity) in the rotor's own time."""
+"""Speed of each point in docs/theory/compliant-bearings.md: period and state (place, velocity) in the rotor's own time."""
 
 
 def real(number):

@@ -28,7 +28,7 @@ SOFT = "examples/touchdown-balls.toml"
 def test_depth_and_pressure_are_told_in_the_units_of_people(tmp_path):
     case = load(SOFT)
     assert (case.limits.depth, case.limits.pressure) == (50e-6, 4.2e9)
-    assert "depth in the bearing 50 µm, pressure of balls 4.2 GPa" in dict(case.rows())["limits of the bearing"]
+    assert "depth in the bearing 50 µm, ball pressure 4.2 GPa" in dict(case.rows())["limits of the bearing"]
     assert LoadLimits.format("impacts", 3.0) == "3"
 
 

@@ -93,7 +93,7 @@ def test_page_shows_the_study(written):
     result, _, text = written
     words = re.sub(r"\s+", " ", "".join(Page(text).words))
 
-    for part in ("3,408 N s/m", "zone D", "901 N", "What is covered, and what is not", "F1 has 2 roots", "carom 0."):
+    for part in ("3,408 N s/m", "zone D", "901 N", "Scope", "F1 has 2 roots", "carom 0."):
         assert part in words
     assert result.verdict.lead in words
     shown = {fact.label: fact.text for fact in about(result.facts, "Verdict")}

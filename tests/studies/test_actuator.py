@@ -46,5 +46,5 @@ def test_disturbances_that_come_to_a_limit_are_counted_and_whether_they_come_bac
     assert (demand.at_limit, demand.total) == (sum(asked), 12)
     text = demand.words
     assert "a control force of at most 1,000 N along each axis against a negative stiffness of 420,000 N/m" in text
-    assert f"{sum(asked)} of 12 disturbances bring them to this limit" in text
+    assert f"{sum(asked)} of 12 disturbances reach this limit" in text
     assert json.loads(as_json(demand.document()))["disturbances"]["at_limit"] == sum(asked)

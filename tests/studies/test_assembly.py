@@ -97,7 +97,7 @@ def test_words_never_promise_recovery(parameters):
     if any(not ending.recovered for ending in tried if ending.start.kind == "kick"):
         assert verdict.level != "all-tried-came-back"
     if verdict.level == "all-tried-came-back":
-        assert "no guarantee" in verdict.headline
+        assert "not proven" in verdict.headline
     if any(rub.status == "admissible" for rub in result.rubs) or result.stable_orbits:
         assert ("besides levitation there" in finding(result, "Verdict")) == result.levitates
         assert re.search(r"\bthere (is|are) ", finding(result, "Verdict"))
@@ -116,7 +116,7 @@ def test_best_verdict_is_still_no_guarantee():
     quiet = study_once(QUIET)
     assert quiet.verdict.level == "all-tried-came-back"
     assert {ending.attractor.outcome for ending in quiet.attractors.disturbances} == {Outcome.LEVITATED}
-    assert "no guarantee" in quiet.verdict.headline
+    assert "not proven" in quiet.verdict.headline
     assert (quiet.present.drawn.count, quiet.present.drawn.total) == (10_000, 10_000)
     assert quiet.recommendation.kind == "no-change-needed"
     assert "No synchronous rub exists" in finding(quiet, "Rub")

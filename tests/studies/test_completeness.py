@@ -12,9 +12,9 @@ from carom.studies.findings import _bouncing
 @pytest.mark.parametrize(
     ("radius_ratio", "longest", "words"),
     [
-        (400 / 7, None, "bounds exclude any other"),
-        (0.5, None, "but for impacts that stop the slip"),
-        (400 / 7, 5.0, "there may be more"),
+        (400 / 7, None, "with one impact a period were found."),
+        (0.5, None, "except orbits with impacts that stop the slip"),
+        (400 / 7, 5.0, "there may be others"),
     ],
 )
 def test_completeness_is_claimed_only_where_it_is_proven(radius_ratio, longest, words):

@@ -37,7 +37,7 @@ def whirl():
 def test_a_force_that_grows_to_the_end_says_so(whirl):
     growing = dropped("touchdown-balls", "6 s", ["speed=30000 rpm"])
     ((_, rows),) = growing.tables
-    assert dict(rows)["peak force"].endswith(", still growing: follow the motion longer")
+    assert dict(rows)["peak force"].endswith(", still growing at the end: follow the motion longer")
     assert growing.document()["touchdown_bearings"][0]["loads"]["still_growing"]
     assert all(check.still_growing for check in growing.checks if check.name in ("force", "depth", "pressure"))
     assert "still growing" not in dict(whirl.tables[0][1])["peak force"]
@@ -45,11 +45,11 @@ def test_a_force_that_grows_to_the_end_says_so(whirl):
 
 @pytest.mark.parametrize(
     ("speed", "words"),
-    [(1.0, "synchronous with the shaft"), (-1.0, "1 times the shaft"), (1.01, "1.01 times the shaft")],
+    [(1.0, "synchronous with the shaft"), (-1.0, "1 times the shaft speed"), (1.01, "1.01 times the shaft speed")],
 )
 def test_a_whirl_says_how_it_goes_with_the_shaft(speed, words):
     whirl = LastWhirl(speed, 16.0 * math.pi * speed, 16.0 * math.pi, 0.0, goes_on=True, scales=Scales(1.0, 1e-3, 100.0))
-    assert f"({words}); it goes on" in _whirl_words(whirl, Outcome.FORWARD_RUB)
+    assert f"({words}); it persists" in _whirl_words(whirl, Outcome.FORWARD_RUB)
 
 
 def test_limits_of_depth_and_pressure(whirl):
@@ -57,7 +57,7 @@ def test_limits_of_depth_and_pressure(whirl):
     assert exceeded == {"force": True, "heat": False, "depth": True, "pressure": True}
     words = [check.words for check in whirl.checks]
     assert "depth in the bearing: 74.3 µm, limit 50 µm: exceeded" in words
-    assert "pressure of balls: 5.01 GPa, limit 4.2 GPa: exceeded" in words
+    assert "ball pressure: 5.01 GPa, limit 4.2 GPa: exceeded" in words
 
 
 def test_a_limit_of_pressure_needs_balls(whirl):
@@ -70,12 +70,12 @@ def test_a_rigid_wall_has_impulses_in_place_of_forces():
     found = dropped("dropped-rotor", settings=["restitution=0.1"])
     ((_, rows),) = found.tables
     shown = dict(rows)
-    assert found.headline.startswith("Rest on the touchdown bearing, since ")
+    assert found.headline.startswith("Rest on the touchdown bearing from ")
     assert "after the release; followed for" in found.headline
-    assert shown["hardest impact"].endswith("a rigid wall has no peak force")
+    assert shown["hardest impact"].endswith("(a rigid wall has no peak force)")
     assert "peak force" not in shown
     assert shown["whirl at the end"] == "none"
-    assert shown["heating goes on"].startswith("with ")
+    assert shown["heating continues"].startswith("at ")
     (plane,) = found.document()["touchdown_bearings"]
     assert plane["force_at"] is None
     assert plane["loads"]["force_is_of_lasting_contact"]

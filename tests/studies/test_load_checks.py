@@ -34,7 +34,7 @@ def test_each_limit_is_compared_with_its_load():
     }
     # The rub goes on: its heat reaches the limit.
     assert checks["heat"].after == pytest.approx((1000.0 - si["heat"]) / si["lasting_power"])
-    assert "s later, as the motion goes on in contact" in checks["heat"].words
+    assert "s later if contact continues" in checks["heat"].words
     assert checks["impacts"].words.endswith("limit 100: exceeded")
     assert checks["force"].words.endswith(": kept")
 

@@ -27,10 +27,10 @@ def test_a_study_that_follows_too_few_says_neither_back_nor_lost(monkeypatch):
     result = cm.study(cm.load(machine_file("heavy")))
     verdict = result.verdict
     assert verdict.level == "not-decided"
-    assert verdict.lead.count("Not decided") == 1
+    assert verdict.lead.count("Undecided") == 1
     assert result.recommendation.kind == "not-decided"
     text = " ".join(fact.text for fact in result.facts).lower()
-    assert "came back each time" not in text
+    assert "came back in every trial" not in text
     assert "none needed" not in text
     assert "at no damping tried" not in text
     assert not any(each.complete for each in result.recoveries)

@@ -87,12 +87,12 @@ def half():
 def test_kicks_that_are_all_proven_are_no_sample(whole):
     verdict = whole.verdict
     assert verdict.level == "all-tried-came-back"
-    assert verdict.outcome.startswith("Comes back from every kick that it must survive, vibration in zone")
-    assert verdict.reason.startswith("proven for these kicks; no guarantee for other disturbances")
+    assert verdict.outcome.startswith("Comes back from every kick it must survive, vibration in zone")
+    assert verdict.reason.startswith("proven for these kicks; other disturbances are sampled")
     assert verdict.headline.endswith("Proven: every kick up to 0.5 c_r Ω comes back, without an impact.")
     plain = replace(whole, kicks=None).verdict
-    assert plain.outcome.startswith("Came back each time")
-    assert plain.reason.startswith("no guarantee")
+    assert plain.outcome.startswith("Came back in every trial")
+    assert plain.reason.startswith("sampled, not proven")
     assert "Proven" not in plain.headline
 
 
@@ -102,7 +102,7 @@ def test_of_other_disturbances_nothing_is_proven(whole):
     more = replace(whole, case=replace(whole.case, requirement=Requirement(kick=0.5, shock=shock)))
     twice = {name: 2 * getattr(more.present, name) for name in ("returned", "largest")}
     present = replace(more.present, **twice)
-    assert replace(more, present=present).verdict.outcome.startswith("Came back each time")
+    assert replace(more, present=present).verdict.outcome.startswith("Came back in every trial")
 
 
 @pytest.mark.jit_only
@@ -125,7 +125,7 @@ def test_facts_say_what_is_proven_and_what_is_open(half):
     assert "every one comes back" not in facts["Kick"].text
     assert half.verdict.outcome == replace(half, kicks=None).verdict.outcome
     (first, *_) = (fact.text for fact in half.facts if fact.topic == "Not covered")
-    assert "but for the kicks that are proven" in first
+    assert "except the kicks that are proven" in first
 
 
 @pytest.mark.jit_only
@@ -140,7 +140,7 @@ def test_study_proves_the_kicks_that_must_be_survived():
     found = study(DAMPED, proofs=True, requirement=Requirement(kick=0.5), proof_time=0.5)
     # Those that must be survived never touch, so that faster ones are looked at.
     assert found.kicks.largest == pytest.approx(2.0 * contact_free_kick(DAMPED))
-    assert found.verdict.outcome.startswith("Comes back from every kick that it must survive")
+    assert found.verdict.outcome.startswith("Comes back from every kick it must survive")
     assert found.proof is not None
     without = study(DAMPED.replace(rho=0.9), proofs=True, requirement=Requirement(kick=0.5), proof_time=20.0)
     assert without.survives is without.kicks is None

@@ -21,7 +21,7 @@ from carom.orbits.simulated import SimulatedOrbit
 from carom.parameters import Scales
 from carom.parameters.formats import format_quantity
 
-FADING = "It still bounces as far as it was followed: friction stops its slip in every impact, and the bounces provably fade."
+FADING = "It was still bouncing when the simulation ended: friction stops its slip in every impact, and the bounces provably fade."
 """What is said of rolling that is reached only after more impacts than are followed, or in the limit of infinitely many."""
 
 
@@ -141,15 +141,15 @@ def _words(settled: SettledMotion, name: MotionName) -> str:
     if settled.outcome in REPEATING:
         doing = "bounces" if settled.outcome is Outcome.BOUNCING else "alternates between bounces and lasting contact"
         if not settled.multiplicity:
-            return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
+            return f"The rotor {doing} irregularly: it did not repeat itself within the simulated time."
         impacts = "one impact" if settled.multiplicity == 1 else f"{settled.multiplicity} impacts"
         period = format_quantity(settled.period or 0.0, "time", settled.motion.rotor.scales, 4)
         return f"The rotor {doing} ({name}): {impacts} in each period of {period}."
     if settled.outcome is Outcome.FORWARD_RUB:
-        how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"
+        how = "synchronously with the shaft" if settled.synchronous else "asynchronously"
         if settled.orbit is not None and (turns := settled.orbit.turns):
             how = f"and repeats itself after {'each turn' if turns == 1 else f'{turns} turns'} of the shaft"
-        return f"The rotor rubs along the touchdown bearing {how}."
+        return f"The rotor slides along the touchdown bearing {how}."
     if settled.outcome is Outcome.ROLLING and settled.motion.segment_phases[-1, settled.motion.plane] == Phase.FLIGHT:
         return f"{settled.outcome.meaning} {FADING}"
     return settled.outcome.meaning

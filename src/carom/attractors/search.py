@@ -29,9 +29,8 @@ from carom.motions.starts import State
 from carom.orbits.orbit import Orbit
 
 RECOGNISED = (
-    "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "
-    f"that repeats, periodic bouncing by the recurrence of the state; {IRREGULAR_BOUNCING} is only said to last as long as it was "
-    "followed."
+    "Levitation is proven. A rub at rest in the co-rotating frame is recognised by its linearised sliding, other rubs by a full turn "
+    f"that repeats, periodic bouncing by recurrence of the state; {IRREGULAR_BOUNCING} is stated only for as long as it was followed."
 )
 """How ends of motions are known, for rotors without closed forms."""
 
@@ -120,8 +119,8 @@ class AttractorSet(Members[Attractor]):
         known = len(self.endings) - len(self.disturbances)
         general = "" if exact_results(self.rotor).rubs else f" {RECOGNISED}"
         return (
-            f"{self.words()}, and {known} starts next to motions known in closed form, which are left out of the shares, were "
-            "simulated to where they settle. This is evidence, not proof: an attractor that none of them reaches is not listed."
+            f"{self.words()}, and {known} starts next to motions known in closed form, which do not count in the shares, were "
+            "simulated until they settled. This is evidence, not proof: an attractor that none of them reaches is not listed."
             f"{general}"
         )
 

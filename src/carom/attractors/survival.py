@@ -104,7 +104,7 @@ class Survival:
         """Summary in words: ``transient, half-life 1,600 impacts (1,300 to 2,000)``."""
         low, high = self.interval
         if self.half_life is None:
-            died = f"{self.died or 'none'} of {self.motions} died in {self.impacts:,} impacts"
+            died = f"{self.died or 'none'} of {self.motions} ended within {self.impacts:,} impacts"
             return f"{died} (half-life above {_rounded(low)} impacts at {100.0 * CONFIDENCE:.0f} %)"
         lasting = "transient" if self.verdict == "transient" else "transient or attractor, undecided"
         return f"{lasting}, half-life {_rounded(self.half_life)} impacts ({_rounded(low)} to {_rounded(high)})"

@@ -91,7 +91,7 @@ _WORDS = {
     Outcome.EVENT_LIMIT: "limit of events reached",
     Outcome.CHATTER: "chatter, ends in lasting contact",
     Outcome.LOW_BOUNCES: "low bounces along the wall, undecided",
-    Outcome.TRIGGERED: "goes over to the next stage",
+    Outcome.TRIGGERED: "continues in the next stage",
     Outcome.BEYOND_MODEL: "beyond the model",
     Outcome.STALLED: "too stiff to be followed",
     Outcome.LEVITATED: "levitation",
@@ -119,17 +119,17 @@ _MEANINGS = {
         "move the start by more than 1e-12 to decide. Without damping a motion may go on grazing for ever; "
         "and planes that jam under strong friction may leave no forces that obey the laws."
     ),
-    Outcome.TIME_REACHED: "The motion was followed to the time asked for without settling.",
+    Outcome.TIME_REACHED: "The motion had not settled by the requested time.",
     Outcome.EVENT_LIMIT: "The motion was stopped at the largest allowed number of events; raise max_events.",
     Outcome.CHATTER: "The impacts accumulate: lasting contact with the touchdown bearing begins.",
     Outcome.LOW_BOUNCES: (
-        "The rotor stays at the wall in bounces too low and quick to be followed to their end; "
-        "whether they fade to lasting contact is not known."
+        "The rotor stays at the wall in bounces too low and too fast to be followed; "
+        "whether they decay to lasting contact is unknown."
     ),
-    Outcome.TRIGGERED: "The trigger of its stage has ended the motion; it goes on in the next stage, if there is one.",
+    Outcome.TRIGGERED: "The trigger of this stage has ended it; the motion continues in the next stage, if there is one.",
     Outcome.BEYOND_MODEL: (
         "The rotor is more than one clearance deep in a touchdown bearing, or reaches a magnet, whose air gap usually is two clearances; "
-        "the motion goes beyond the model there, and is not followed further."
+        "this is beyond the model, and the motion is not followed further."
     ),
     Outcome.STALLED: (
         "Something of the machine acts so quickly that its motion cannot be followed: a turn of the shaft would take more than ten million "
@@ -137,8 +137,8 @@ _MEANINGS = {
         "a mount or a wall that answers within nanoseconds: make it slower, or leave it out."
     ),
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
-    Outcome.BOUNCING: "The rotor goes on bouncing on the touchdown bearing.",
-    Outcome.MIXED: "The rotor goes on bouncing with rub: bounces and lasting contact alternate.",
+    Outcome.BOUNCING: "The rotor continues bouncing on the touchdown bearing.",
+    Outcome.MIXED: "The rotor continues bouncing with rub: bounces and lasting contact alternate.",
     Outcome.FORWARD_RUB: "The rotor ends in forward rub: it slides along the touchdown bearing in the sense of rotation, or turns with the shaft.",
     Outcome.BACKWARD_WHIRL: "The rotor ends in sliding backward whirl: dry friction, or negative damping, drives it round the touchdown bearing.",
     Outcome.ROLLING: "The rotor ends in rolling backward whirl: it rolls round the touchdown bearing without slip.",

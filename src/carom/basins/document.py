@@ -145,7 +145,7 @@ def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict
 
 
 def _share(share: Share) -> dict[str, object]:
-    method = "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area"
+    method = "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighted by area"
     return record(share, "fraction count low high") | {"method": method}
 
 

@@ -40,20 +40,20 @@ MEASURES = {
     "depth": Quantity("m", "largest depth in the bearing"),
     "heat": Quantity("J", "slip energy, turned into heat"),
     "power": Quantity("W", "largest friction power"),
-    "pressure": Quantity("Pa", "pressure of balls"),
+    "pressure": Quantity("Pa", "ball pressure"),
     "contacts": Quantity("1", "contacts, or impacts on a rigid wall"),
     "contact_time": Quantity("s", "time in contact"),
-    "settled_at": Quantity("s", "time from the release since which the rotor rests or whirls"),
-    "time": Quantity("s", "time for which it was followed"),
+    "settled_at": Quantity("s", "time after the release from which the rotor rests or whirls"),
+    "time": Quantity("s", "simulated time after the release"),
     "whirl": Quantity("Hz", "whirl at the end, negative backward"),
-    "still_growing": Quantity("1", "touchdown bearings whose force still grew when the motion was followed no longer"),
+    "still_growing": Quantity("1", "touchdown bearings whose force was still growing when the simulation stopped"),
 }
 """Numbers of each drop, with unit and words: the largest of all planes, or the sum of contacts, heat and time."""
 TURN = 2.0 * math.pi
 RPM = TURN / 60.0
 _RELEASED = (
     ("phase", "phase of the unbalance at the release", "an angle", "rad", -1e6, '"90 deg"', "°", math.radians(1.0)),
-    ("regained_after", "time until levitation is back", "a time", "s", 1e-9, '"50 ms"', "ms", 1e-3),
+    ("regained_after", "time until levitation returns", "a time", "s", 1e-9, '"50 ms"', "ms", 1e-3),
     ("race_speed", "speed of the race at the release", "an angular speed", "rad/s", -1e6, '"500 rpm"', "rpm", RPM),
 )
 RELEASED = {

@@ -133,7 +133,7 @@ class Share:
         else:
             drawn = self.population.at == ANY_INSTANT
             error = f", {ITS_INSTANT}" if drawn else ": no sampling error"
-            how = f"{self.count:,} of {self.total:,} cells of a grid, weighed by area, each represented by its middle{error}"
+            how = f"{self.count:,} of {self.total:,} cells of a grid, weighted by area, each represented by its centre{error}"
         return f"{percent(self.fraction)} of {self.population.words} {self.does} ({how})"
 
     def document(self) -> dict[str, Any]:

@@ -122,7 +122,9 @@ def smallest_unrecovered(
     search = _SizeSearch(rotor, model, tolerance, threads, _effort(rotor, model))
     chosen = directions or search.effort.directions, sizes or search.effort.sizes
     try:
-        return _searched(search, *chosen, Reporter.of(progress, "looking for the smallest that does not come back"))
+        return _searched(
+            search, *chosen, Reporter.of(progress, "searching the smallest disturbance that does not come back")
+        )
     except BudgetSpentError:
         return search.unfinished()
 
@@ -251,7 +253,7 @@ class _SizeSearch:
         outcomes = self._outcomes(sizes, angles)
         followed = outcomes != NOT_FOLLOWED
         if np.count_nonzero(followed[:drawn]) < min(FEWEST, drawn):
-            raise BudgetSpentError("too few fresh starts could be followed")
+            raise BudgetSpentError("too few new disturbances could be followed")
         gone = unrecovered(np.where(followed, outcomes, Outcome.GRAZING))
         if gone.any():
             found = np.stack([sizes, outcomes, *angles])[:, gone]

@@ -117,16 +117,16 @@ class BoundaryEquilibrium(Result):
             group = [orbit for orbit in real if orbit.levitating_side == inside]
             if group:
                 listed = ", ".join(f"{orbit.name} ({'stable' if orbit.stable else 'unstable'})" for orbit in group)
-                sentences.append(f"Bouncing orbits that shrink to nothing there {side}: {listed}.")
-        return " ".join(sentences) if sentences else "No bouncing orbit with one impact a period shrinks into it."
+                sentences.append(f"Bouncing orbits that shrink to zero amplitude there {side}: {listed}.")
+        return " ".join(sentences) if sentences else "No bouncing orbit with one impact a period shrinks to this point."
 
 
 _EQUILIBRIA = {
     "persistence": (f"levitation turns into a stable {STEADY_WORDS['rub']} that begins without force (persistence)."),
     "non-smooth fold": (
-        f"levitation meets an unstable {STEADY_WORDS['rub']} and both vanish (non-smooth fold): the rotor must go somewhere else."
+        f"levitation meets an unstable {STEADY_WORDS['rub']} and both vanish (non-smooth fold): the rotor must move to another motion."
     ),
-    "degenerate": "levitation ends on the wall between the two generic ways, persistence and non-smooth fold.",
+    "degenerate": "levitation ends on the wall in the degenerate case between persistence and non-smooth fold.",
 }
 
 

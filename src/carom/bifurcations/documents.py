@@ -58,7 +58,7 @@ def _coordinate(place: int) -> Any:
 
 
 def _curve_possible(curve: Curve, _: RegionMap) -> str:
-    return "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
+    return "" if curve.admissible.all() else "partly virtual" if curve.admissible.any() else "virtual"
 
 
 def _period(point: Any, found: RegionMap) -> str:
@@ -68,18 +68,18 @@ def _period(point: Any, found: RegionMap) -> str:
 
 POINT = (
     Column("value", "{0.parameter}", lambda point, found: f"{found.axis.field.in_usual_unit(point.value):.10g}"),
-    Column("kind", "what happens", lambda point, _: kind_words(point.kind)),
-    Column("branch=name", "to", lambda point, _: STEADY_WORDS.get(point.name, point.name)),
+    Column("kind", "event", lambda point, _: kind_words(point.kind)),
+    Column("branch=name", "motion", lambda point, _: STEADY_WORDS.get(point.name, point.name)),
     Column("parameter"),
     Column("period", "period ({0.time_unit})", _period_of_point),
     Column("radial_speed", "radial speed ({0.speed_unit})", _speed),
     Column("admissible", "possible", _possible),
-    Column("detail", "more"),
+    Column("detail", "details"),
 )
 BRANCH = "values period admissible stable ends=stops"
 CURVE = (
     Column("kind", "bifurcation", lambda curve, _: kind_words(curve.kind)),
-    Column("orbits", "of", lambda curve, _: curve.subject),
+    Column("orbits", "motion", lambda curve, _: curve.subject),
     Column(
         "points", "from {0.axes[0].heading}, {0.axes[1].heading}", lambda curve, found: _place(found, curve.points[0])
     ),
@@ -118,8 +118,8 @@ REGION = (
 )
 CHANGE = (
     Column("point", "at {0.axes[0].heading}, {0.axes[1].heading}", lambda change, found: _place(found, change.point)),
-    Column("", "what changes", lambda change, _: change.words),
-    Column("reason", "why no curve"),
+    Column("", "change", lambda change, _: change.words),
+    Column("reason", "why there is no curve"),
     Column("before=before.words"),
     Column("after=after.words"),
 )

@@ -222,8 +222,10 @@ def map_regions(
 
 def _remarks(grid: int, examined: int) -> list[str]:
     """What is said of regions that are known by where disturbances settle."""
-    settled = f"Regions are stated by where {STARTS} disturbances at each of {examined} points of the grid settle"
-    words = [f"{settled}; curves are followed from special points of orbits on two lines of the plane alone."]
+    settled = (
+        f"Regions are named after the motions in which {STARTS} disturbances at each of {examined} grid points settle"
+    )
+    words = [f"{settled}; curves are followed only from special points of orbits on two lines of the plane."]
     if examined < grid**2:
         words.append(
             f"{grid**2 - examined} points of the grid were not reached within {EVENTS:.0e} events; each counts as its nearest."

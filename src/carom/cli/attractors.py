@@ -28,10 +28,10 @@ def attractors(
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """List the motions on which disturbances end: rest, rub, periodic orbits and irregular bouncing.
+    """List the motions in which disturbances end: levitation, rest, rub, whirl, periodic and irregular bouncing.
 
-    Irregular bouncing is followed further to measure how long it lasts: it may be a
-    transient.  A sample of disturbances says nothing about motions that none of them reaches.
+    Irregular bouncing is followed further to measure how long it lasts, as it may be a
+    transient.  Motions that no disturbance of the sample reaches are not listed.
     """
     case = read_machine(machine, settings)
     check_output(out)
@@ -62,7 +62,7 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
     shown = [row + cell for row, cell in zip(rows, cells, strict=True)]
-    print_table(screen, "Motions on which disturbances end", headings + across, shown)
+    print_table(screen, "Motions in which disturbances end", headings + across, shown)
     if share := share_of_kicks(found):
         screen.print(f"{share.words}.")
     for entry in found:

@@ -29,10 +29,10 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | N
     screen.print(_touching(basin))
     if basin.beyond_model:
         screen.print(
-            f"Beyond the model: {basin.beyond_model} of {basin.starts} starts, which count as not coming back. {Outcome.BEYOND_MODEL.meaning}"
+            f"Beyond the model: {basin.beyond_model} of {basin.starts} starts, counted as not coming back. {Outcome.BEYOND_MODEL.meaning}"
         )
     if basin.unresolved:
-        screen.print(f"Undecided at the limit of work: {basin.unresolved} starts, which count as not coming back.")
+        screen.print(f"Undecided within the event limit: {basin.unresolved} starts, counted as not coming back.")
     if survived := _losses(basin, smallest, contact_free):
         print_rows(screen, "What is survived", survived)
 
@@ -67,7 +67,7 @@ def _touching(basin: Basin) -> str:
     met, back = int(basin.touched.sum()), int((basin.touched & basin.recovered).sum())
     if not met:
         return f"None of the {basin.starts} touched the wall."
-    return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
+    return f"Touched the wall: {met} of {basin.starts}; {back or 'none'} of these came back."
 
 
 def _losses(basin: Basin, smallest: SmallestUnrecovered | None, contact_free: float) -> list[tuple[str, str]]:
@@ -85,12 +85,12 @@ def _losses(basin: Basin, smallest: SmallestUnrecovered | None, contact_free: fl
     ending = ending_words(smallest.outcome, basin.motions).removeprefix("it ") if smallest.outcome else ""
     cells = size_cells(Wording(basin.scales), smallest, _where(smallest), ending)
     if smallest.all_back is None:
-        cells["back"] = "none: those of size zero do not come back"
+        cells["back"] = "none: even disturbances of size zero do not come back"
     elif smallest.fresh:
         share = f"fewer than {100.0 * smallest.share_below:.2g} % fail, with 95 % confidence"
         cells["back"] += f"; confirmed with {smallest.fresh:,} new ones: {share}"
     elif smallest.size is not None:
-        cells["lost"] += "; fresh ones kept finding smaller ones: a smaller one is likely"
+        cells["lost"] += "; new samples kept finding smaller ones, so a smaller one is likely"
     return [(SURVIVED[column], cells[column]) for column in SURVIVED if column in cells]
 
 

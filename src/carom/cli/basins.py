@@ -30,12 +30,12 @@ _OTHERS = {
 """Kinds of disturbances without an option of their own, and what may follow them."""
 OTHERS = option(
     "KIND[,SIZE]",
-    "Other disturbances: kick-plane or state up to a speed, such as 'state, 50 mm/s'; release from the wall, fixed (the default), rotating or "
-    "rolling, such as 'release, rolling'; slice, released at rest anywhere.",
+    "Other disturbances, such as 'state, 50 mm/s': kick-plane or state, up to a speed; release from the wall, fixed (the default), rotating or "
+    "rolling, such as 'release, rolling'; slice, at rest anywhere in the clearance.",
     "--disturbance",
 )
-GRID = option("NxM", "Cells of size and direction, or of x and y; N for releases and losses of a blade.")
-SAMPLE = option("N", "Instead of a grid: a seeded sample of this size.")
+GRID = option("NxM", "Grid cells in size and direction, or in x and y; a single N for releases and blade losses.")
+SAMPLE = option("N", "Use a random sample of this size instead of a grid.")
 GAINS = option("NxM", "Map the share that comes back over the two parameters of --plane.")
 
 
@@ -57,10 +57,10 @@ def basins(
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """Find where disturbances end: what share comes back, the smallest that does not, and the gains that help.
+    """Find where disturbances end: the share that comes back, the smallest that does not, and gains that help.
 
-    Every start is simulated until it settles. Values need units, such as '50 mm/s', unless the machine file is
-    dimensionless. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
+    Every disturbance is simulated until it settles. Values need units, such as '50 mm/s', unless the machine file is
+    dimensionless. With --gains the share that comes back is mapped over P and D gain, or any two parameters.
     """
     case = read_machine(machine, settings)
     with progress("loading") as tell:
@@ -119,7 +119,9 @@ def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:
     scales, usual = case.parameters.scales, case.requirement.own(case.parameters.scales).kick
     chosen = {name: text for name, text in ways.items() if text is not None}
     if len(chosen) > 1:
-        raise InputError(*list(chosen.items())[1], f"not allowed with {next(iter(chosen))}: one kind at a time")
+        raise InputError(
+            *list(chosen.items())[1], f"not allowed with {next(iter(chosen))}: give one kind of disturbance"
+        )
     if not chosen:
         return VelocityKick(usual)
     ((name, text),) = chosen.items()
@@ -157,7 +159,9 @@ def _plan(
     if seed is not None and not drawn:
         raise InputError("--seed", seed, "allowed only for a sample: give --starts too")
     if instant is not None and drawn:
-        raise InputError("--instant", instant, "allowed only with a grid: the starts of a sample come at any instant")
+        raise InputError(
+            "--instant", instant, "allowed only with a grid: the disturbances of a sample come at random instants"
+        )
     if grid is not None and drawn:
         raise InputError("--grid", grid, "not allowed for states, which have four coordinates: give --starts")
     if drawn:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 IMPACTS = option(
     "N",
-    "Follow orbits with at most N impacts a period; those with several are searched, and some may be missing.",
+    "Follow orbits with at most N impacts a period; those with several are found by search, so some may be missing.",
     default=1,
     min=1,
     max=64,
@@ -76,14 +76,14 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         styles = ["" if point.admissible else "dim" for point in diagram.points]
         print_table(screen, "", *table_of(POINT, diagram.points, diagram), styles=styles)
     else:
-        screen.print("No bifurcation on this range." if exact else "No bifurcation was found on this range.")
+        screen.print("No bifurcation in this range." if exact else "No bifurcation was found in this range.")
     if not exact:
         levitates = diagram.equilibria[0].admissible & diagram.equilibria[0].stable
         share = "all" if levitates.all() else "some" if levitates.any() else "none"
-        screen.print(f"Levitation is possible at {share} of the {len(levitates)} values looked at.")
+        screen.print(f"Levitation is possible at {share} of the {len(levitates)} values examined.")
     for branch in diagram.orbits:
-        screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
+        screen.print(f"Branch {branch.names[0]} to {branch.names[-1]}, ends: {branch.stops[0]}, {branch.stops[1]}")
     for several in diagram.several:
-        screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
+        screen.print(f"Branch {several.name} ({several.word}), ends: {several.stops[0]}, {several.stops[1]}")
     if diagram.search is not None:
-        screen.print(f"Searched at several values, counted together. {diagram.search.words}")
+        screen.print(f"Searched at several values of the parameter; counts are totals. {diagram.search.words}")

@@ -23,19 +23,19 @@ MOST_CELLS = 100_000
 """Each takes some hundredths of a second to some seconds: more would be a typing error."""
 WHIRL = option(
     "RADIUS,SPEED[,ANGLE]",
-    "Begin in a whirl about the centre, such as '0.1 mm,-80 Hz,30 deg': its speed (below 0: backward) and where it is, in the fixed frame.",
+    "Start in a circular whirl about the bearing centre, such as '0.1 mm,-80 Hz,30 deg': radius, frequency (negative: backward) and angle in the fixed frame.",
 )
 PHASE = option(
     "ANGLE",
-    "Angle from the direction of the fall to the unbalance at the release, in the sense of rotation, such as '90 deg'; by default that of the machine.",
+    "Angle from the direction of the fall to the unbalance at the release, in the sense of rotation, such as '90 deg'; by default from the machine file.",
 )
-RACE_SPEED = option("SPEED", "Speed of the race at the release, such as '500 rpm'; by default 0.")
+RACE_SPEED = option("SPEED", "Speed of the inner race at the release, such as '500 rpm'; 0 by default.")
 MAP = option(
     "NAME,NAME",
-    "Drop it at each point of a plane: phase, regained_after or race_speed of the release, or parameters of the machine, such as 'phase,speed'.",
+    "Map drops over two quantities, such as 'phase,speed': phase, regained_after or race_speed of the release, or parameters of the machine.",
     "--map",
 )
-GRID = option("NxM", "With --map: numbers of values, by default 24x16.")
+GRID = option("NxM", "With --map: numbers of values; 24x16 by default.")
 OUT = option("DIR", "Write figures, drop.json and drop.html to this directory.")
 
 
@@ -56,10 +56,10 @@ def drop(
     out: str | None = OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """Drop a machine on its touchdown bearing: forces, depth, heat, whirl and race, against its limits.
+    """Drop the rotor on its touchdown bearings: forces, depth, heat, whirl and race speed, against their limits.
 
-    Levitation is lost and the rotor falls under [gravity], by default 9.81 m/s² downward, carried by the bias currents until then. With --out it also writes
-    figures, drop.json and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
+    Levitation is lost and the rotor falls under [gravity], or 9.81 m/s² downward if the file has none. With --out it also writes figures, drop.json
+    and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map drops are simulated over two quantities.
     """
     from carom.basins.drops import RELEASED
     from carom.cli.starts import read_cells, read_plane, read_time, refuse_without, released
@@ -146,10 +146,12 @@ def _print_map(screen: Console, found: DropMap) -> None:
         where = f"{int(cells.sum())} of {tried}, all at {found.ranges_of(cells)}" if cells.any() else "none"
         screen.print(f"{words}: {where}.")
     if found.still_growing.any():
-        screen.print("The largest loads of these are not known: follow one of them longer, by --until without --map.")
+        screen.print(
+            "The largest loads of these are unknown: follow one of them longer, with --until and without --map."
+        )
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())
-        said = f"exceeded by {over} of {tried}" if over else "met by all"
+        said = f"exceeded in {over} of {tried} drops" if over else "met by all drops"
         screen.print(f"Limit of {LIMIT_FIELDS[load].words}, {LoadLimits.format(load, limit)}: {said}.")
     if not exists.all():
-        screen.print(f"{int((~exists).sum())} of {exists.size} machines cannot levitate, and are not dropped.")
+        screen.print(f"{int((~exists).sum())} of {exists.size} machines cannot levitate and were not dropped.")

@@ -12,7 +12,7 @@ from carom.cli.options import SETTINGS, option
 from carom.cli.terminal import console, read_machine
 
 MACHINE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file; by default the example machine.")
-PORT = option("P", "Port on this machine; 0 for any that is free.", default=5006)
+PORT = option("P", "Port on this computer; 0 for any free port.", default=5006)
 BROWSER = option(None, "Open the page in the browser.", "--browser/--no-browser", default=True)
 
 
@@ -24,8 +24,7 @@ def explore(
 ) -> None:
     """Explore a machine on an interactive page: move a gain, see which kicks come back, and watch any of them.
 
-    The page is served on this machine alone, at the address that is printed first, until Ctrl-C. It needs the extra
-    carom[explore].
+    The page is served on this computer only, at the address printed first, until Ctrl-C. Needs the extra carom[explore].
     """
     if find_spec("bokeh") is None:
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")

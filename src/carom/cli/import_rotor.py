@@ -12,11 +12,11 @@ from carom.cli.terminal import hand_over, progress
 
 SOURCE = typer.Argument(
     metavar="SOURCE",
-    help="A Python program that makes a rotor with ROSS (.py), what ROSS has saved (.toml, .json), or matrices (.npz, .mat).",
+    help="A Python program that makes a rotor with ROSS (.py), a model saved by ROSS (.toml, .json), or matrices (.npz, .mat).",
 )
 OUT = option("ROTOR.npz", "Write the matrices to this file.", "--out", "-o", default=...)
 NAME = option("NAME", "Name of the rotor in the program, or of a function that returns it.")
-PYTHON = option("PYTHON", "Python of an environment with ROSS, by default the present one.")
+PYTHON = option("PYTHON", "Python of an environment with ROSS, by default the current one.")
 
 
 COLUMNS = "nodes_si=nodes names mass_si=mass polar_inertia_si=polar_inertia diametral_inertia_si=diametral_inertia"
@@ -29,10 +29,10 @@ def import_rotor(
     python: str | None = PYTHON,
     as_json: bool = AS_JSON,
 ) -> None:
-    """Import a rotor of ROSS, or matrices, and print a machine file to start from.
+    """Import a ROSS rotor, or matrices, and print a machine file to start from.
 
-    ROSS is started in a process of its own, which takes seconds. Written are mass, stiffness and gyroscopic matrix of the shaft with its
-    discs; bearings are in the machine file that is printed, and what it marks as ASSUMED is for you to state:
+    ROSS runs in a separate process, which takes seconds to start. The file of matrices holds mass, stiffness and gyroscopic matrix
+    of the shaft with its discs; the printed machine file holds the bearings, and marks as ASSUMED what you have to supply:
     carom import-rotor model.py -o rotor.npz > machine.toml
     """
     from carom.base.results import record

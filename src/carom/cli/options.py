@@ -12,7 +12,7 @@ import typer
 
 
 class Purpose(StrEnum):
-    """What figures are made for."""
+    """Format of figures."""
 
     PAGE = "page"
     SLIDE = "slide"
@@ -35,28 +35,27 @@ SETTINGS = option(
     "--set",
 )
 OUT = option("DIR", "Write figures and numbers (JSON) to this directory.")
-FOR = option(
-    None, "What figures are made for: page (of print), or slide (16:9 with large type).", "--for", default="page"
-)
+FOR = option(None, "Format of the figures: page (print) or slide (16:9, large type).", "--for", default="page")
 AS_JSON = flag("--json", "Print one JSON object and nothing else.")
 
 START = option(
-    "RE,IM,VRE,VIM", "Begin at this position and velocity, co-rotating frame; in c_r and c_r Omega, or with units."
+    "RE,IM,VRE,VIM",
+    "Start from this position and velocity in the co-rotating frame, in c_r and c_r Omega or with units.",
 )
 KICK = option(
     "SPEED[,ANGLE]",
-    "Begin with a velocity kick out of levitation, such as '50 mm/s,30 deg'; the angle counts in the sense of rotation from the x axis that "
-    "turns with the shaft, as the phase of the unbalance does.",
+    "Start with a velocity kick of the levitating rotor, such as '50 mm/s,30 deg'. The angle is measured in the sense of rotation from the x axis that "
+    "turns with the shaft, like the unbalance phase.",
 )
 SHOCK = option(
     "PEAK[,DURATION[,ANGLE]]",
-    "Begin with a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg', the angle from the same axis as it lies when the "
-    "shock begins; the motion is logged from then on.",
+    "Start with a half-sine base shock of the levitating rotor, such as '5 g, 11 ms, 30 deg'. The angle is measured from the same axis at the instant the "
+    "shock begins; the log begins then.",
 )
 BLADE_LOSS = option(
     "CHANGE[,PHASE[,NODE]]",
-    "Begin with the loss of a blade at levitation: by how much the unbalance changes, at which phase relative to that before it, and at which "
-    "node of a flexible machine, such as '5000 g mm,30 deg'.",
+    "Start with a blade loss of the levitating rotor, such as '5000 g mm,30 deg': the change of unbalance, its phase relative to the unbalance before, and "
+    "for a flexible rotor the node.",
 )
 KICKS = option(
     "SPEED",
@@ -66,36 +65,36 @@ KICKS = option(
 )
 SHOCKS = option(
     "PEAK[,DURATION]",
-    "Half-sine shocks of the base up to this peak in all directions, such as '5 g, 11 ms', the default duration.",
+    "Half-sine base shocks with peaks up to this value in all directions, such as '5 g, 11 ms'; 11 ms is the default duration.",
     "--shock",
 )
 BLADE_LOSSES = option(
     "CHANGE[,0,NODE]",
-    "Losses of a blade at any phase that change the unbalance by this, such as '2000 g mm' or '0.1 mm'; of a flexible machine at a node: "
+    "Blade losses at any phase that change the unbalance by this value, such as '2000 g mm' or '0.1 mm'; for a flexible rotor with the node: "
     "'2000 g mm, 0, 7'.",
     "--blade-loss",
 )
 INSTANT = option(
     "ANGLE",
-    "Angle by which the shaft has turned when the disturbance comes, such as '90 deg'; it matters under gravity, with limits of the magnetic bearings "
-    "and where bearings are anisotropic. Default: 0 for one motion (the co-rotating axes coincide with the fixed ones); random for many.",
+    "Shaft angle at the instant of the disturbance, such as '90 deg'. It matters under gravity, with limits of the magnetic bearings and with anisotropic "
+    "bearings. Default: 0 for one motion (co-rotating and fixed axes coincide); random for many.",
 )
 REGAINED_AFTER = option("T", "Time after the release at which levitation returns, such as '50 ms'; by default never.")
-UNTIL = option("T", "Follow a motion to this time, in 1/Omega or with a unit; by default until the outcome is certain.")
+UNTIL = option("T", "Simulate until this time, in 1/Omega or with a unit; by default until the outcome is certain.")
 
 ALONG = option("NAME", "Parameter to vary, such as gamma, speed, damping or stiffness.", default=...)
 PLANE = option(
     "NAME,NAME",
-    "Two parameters, such as speed,damping, or what a machine file states them by, such as proportional_gain,derivative_gain; by default "
-    "stiffness,damping, of a dimensionless file gamma,omega, of a flexible machine proportional,derivative.",
+    "Two parameters, such as speed,damping, or entries of the machine file, such as proportional_gain,derivative_gain. Default: "
+    "stiffness,damping; gamma,omega for a dimensionless file; proportional,derivative for a flexible rotor.",
 )
-FIRST_RANGE = option("A,B", "Range of the first parameter, by default around its present value.", "--x")
+FIRST_RANGE = option("A,B", "Range of the first parameter; by default around its present value.", "--x")
 SECOND_RANGE = option("C,D", "Range of the second parameter.", "--y")
-SEED = option("S", "Seed of the sample, by default 0.", min=0)
+SEED = option("S", "Seed of the random sample; 0 by default.", min=0)
 
 
 def with_purpose(command: Callable[..., None]) -> Callable[..., None]:
-    """Give a command that writes figures the option ``--for``, behind that which says where."""
+    """Give a command that writes figures the option ``--for``, after the option for the directory."""
     known = list(signature(command).parameters.values())
     folders = (each.name == "figures" or (each.name == "out" and each.default.metavar == "DIR") for each in known)
     place = next((n for n, is_folder in enumerate(folders, start=1) if is_folder), None)

@@ -21,7 +21,7 @@ IMPACTS = option(
 )
 GUESSES = option(
     "N",
-    "Guesses of that search for each number of impacts; 1500 by default, fewer for a rotor of many states.",
+    "Initial guesses of that search for each number of impacts; 1500 by default, fewer for a rotor with many states.",
     min=1,
 )
 
@@ -34,10 +34,10 @@ def orbits(
     guesses: int | None = GUESSES,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """List equilibria and periodic orbits, stable or not.
+    """List equilibria and periodic orbits, stable and unstable.
 
-    Lists the orbits with one impact a period: all of them, with the argument that there are no more, of a planar rotor on a rigid bearing, and those that a search
-    finds of any other machine; or, with --impacts N, the orbits with at most N impacts that are known or that a search finds, with what it tried.
+    For a planar rotor in a rigid bearing: all orbits with one impact a period, with the argument that there are no more. For any other machine: those
+    that a search finds. With --impacts N: the orbits with at most N impacts a period that are known or found by search, and what was tried.
     """
     from carom.cli.starts import read_time
     from carom.models import rotor_of

@@ -17,8 +17,9 @@ OUT = option("DIR", "Write figures 2 to 6, paper.json and table.md to this direc
 def paper(out: str | None = OUT, as_json: bool = AS_JSON) -> None:
     """Reproduce the paper carom builds on: its figures and numbers.
 
-    Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number it prints is compared with
-    ours. Misprinted formulas are evaluated beside the correct ones. Figure 6b also shows the curves of grazing and period doubling, and the regions divided by a stable rub.
+    Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number printed there is compared with the
+    one computed here. Misprinted formulas are evaluated beside the corrected ones. Figure 6b also shows the curves of grazing
+    and period doubling, and the regions divided by a stable rub.
     """
     with progress("loading") as tell:
         check_output(out)

@@ -36,7 +36,7 @@ _ALLOWED = {
 
 FILE = typer.Argument(None, metavar="[MACHINE.toml]", help="The machine file.")
 IMPACTS = option(
-    "N", "Prove orbits with at most N impacts a period, those with several that a search finds; by default 1."
+    "N", "Prove orbits with at most N impacts a period (those with several only as a search finds them); 1 by default."
 )
 ALONG = option(
     "NAME",
@@ -45,21 +45,21 @@ ALONG = option(
 )
 FROM = option("A", "First value of the parameter, dimensionless or with a unit.", "--from")
 TO = option("B", "Last value of the parameter.", "--to")
-KICKS = option("SPEED", "Prove instead which kicks out of levitation up to SPEED come back.")
+KICKS = option("SPEED", "Prove instead which kicks of the levitating rotor up to SPEED come back.")
 SHOCKS = option(
     "PEAK,TIME",
-    "Prove instead which half-sine shocks of the base with peaks up to PEAK come back, such as '20 g, 0.5 ms'.",
+    "Prove instead which half-sine base shocks with peaks up to PEAK come back, such as '20 g, 0.5 ms'.",
 )
 STEPS = option(
     "CHANGE",
-    "Prove instead which steps of the unbalance by changes up to CHANGE come back, such as '20 um' or '500 g mm'.",
+    "Prove instead which step changes of unbalance up to CHANGE come back, such as '20 um' or '500 g mm'.",
 )
-STATES = option("SPEED", "Prove instead that all states inside the clearance up to SPEED come back.")
-MOST_IMPACTS = option("N", "Leave undecided what may take more than N impacts; by default 12.")
-TIME_LIMIT = option("T", "End the search after T, such as '2 h'; by default 10 min, along a parameter never.")
+STATES = option("SPEED", "Prove instead that all states inside the clearance with speeds up to SPEED come back.")
+MOST_IMPACTS = option("N", "Leave cases undecided that may take more than N impacts; 12 by default.")
+TIME_LIMIT = option("T", "End the search after T, such as '2 h'; 10 min by default, unlimited with --along.")
 OUT = option(
     "DIR",
-    f"Write the certificate, {CERTIFICATE}, to this directory, and of kicks the figure; with --check the figure alone.",
+    f"Write the certificate, {CERTIFICATE}, to this directory, and for kicks the figure; with --check only the figure.",
 )
 CHECK = option("FILE", "Verify a certificate instead; no machine file is needed.")
 
@@ -81,10 +81,10 @@ def prove(
     check: str | None = CHECK,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or what comes back.
+    """Prove equilibria and orbits, at one point or along a parameter, or which disturbances come back.
 
-    The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
-    reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
+    Proofs use ball arithmetic and take the numbers of the machine file exactly as written. Each claim is proven, refuted or
+    undecided, with the reason. A certificate can be checked by itself, without repeating the search. Needs the extra carom[proof].
     """
     theorems = dict(zip(list(_ALLOWED)[1:], (kicks_up_to, shocks_up_to, unbalance_up_to, states_up_to), strict=True))
     sizes = {name: size for name, size in theorems.items() if size is not None}
@@ -96,7 +96,11 @@ def prove(
         part = tell.part(0.0, _DRAWING)
         if check is not None:
             if machine is not None or settings or sizes or given:
-                raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
+                raise InputError(
+                    "--check",
+                    shown(check),
+                    "not allowed with other options or a machine file: a certificate contains its machine",
+                )
             from carom.proofs import check as verify
 
             proof = verify(check, progress=part)
@@ -178,7 +182,7 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
     if not len(names) == len(starts) == len(stops):
         raise InputError("--along", shown(names or None), "needs --from and --to, and these need --along")
     if len(set(names)) < len(names):
-        raise InputError("--along", shown(names), "names each parameter once")
+        raise InputError("--along", shown(names), "must name each parameter once")
     for name, first, last in zip(names, starts, stops, strict=True):
         check_exact("--from", first, name)
         check_exact("--to", last, name)
@@ -195,13 +199,13 @@ def _print_proof(proof: Proof, checked: bool) -> None:
     screen.print(headline(proof), style="bold")
     screen.print()
     rows = [(claim.about, claim.kind, claim.status, claim.reason or numbers_of(claim)) for claim in proof]
-    print_table(screen, "Claims", ("of", "claim", "status", "number, or reason"), rows)
+    print_table(screen, "Claims", ("about", "claim", "status", "value or reason"), rows)
     for claim in proof:
         if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven" and claim is not chief:
             screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
-    screen.print(f"{how}, with balls of {proof.bits} bits. Assumed exactly as written: {_assumed(proof)}.")
-    screen.print("Not proven here:")
+    screen.print(f"{how}, in {proof.bits}-bit ball arithmetic. Assumed exactly as written: {_assumed(proof)}.")
+    screen.print("Not proven:")
     for words in proof.not_claimed:
         screen.print(f"- {words}")
 

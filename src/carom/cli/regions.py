@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from carom.bifurcations import RegionMap
 
-NODES = option("N", "Number of grid points per axis that determine the regions.", default=24, min=2, max=400)
+NODES = option("N", "Grid points per axis used to determine the regions.", default=24, min=2, max=400)
 USUAL_RANGE = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
 
@@ -28,12 +28,12 @@ def regions(
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """Map the plane of two parameters: curves of bifurcations, their meeting points, and the regions between them.
+    """Map a plane of two parameters: bifurcation curves, codimension-2 points, and the regions between them.
 
     Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
-    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  Of machines whose
-    orbits have no closed forms, curves are those through the bifurcations of a short search, and the regions are stated by where disturbances
-    settle.
+    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  For machines whose
+    orbits have no closed form, curves start from the bifurcations that a short search finds, and regions are named after the motions
+    in which disturbances settle.
     """
     case = read_machine(machine, settings)
     with progress("loading") as tell:

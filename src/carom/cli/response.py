@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float] | None
 FROM = option(
-    "SPEED", "Lowest speed, such as '500 rpm'; by default a range around critical and present speed.", "--from"
+    "SPEED", "Lowest speed, such as '500 rpm'; by default a range around the critical and the present speed.", "--from"
 )
 TO = option("SPEED", "Highest speed, such as '12000 rpm'.", "--to")
 OPERATING = option(
@@ -34,22 +34,22 @@ def response(
     out: str | None = options.OUT,
     as_json: bool = options.AS_JSON,
 ) -> None:
-    """Show the response to the unbalance over speed: amplitude, phase, critical speed, and where the rotor touches.
+    """Show the unbalance response over speed: amplitude, phase, critical speeds, and where the rotor touches.
 
-    Of any machine, at each touchdown bearing, with the static sag and the speeds at which the magnetic bearings saturate.  Compared with the vibration limit and the
-    separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor touches, the synchronous rubs that are possible are shown too.  Stiffness
-    and damping are the same at every speed.
+    Shown at each touchdown bearing, with the static sag and the speeds at which the magnetic bearings saturate, and compared with the vibration limit
+    and the separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor touches, the possible synchronous rubs are shown too.  Stiffness
+    and damping are held constant over speed.
     """
     case = read_machine(machine, settings)
     interval, run = _read(case, start, end, operating)
     check_output(out)
-    with progress("response over speed") as tell:
+    with progress("unbalance response") as tell:
         from carom.disturbances.echo import echo_of_unbalance
         from carom.models import rotor_of
         from carom.studies.response import unbalance_response
 
         found = unbalance_response(case, interval, operating=run)
-        tell(0.3, "response over speed")
+        tell(0.3, "unbalance response")
         echo = echo_of_unbalance(rotor_of(case).value("rho"), found.interval, found.scales)
         document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
         write_output(out, case, "response", document, {"response": found.plot}, tell=tell.part(0.4, 1.0))
@@ -62,7 +62,7 @@ def _read(case: Case, start: str | None, end: str | None, operating: str | None)
     from carom.models import axis
 
     if case.parameters.scales is None:
-        allowed = "must hold a [machine] or a [rotor] table: without mass and clearance in SI units no speed is known"
+        allowed = "must hold a [machine] or a [rotor] table: speeds need mass and clearance in SI units"
         raise InputError("machine file", case.name, allowed)
     along = axis(case, "speed")
     if (start is None) != (end is None):
@@ -79,7 +79,7 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     from carom.studies.wording import rpm
 
     screen = console()
-    screen.print(f"{found.case.name}: response to the unbalance")
+    screen.print(f"{found.case.name}: unbalance response")
     screen.print(f"{echo.words}.")
     screen.print()
     for sentence in found.words:

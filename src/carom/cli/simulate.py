@@ -41,7 +41,7 @@ def simulate(
 ) -> None:
     """Simulate one motion and log its contacts.
 
-    The motion is followed through flights, impacts and lasting contact, exactly to rounding.
+    Flights, impacts and lasting contact are computed to rounding accuracy.
     """
     from carom.cli import logs
     from carom.cli.starts import one_of, read_time, released

@@ -7,20 +7,18 @@ from carom.cli.options import flag, option
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine
 
 OUT = option("DIR", "Write figures, study.json and report.html to this directory.")
-PROVE = flag("--prove", "Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof].")
+PROVE = flag("--prove", "Also prove equilibria, orbits and which kicks come back; needs the extra carom[proof].")
 ALONG = option(
     "NAME",
-    "A parameter along which to search for recovery and for a change to advise, such as 'speed', 'friction' or 'derivative'; may be repeated. By "
-    "default damping and stiffness, or the gains of the magnetic bearings.",
+    "Parameter to vary in the search for recovery and for a recommended change, such as 'speed', 'friction' or 'derivative'; repeatable. "
+    "Default: damping and stiffness, or the gains of the magnetic bearings.",
 )
 TIME_LIMIT = option(
     "T",
-    "Stop simulating after T, such as '2 min', and report what was not reached; with --prove it also ends the proof of kicks, by "
-    "default after 30 s.",
+    "Stop simulating after T, such as '2 min', and list what was not completed; with --prove it also limits the proof of "
+    "kicks, by default to 30 s.",
 )
-LONG = flag(
-    "--long", "Print all that was found and the table of motions too, not the verdict and the recommendation alone."
-)
+LONG = flag("--long", "Print all results and the table of motions, not only the verdict and the recommendation.")
 
 
 def study(
@@ -38,10 +36,10 @@ def study(
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
 
-    Finds every simple motion of the machine with its stability, the damping and stiffness at which each appears or
-    vanishes, where 200 simulated disturbances end, what is survived, and what the touchdown bearings bear in it and in a drop.
-    --kick, --shock and --blade-loss say what the machine must survive, in place of the table [survive] of its file. With
-    --out it also writes figures, study.json and report.html.
+    Finds the equilibria and the orbits with one impact a period with their stability, the damping and stiffness at which each
+    appears or vanishes, the outcomes of 200 simulated disturbances, which disturbances are survived, and the touchdown loads in
+    these and in a drop. --kick, --shock and --blade-loss state what the machine must survive, instead of the table [survive] of
+    its file. With --out it also writes figures, study.json and report.html.
     """
     from carom.cli.starts import with_requirement
 

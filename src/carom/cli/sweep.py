@@ -23,11 +23,11 @@ _MOST_AXES = 2
 
 FILE = typer.Argument(metavar="SWEEP.toml", help="The sweep file.")
 OUT = option("STORE", "Directory of the results (Zarr); an existing sweep is resumed.", default=...)
-WORKERS = option("N", "Processes on this machine; by default one for each core.", min=1)
-THREADS = flag("--threads", "Threads of one process instead of processes.")
+WORKERS = option("N", "Processes on this computer; by default one per core.", min=1)
+THREADS = flag("--threads", "Use threads of one process instead of processes.")
 SCHEDULER = option("ADDRESS", "Compute on a Dask cluster: address or file of its scheduler.")
 RETRY_FAILED = flag("--retry-failed", "Compute chunks with failed points again.")
-FIGURES = option("DIR", "Draw maps of the results, as SVG and PNG, in the folder figures of this directory.")
+FIGURES = option("DIR", "Draw maps of the results as SVG and PNG in the folder figures of this directory.")
 
 
 def sweep(
@@ -53,7 +53,7 @@ def sweep(
     check_output(figures, "--figures")
     plan = load_sweep(file, settings or ())
     if figures is not None and len(plan.axes) > _MOST_AXES:
-        allowed = "a sweep over one or two axes; carom.open_sweep and carom.plots.sweep_map draw a part of others"
+        allowed = "a sweep over one or two axes; for more axes use carom.open_sweep and carom.plots.sweep_map"
         raise InputError("--figures", figures, allowed)
     with progress(f"{plan.points:,} points") as tell:
         try:
@@ -130,7 +130,7 @@ def _print(plan: SweepPlan, tally: Tally, failures: Failures) -> None:
             rate += f" ({rate_words(tally.rate * plan.task.starts, 'starts')})"
         screen.print(f"This run: {tally.computed:,} points in {duration_words(tally.seconds)}, {rate}")
     else:
-        screen.print("Nothing was left to compute.")
+        screen.print("Nothing left to compute.")
     if tally.damaged:
         chunks = ", ".join(map(str, tally.damaged[:_SHOWN])) + (", ..." if len(tally.damaged) > _SHOWN else "")
         several = counted(len(tally.damaged), "chunk")

@@ -74,7 +74,7 @@ def print_study(console: Console, study: Study, out: str | None, long: bool) -> 
         _print_left_out(console, study.orbits)
     console.print()
     if not long:
-        console.print("All that was found, and the table of motions: --long")
+        console.print("All results and the table of motions: --long")
     if out is None:
         console.print("Figures, study.json and report.html: add --out DIR")
 
@@ -143,7 +143,7 @@ def _why_only(rotor: Rotor) -> str:
     if rotor.system.is_anisotropic:
         return "Where bearings are anisotropic, rubs and whirls are not steady motions; carom attractors finds where motions end."
     if rotor.system.races is not None:
-        return "On a spinning race, rubs and whirls are steady only where its torques balance: as orbits, if there are any."
+        return "On a spinning race, rubs and whirls are steady only where the torques on the race balance; they are listed as orbits."
     if rotor.system.forced is not None:
         return "Under gravity, rubs and whirls are not steady motions; --set gravity=0 shows those without weight."
     return "Whirls are those of the balanced rotor touching the bearing named alone; other bearings are not checked."
@@ -174,9 +174,9 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
     if not shown:
         return
     styles = ["" if orbit.admissible else "dim" for orbit in shown]
-    title = "Orbits in the units of the equations, just before the first impact"
+    title = "Orbits in dimensionless units, just before the first impact"
     print_table(console, title, *table_of(ORBIT, shown, None), styles=styles)
-    title = "Multipliers: a small disturbance is multiplied by these in a period"
+    title = "Multipliers: growth factors of a small disturbance over one period"
     print_table(console, title, *table_of(MULTIPLIERS, shown, None), styles=styles)
 
 
@@ -193,7 +193,7 @@ def print_motions(console: Console, title: str, rows: Sequence[MotionRow]) -> No
 def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -> None:
     virtual = sum(not orbit.admissible for orbit in orbits)
     if virtual > most_virtual:
-        console.print(f"{virtual} orbits that are not possible are left out; --json lists them.")
+        console.print(f"{virtual} virtual orbits are left out; --json lists them.")
 
 
 _SPARE = ("duration", "friction_impulse", "slip_after")

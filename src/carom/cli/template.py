@@ -16,11 +16,11 @@ TEMPLATES = ("planar", "rigid", "flexible")
 KIND = typer.Argument(
     metavar="KIND", help="Kind of machine: planar (one mass), rigid (it tilts) or flexible (it bends)."
 )
-OUT = option("FILE", "Write it to this new file, not to the screen.", "--out", "-o")
+OUT = option("FILE", "Write it to this new file instead of the screen.", "--out", "-o")
 
 
 def template(kind: str = KIND, out: str | None = OUT) -> None:
-    """Print a machine file with every entry explained, which loads as it is: copy it, and replace what is yours."""
+    """Print a working machine file with every entry explained: copy it and replace the values."""
     if kind not in TEMPLATES:
         raise InputError("KIND", shown(kind), f"one of {', '.join(TEMPLATES)}")
     text = Path(__file__).with_name("templates").joinpath(f"{kind}.toml").read_text(encoding="utf-8")
@@ -31,4 +31,4 @@ def template(kind: str = KIND, out: str | None = OUT) -> None:
         with Path(out).open("x", encoding="utf-8") as stream:
             stream.write(text)
     except FileExistsError:
-        raise InputError("--out", shown(out), "a file that does not exist yet: nothing is overwritten") from None
+        raise InputError("--out", shown(out), "a file that does not exist yet (nothing is overwritten)") from None

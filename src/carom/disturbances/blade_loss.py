@@ -55,7 +55,7 @@ class BladeLoss(Disturbance):
     change: float
     node: int | None = None
     kind: ClassVar[str] = "blade-loss"
-    noun: ClassVar[str] = "losses of a blade"
+    noun: ClassVar[str] = "blade losses"
     measured_in: ClassVar[dict[str, str]] = {"change": "unbalance"}
     changes_machine: ClassVar[bool] = True
     parts: ClassVar = (
@@ -80,7 +80,7 @@ class BladeLoss(Disturbance):
         (phase,), scales = values, rotor.scales
         kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
         words = (
-            f"Loss of a blade: the {noun}{self._where} changes by {format_quantity(self.change, kind, scales)} at {format_angle(phase)} from that before it, "
+            f"Blade loss: the {noun}{self._where} changes by {format_quantity(self.change, kind, scales)} at {format_angle(phase)} from that before it, "
             "in the sense of rotation"
         )
         sizes = {"change": (self.change, kind), "phase": (phase, "")}

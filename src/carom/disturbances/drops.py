@@ -156,14 +156,12 @@ class Drop(Disturbance):
         if self.race_speed is not None and scales is not None:
             turning, shown = own_size("race_speed", self.race_speed, "speed", scales), MACHINE_FIELDS["speed"]
             sizes["race_speed"] = turning, "speed"
-            back = (
-                f"; the race turns at {number(shown.in_usual_unit(turning * scales.speed), 6)} {shown.usual_unit}{back}"
-            )
+            back = f"; the inner race turns at {number(shown.in_usual_unit(turning * scales.speed), 6)} {shown.usual_unit}{back}"
         words = (
-            f"Release: {where}, under {(gravity or ASSUMED).words}; angles count from the fixed x axis in the "
+            f"Release: {where}; gravity {(gravity or ASSUMED).words}; angles are measured from the fixed x axis in the "
             f"sense of rotation (unbalance at the release: {format_angle(phase)}){back}"
         )
-        assumed = "" if gravity else f". The machine states no [gravity]: {ASSUMED.words} is taken"
+        assumed = "" if gravity else f". The file has no [gravity]: {ASSUMED.words} is assumed"
         return Echo(self.kind, words + assumed, sizes)
 
 

@@ -41,7 +41,7 @@ class Echo:
 
 def angles_words(phase: float, when: str = "") -> str:
     """From where angles count: the real axis of the co-rotating frame, from which the phase of the unbalance counts too."""
-    return f"angles count from the x axis that turns with the shaft{when}, in the sense of rotation (the unbalance lies at {format_angle(phase)})"
+    return f"angles are measured from the x axis that turns with the shaft{when}, in the sense of rotation (unbalance at {format_angle(phase)})"
 
 
 def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales: Scales) -> Echo:
@@ -57,7 +57,9 @@ def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales
 def moving(place: complex, rate: complex, scales: Scales | None) -> Echo:
     """A displacement and its rate in the frame that turns with the shaft; the velocity is stated in the fixed frame."""
     speed = rate + 1j * place
-    at = f"{format_quantity(abs(place), 'length', scales)} from the middle at {format_angle(cmath.phase(place))}"
+    at = (
+        f"{format_quantity(abs(place), 'length', scales)} from the bearing centre at {format_angle(cmath.phase(place))}"
+    )
     moves = f"moving at {format_quantity(abs(speed), 'velocity', scales)} towards {format_angle(cmath.phase(speed))} in the fixed frame"
     return Echo(
         "start",

@@ -273,9 +273,11 @@ class BaseShock(Disturbance):
         """See :meth:`carom.disturbances.Disturbance.echo`."""
         (peak, angle), scales = values, rotor.scales
         size = f"{format_quantity(peak, 'acceleration', scales)} for {format_quantity(self.duration, 'time', scales)} at {format_angle(angle)}"
-        counted = angles_words(rotor.unbalance_phase, ", as it lies when the shock begins")
+        counted = angles_words(rotor.unbalance_phase, " at the instant the shock begins")
         sizes = {"peak": (peak, "acceleration"), "duration": (self.duration, "time"), "angle": (angle, "")}
-        return Echo(self.kind, f"Shock of the base: half-sine, {size}; {counted}; times count from then", sizes)
+        return Echo(
+            self.kind, f"Base shock: half-sine, {size}; {counted}; times count from the start of the shock", sizes
+        )
 
     def up_to_words(self, before: float | None, scales: Scales | None) -> str:
         """See :meth:`carom.disturbances.Disturbance.up_to_words`."""

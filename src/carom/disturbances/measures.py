@@ -19,7 +19,7 @@ SHARES = {
     "recovered": Quantity("1", "share of the disturbances that comes back to levitation, by area"),
     "recovered_low": Quantity("1", "lower end of its 95 % confidence interval (of a grid: the share)"),
     "recovered_high": Quantity("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
-    "unresolved": Quantity("1", "share given up, or gone beyond the model, before it was known where it ends"),
+    "unresolved": Quantity("1", "share whose end is unknown: given up, or beyond the model"),
 }
 SMALLEST = "smallest_unrecovered_kick"
 KICKS = {

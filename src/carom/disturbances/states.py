@@ -185,7 +185,7 @@ class GivenState(Disturbance):
         """See :meth:`carom.disturbances.Disturbance.echo`."""
         x, y, vx, vy = values
         begun = moving(complex(x, y), complex(vx, vy), rotor.scales)
-        counted = angles_words(rotor.unbalance_phase, ", as it lies at the start")
+        counted = angles_words(rotor.unbalance_phase, " at the start")
         return Echo(self.kind, f"Start: {begun.words}; {counted}", begun.sizes)
 
 

@@ -46,13 +46,13 @@ class ContactLog(LogTable):
     The slip velocity of the contact point is ``v = s + r(1 + θ̇)``, less the speed of the race's surface if that turns.
     """
 
-    time: np.ndarray = column("time", "time of impact, or of entering the wall, or the beginning of the motion", "time")
-    end: np.ndarray = column("time", "time of leaving the wall, or the end of the motion")
+    time: np.ndarray = column("time", "time of the impact, of entering the wall, or of the start of the motion", "time")
+    end: np.ndarray = column("time", "time of leaving the wall, or of the end of the motion")
     touchdown_bearing: np.ndarray = column("1", NUMBERED, "bearing")
     duration: np.ndarray = column("time", "time from beginning to end, zero for an impact", "duration")
-    entered: np.ndarray = column("1", "whether the wall was entered: a motion may begin in it")
+    entered: np.ndarray = column("1", "whether the wall was entered during the motion (a motion may start in contact)")
     lasts: np.ndarray = column("1", "whether it lasts beyond the end of the motion")
-    phase: np.ndarray = column("1", "kind of contact that takes most of it, or with which an impact ends")
+    phase: np.ndarray = column("1", "dominant kind of contact, or the kind with which an impact ends")
     angle: np.ndarray = column("rad", "angle at its beginning, in the co-rotating frame", "angle")
     radial_speed: np.ndarray = column(
         "velocity", "radial speed before it, or at the beginning of the motion", "speed towards wall"
@@ -64,12 +64,12 @@ class ContactLog(LogTable):
         "impulse", "normal impulse of the bearing on the rotor, inward", "normal impulse"
     )
     friction_impulse: np.ndarray = column(
-        "impulse", "friction impulse on the rotor, along growing angle", "friction impulse"
+        "impulse", "friction impulse on the rotor, positive in the sense of rotation", "friction impulse"
     )
     slip_before: np.ndarray = column("velocity", "slip velocity before it")
     slip_after: np.ndarray = column("velocity", "slip velocity after it", "slip after")
     sticks: np.ndarray = column("1", "whether friction has stopped the slip at its end")
-    by_poisson: np.ndarray = column("1", "whether Poisson's restitution took the place of Newton's")
+    by_poisson: np.ndarray = column("1", "whether Poisson's restitution replaced Newton's")
     peak_force: np.ndarray = column("force", "largest normal force", "peak force")
     peak_time: np.ndarray = column("time", "time of the largest normal force, or of the impact")
     deepest: np.ndarray = column("length", "largest depth in the wall")

@@ -58,12 +58,14 @@ class EnergyLedger(LogTable):
     unbalance: np.ndarray = column("energy", "work of the unbalance since the start")
     damping: np.ndarray = column("energy", "work of damping since the start")
     circulatory: np.ndarray = column("energy", "work of circulatory forces since the start")
-    forces: np.ndarray = column("energy", "work of weight and other outer forces since the start")
-    limits: np.ndarray = column("energy", "work that bearings at their limits do not do, since the start")
+    forces: np.ndarray = column("energy", "work of weight and other external forces since the start")
+    limits: np.ndarray = column("energy", "work not done by magnetic bearings at their limits, since the start")
     impacts: np.ndarray = column("energy", "work at the contact point in impacts since the start")
     friction: np.ndarray = column("energy", "work of friction in lasting contact since the start")
     drive: np.ndarray = column("energy", "work of the shaft's drive since the start")
-    wall_loss: np.ndarray = column("energy", "work that walls take, in dampers and on parting, since the start")
+    wall_loss: np.ndarray = column(
+        "energy", "work lost in compliant walls, in dampers and at lift-off, since the start"
+    )
     race_drag: np.ndarray = column("energy", "work of drag on the races that turn since the start")
     scales: Scales | None = None
 

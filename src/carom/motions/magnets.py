@@ -52,11 +52,11 @@ class MagnetReach(Result):
     @property
     def words(self) -> str:
         """The same in sentences."""
-        shown = "The rotor reaches a magnet: what follows is not the motion of the machine. " if self.reached else ""
+        shown = "The rotor reaches a magnet: the simulated motion after that is not valid. " if self.reached else ""
         if not 0.0 < self.share < 1.0:
             return shown.rstrip()
         return shown + (
-            f"While the magnets act the rotor comes up to {number(100.0 * self.share, 2)} % of an air gap from the centre; {pull_words(self.share)}."
+            f"While the magnets act, the rotor moves up to {number(100.0 * self.share, 2)} % of an air gap from the centre; {pull_words(self.share)}."
         )
 
     def document(self) -> dict[str, object]:

@@ -65,14 +65,14 @@ def _why_no_impact(rotor: Rotor, kind: Kind, node: np.ndarray, duration: float) 
     wall = contact.wall
     _, local = contact.local(node)
     if local.real <= AT_REST:
-        return "it would meet the wall from outside (radial speed not above 0)"
+        return "it would reach the wall from outside (radial speed not above 0)"
     stops = friction_margin(local, wall) >= 0.0
     if kind is Kind.IMPACT_STOPPED:
         if not stops:
             return "friction would not stop the slip during the impact"
     elif wall.friction > 0.0:
         if kind.sense * slip_of(local, wall) < 0.0:
-            return "its slip would run the other way, and friction with it"
+            return "its slip, and so friction, would have the opposite direction"
         if stops:
             return "friction would stop the slip during the impact"
     after = departure(rotor, kind, node)

@@ -94,7 +94,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
     rotor = rotor_of(machine)
     rotor.refuse_forces()
     if rotor.system.arrays["stiffness"].any():
-        raise InputError("machine", "a compliant wall", "rigid walls: contact with a compliant wall is no impact")
+        raise InputError("machine", "a compliant wall", "rigid walls: contact with a compliant wall is not an impact")
     if len(rotor.system.rest) > 1:
         raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:

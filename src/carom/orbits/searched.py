@@ -70,12 +70,12 @@ class Searched:
     @property
     def words(self) -> str:
         """The same in a few sentences."""
-        newest = f"guess {self.last_new} led to the last new orbit" if self.last_new else "none led to a further orbit"
+        newest = f"guess {self.last_new} led to the last new orbit" if self.last_new else "none led to a new orbit"
         return (
-            f"Orbits were searched, which does not prove that these are all: {self.settled} motions "
-            f"were followed until they settled; stretches of {self.motions} others gave {self.guesses} guesses for Newton's method, of "
-            f"which {self.repeats} led to known orbits and {self.failures} to none; {newest}. Solutions that are not motions: {self.virtual}. "
-            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here, {self.on_others} on other orbits with no more impacts than "
+            f"Orbits were found by search, so the list may be incomplete: {self.settled} motions "
+            f"were followed until they settled; {self.motions} others gave {self.guesses} initial guesses for Newton's method, of "
+            f"which {self.repeats} converged to known orbits and {self.failures} did not converge; {newest}. Virtual solutions: {self.virtual}. "
+            f"Of {self.fresh} new motions, {self.on_listed} ended on an orbit listed here, {self.on_others} on other orbits with no more impacts than "
             f"were searched, and {self.unsettled} had not settled when they were given up."
         )
 

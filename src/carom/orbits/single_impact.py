@@ -30,7 +30,7 @@ from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 
 _CLOSED_FORMS_ALONE = (
-    "none, but of the planar rotor on a rigid bearing without weight and limits, whose orbits have closed forms"
+    "none, except for the planar rotor in a rigid bearing without weight and limits, whose orbits have closed forms"
 )
 A_FEW = 30
 """Guesses of a search that is asked for no number of impacts."""
@@ -108,12 +108,12 @@ class OrbitSet(Members[Orbit]):
         if self.search is not None:
             return self.search.words
         if self.rotor.system.why_not_stationary is not None:
-            return f"There are no orbits: with {self.rotor.system.why_not_stationary[0]} no motion repeats itself."
+            return f"There are no periodic orbits: with {self.rotor.system.why_not_stationary[0]} no motion repeats itself."
         count = len(self.periods)
         found = f"F1 has {count or 'no'} root{'' if count == 1 else 's'} for 0 < T ≤ {self.longest_period:.4g}/Ω"
-        search = f"{found}, isolated by a bound of its second derivative"
-        beyond = "beyond, the decay of the free motion keeps F1 above zero"
-        stopping = "an impact that stopped the slip would send the rotor out of the clearance"
+        search = f"{found}, isolated by a bound on its second derivative"
+        beyond = "for longer periods the decay of the free motion keeps F1 above zero"
+        stopping = "an impact that stops the slip would throw the rotor beyond the clearance"
         return (
             f"{search}; {beyond if self.complete else 'longer periods were not searched'}; "
             f"{stopping if self.slip_stays_forward else 'orbits whose impacts stop the slip were not searched'}."

@@ -43,7 +43,7 @@ class Multipliers(Result):
         leader = self.values[0]
         if abs(leader.imag) > 1e-9 * abs(leader):
             return "in an oscillation from impact to impact"
-        return "steadily to one side" if leader.real > 0 else "in alternation from impact to impact"
+        return "monotonically" if leader.real > 0 else "in alternation from impact to impact"
 
 
 @checked

@@ -267,7 +267,7 @@ class LoadLimits(Table):
     heat: float | None = entry("", "friction work of a touchdown", "J", 1e-12, 1e15, '"500 J"', True)
     impacts: float | None = entry("", "impacts of a touchdown", "", 1, 1e9, "20", True, whole=True)
     depth: float | None = entry("", "depth in the bearing", "m", 1e-12, 1.0, '"20 um"', True, usual=("µm", 1e-6))
-    pressure: float | None = entry("", "pressure of balls", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual=("GPa", 1e9))
+    pressure: float | None = entry("", "ball pressure", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual=("GPa", 1e9))
 
     heading: ClassVar = "limits"
 

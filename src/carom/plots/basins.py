@@ -309,7 +309,7 @@ def _words(part: Any) -> str:
     if part.impacts is None:
         return f"open, {share}: {part.reason}"
     if part.impacts == 0:
-        return f"proven, never touches: {share}"
+        return f"proven, no contact: {share}"
     return f"proven, at most {counted(part.impacts, 'impact')}: {share}"
 
 
@@ -327,7 +327,7 @@ def _frame(axes: Axes, kicks: ProvenKicks) -> None:
     axes.set_aspect("equal")
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel=f"kick outward ({unit})", ylabel=f"kick in the sense of rotation ({unit})")
-    marked = [(kicks.contact_free, (4.0, 2.0), "none touches below")]
+    marked = [(kicks.contact_free, (4.0, 2.0), "no contact below")]
     if not kicks.whole and kicks.all_up_to > kicks.contact_free:  # else it says no more
         marked.append((kicks.all_up_to, (1.0, 1.5), "all proven to come back below"))
     for size, dashes, words in marked:

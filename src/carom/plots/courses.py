@@ -126,7 +126,7 @@ def touchdown(
         axes.set_title(f"({letter})", loc="left", y=1.0)
     if len(spans) > 1:
         grid[0, 0].set_title("the first contacts", y=1.0)
-        rests = "until it rests or whirls" if end <= settled < whole else "as far as it is drawn"
+        rests = "until it rests or whirls" if end <= settled < whole else "drawn part of the motion"
         grid[0, 1].set_title("the whole motion" if end == whole else rests, y=1.0)
     return key(figure, grid.ravel().tolist(), columns=4, title=title)
 

@@ -32,7 +32,7 @@ _FREE = replace(LOOKS["contact-free"], line="-", width=1.7)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
 _RUB = replace(LOOKS["rub"], words=f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
 _SADDLE = Look("#5c1f47", f"{STEADY_WORDS['rub']}, unstable", line="--", width=1.1)
-_LIMIT = Look("#d55e00", "limit of API 617", line="-.", width=1.1)
+_LIMIT = Look("#d55e00", "API 617 limit", line="-.", width=1.1)
 PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
 CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
 _HALF = Look("#0072b2", "0.707 of the peak, for the amplification factor", line="-", width=1.0)
@@ -54,7 +54,7 @@ _LOWEST = 0.05
 def unbalance_response(response: UnbalanceResponse) -> Figure:
     """Draw amplitude and phase over the speed of the shaft in two panels.
 
-    Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; counted
+    Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the API 617 limit; counted
     with the sag, on the right as radius in mm.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.
     Rubs lie on the wall, an unstable one dashed upon the stable one.  Lower: the angle by which the rotor lags its
     unbalance.  The present and the critical speed are marked in both.
@@ -76,7 +76,7 @@ def _title(response: UnbalanceResponse) -> str:
     """Write the vibration at the present speed with its zone."""
     width = 2e6 * float(response.now.touchdowns.major[0, response.worst])
     sag = 1e6 * float(response.now.sags[response.worst])
-    zone = f"zone {response.zone_at(response.present)}{f' with the sag of {number(sag, 3)} µm' if sag else ''}"
+    zone = f"zone {response.zone_at(response.present)}{f' including {number(sag, 3)} µm of static sag' if sag else ''}"
     found = f"{number(width, 4)} µm peak to peak, {zone}" if response.now.reach.max() <= 1.0 else NO_LEVITATION
     return f"at {response.present / RPM:,.0f} rpm: {found}"
 
@@ -156,7 +156,7 @@ def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
         highest = max(highest, 270.0 if np.nanmax(np.append(rub, 0.0)) > 180.0 else 180.0)
     axes.set_ylim(lowest, highest)
     axes.set_yticks(np.arange(lowest, highest + 1.0, 90.0 if highest - lowest > 180.0 else 45.0))
-    axes.set_ylabel("lag behind the\nunbalance (degrees)")
+    axes.set_ylabel("phase lag behind\nthe unbalance (degrees)")
 
 
 def _marks(axes: Axes, response: UnbalanceResponse) -> None:
@@ -206,7 +206,7 @@ def campbell(found: Campbell) -> Figure:
                 those = goes & ((branch.real >= 0.0) == grows)
                 if not those.any():
                     continue
-                words = f"{name} whirl{' that grows' if grows else ''}"
+                words = f"{name} whirl{' (unstable)' if grows else ''}"
                 look = LOOKS[name].mark(4.0, filled=not grows) | {"color": LOOKS[name].colour, "ls": line}
                 look |= {"markevery": max(1, len(speeds) // MARKS), "label": words, "gid": words}
                 upper.plot(speeds, np.where(those, np.abs(branch.imag) / _HERTZ, np.nan), **look)
@@ -215,7 +215,7 @@ def campbell(found: Campbell) -> Figure:
     rates = ", ".join(f"{each:,.0f}" for each in sorted(criticals))
     for axes in (upper, lower):
         for each in criticals:
-            axes.axvline(each, **CRITICAL.stroke, label=f"forward whirl meets the speed: {rates} rpm")
+            axes.axvline(each, **CRITICAL.stroke, label=f"critical speeds of forward whirl: {rates} rpm")
         present = found.machine.speed / RPM
         axes.axvline(present, **PRESENT.stroke, label=f"present speed, {present:,.0f} rpm", gid="present")
     lower.axhline(0.0, color="#1a1a1a", lw=0.5)
@@ -241,7 +241,7 @@ def sensitivity(found: Sensitivity) -> Figure:
 
     figure, axes = one_axes((TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     if not found.stable:
-        figure.suptitle("The loop is unstable: it has no zones of ISO 14839-3")
+        figure.suptitle("The loop is unstable: ISO 14839-3 zones do not apply")
     top = max(_ROOM * float(found.peaks.max()), _ROOM * LIMITS["C"])
     edges = [0.0, *LIMITS.values(), top]
     for zone, low, high, shade in zip("ABCD" if found.stable else "", edges[:-1], edges[1:], ZONE_SHADES, strict=False):
@@ -297,7 +297,7 @@ def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.WhirlMo
         axes.remove()
     for axes in panels[max(len(whirls) - _COLUMNS, 0) : len(whirls)]:
         axes.tick_params(labelbottom=True)
-        axes.set_xlabel("place along the shaft (mm)")
+        axes.set_xlabel("position along the shaft (mm)")
     for axes in panels[::_COLUMNS]:
         axes.set_ylabel("displacement")
     return key(figure, panels[: len(whirls)], columns=4)

@@ -106,7 +106,7 @@ def mark_present(axes: Axes, place: Sequence[float], edges: Sequence[Floats], wo
 
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their line styles."""
-_WORDS = "share of the disturbances that comes back"
+_WORDS = "share of disturbances that come back"
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 """What stiffness and damping are called; an entry of a machine's file that states them has its own name."""
 
@@ -135,7 +135,7 @@ def gain_map(found: GainMap, *, in_terms_of: Case | None = None) -> Figure:
     replaced = {}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
-        replaced["no-levitation"] = "no levitation (in the middle of the cell)"
+        replaced["no-levitation"] = "no levitation (at the cell centre)"
     share = np.ma.masked_where(grounded, found.dataset["recovered"].values)
     colours = draw_map(drawn, edges, share, _WORDS, {"no-levitation": grounded}, replaced, vmin=0.0, vmax=1.0)
     if colours is not None:

@@ -120,7 +120,7 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
         if resonance:
             _write(axes, resonance, tuple(np.array(point.value) / units), "resonance", 4.0, ha="right", va="top")
     for change in found.unexplained:
-        mark(change.point, "change of motions on no curve found", "x", 4.0, _UNEXPLAINED, _UNEXPLAINED)
+        mark(change.point, "change of motions not explained by a curve", "x", 4.0, _UNEXPLAINED, _UNEXPLAINED)
     if found.present is not None:
         mark(found.present, "the machine as it is", "*", 9.0, _MACHINE)
     return list(entries.values())

@@ -116,7 +116,7 @@ REGIMES = (
     Look("#a52f74", "sliding, slip forward"),
     Look("#532a94", "sliding, slip backward", hatch="...."),
     Look("#5c1236", "rolling", hatch="////"),
-    Look("#b8c2cc", "parted from the wall", hatch="||||"),
+    Look("#b8c2cc", "lift-off from the wall", hatch="||||"),
 )
 """Looks of the regimes of a touchdown, in the order of :class:`carom.base.outcome.Phase`."""
 
@@ -154,7 +154,7 @@ WORKS = MappingProxyType(
         "circulatory": Look("#56b4e9", "work of circulatory forces", line=(0, (3, 1, 1, 1, 1, 1)), width=0.9),
         "unbalance": Look("#e69f00", "work of unbalance", line=(0, (6, 1, 1, 1)), width=0.9),
         "wall_loss": Look("#a6761d", "lost in the wall", line=(0, (2, 1)), width=0.9),
-        "forces": Look("#7d6a4f", "work of weight and outer forces", line=(0, (5, 2)), width=0.9),
+        "forces": Look("#7d6a4f", "work of weight and external forces", line=(0, (5, 2)), width=0.9),
     }
 )
 """Looks of the entries of an energy ledger."""

@@ -15,8 +15,17 @@ CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-sing
 """Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
 _UNITS = {"speed": ("1e3", "mm/s", "c_r Ω"), "peak": ("1", "m/s²", "c_r Ω²"), "change": ("1e6", "µm", "c_r")}
 """Of each size: what one SI unit counts, in which unit people read it, and its unit where scales are not known."""
+_SHAFT_SPEED = ("1", "rad/s", "Ω")
+"""The same of a claim about the speed of the shaft."""
+_NAMES = {
+    "spare friction": "least friction margin",
+    "share proven": "proven share",
+    "share refuted": "refuted share",
+    "share open": "open share",
+}
+"""What people read for the names of numbers in certificates, where that differs."""
 _PERCENT, _BELOW, _ASKED = Decimal(100), Context(prec=4, rounding=ROUND_FLOOR), Context(prec=12)
-_NEVER = "in any direction and at any instant of the turn, makes the rotor touch{limits}: it goes back to levitation"
+_NEVER = "in any direction and at any instant of the turn, makes the rotor touch{limits}: it returns to levitation"
 
 
 def chief_of(proof: Proof) -> Claim | None:
@@ -42,6 +51,7 @@ def numbers_of(claim: Claim) -> str:
     shown = []
     for name, plain in named:
         entry, words = claim.enclosures[name], plain.replace("_", " ")
+        words = _NAMES.get(words, words)
         if plain in _UNITS:
             shown.append(f"{words} {_size(claim, plain)}")
         elif plain.startswith("share_"):
@@ -60,9 +70,9 @@ def _sentence(claim: Claim, proof: Proof) -> str:
         family, numbers = FAMILIES[claim.about], claim.enclosures
         largest, impacts = proof.options[family.option], int(numbers["impacts"].low)
         how = f"with at most {impacts} impact{'s' * (impacts > 1)}" if impacts else "without touching"
-        among = "" if below.startswith("0 ") else f", among them all below {below}"
+        among = "" if below.startswith("0 ") else f", including all below {below}"
         return (
-            f"Of all {family.about} up to {largest}, {_share(numbers['share_proven'].low)} % (of the area of the disc of sizes and "
+            f"Of all {family.about} up to {largest}, {_share(numbers['share_proven'].low)} % (by area of the disc of sizes and "
             f"directions) return to levitation {how}{among}."
         )
     shown = numbers_of(claim)
@@ -71,7 +81,7 @@ def _sentence(claim: Claim, proof: Proof) -> str:
 
 def _size(claim: Claim, name: str) -> str:
     """Lower end of a size with its unit."""
-    factor, unit, own = _UNITS[name]
+    factor, unit, own = _SHAFT_SPEED if claim.kind == "absent below" else _UNITS[name]
     given = claim.enclosures.get(f"{name}_si")
     if given is None:
         return f"{_rounded(Decimal(claim.enclosures[name].low))} {own}"

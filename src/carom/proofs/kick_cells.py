@@ -39,8 +39,8 @@ REFUTED = "r"
 """Letter of cells that are proven to decay to the stable rub."""
 AHEAD, LOST = "t", "x"
 OPEN = {
-    AHEAD: "time was up",
-    LOST: "the one in the middle does not return in double precision",
+    AHEAD: "time limit reached",
+    LOST: "the disturbance at its centre does not return in double precision",
     **{reason[0]: words for reason, words in REASONS.items()},
 }
 """Letters of cells that are open: why the cell that was halved into them was."""
@@ -222,7 +222,7 @@ def box_of(hypotheses: Hypotheses, along: Sequence[Sequence[str]]) -> Box:
     names = [line.name for line in lines]
     for name in names:
         if names.count(name) > 1:
-            raise InputError("along", name, "names each parameter once")
+            raise InputError("along", name, "must name each parameter once")
     for problem in conflicts({line.name: f"{line.start} to {line.stop}" for line in lines}):
         raise problem
     return Box(hypotheses, lines)

@@ -19,13 +19,13 @@ from carom.proofs.rotor import ProvenRotor
 
 BOX_THEOREM = "kicks of a box of machines"
 NOT_CLAIMED = (
-    "that what is open does not return, or that it does; why it is open is stated by the search",
-    "that the impacts stated happen: they are bounds from above",
-    "anything beyond the largest size, of starts other than levitation, or of compliant walls",
+    "whether the open cases return (the search states why they are open)",
+    "that as many impacts occur as stated: these are upper bounds",
+    "anything about larger sizes, starts other than levitation, or compliant walls",
 )
 BOX_NOT_CLAIMED = (
     *NOT_CLAIMED,
-    "anything of machines with parameters outside of the intervals, or whose parameters move while they are kicked",
+    "anything about machines with parameters outside the intervals, or with parameters that vary during the motion",
 )
 _STRETCHES = 16
 """Stretches of the interval of a parameter on each of which a speed is stated."""

@@ -30,9 +30,9 @@ from carom.proofs.hypotheses import StatedEquations, array_of, balls, text_of
 THEOREM = "levitation"
 OPTIONS = ("kicks_up_to",)
 NOT_CLAIMED = (
-    "what kicks and steps of the unbalance beyond these sizes do: they may touch, and may come back all the same",
-    "anything of motions in contact: synchronous rubs, bouncing, whirl, and what comes back from them",
-    "shocks of the base, which go on acting",
+    "what larger kicks and steps of the unbalance do: they may touch, and may still come back",
+    "anything about motions in contact: synchronous rubs, bouncing, whirl, and what comes back from them",
+    "anything about base shocks",
     "that the equations describe the machine: their numbers are taken as doubles, computed from those of its file",
 )
 _ANY = "in any direction and at any instant of the turn"
@@ -100,8 +100,8 @@ def _clear(held: _Linear, clear: list[int]) -> Claim:
     return claim_of(
         "levitation",
         "clear",
-        "Levitating with its sag and its unbalance, the rotor stays inside its touchdown bearings and its magnetic bearings below their limits; the numbers bound how far it "
-        "comes, as shares of each clearance and in the units of each limit.",
+        "Levitating with its sag and its unbalance, the rotor stays inside its touchdown bearings and its magnetic bearings below their limits; the numbers are "
+        "upper bounds, as a share of each clearance and in the unit of each limit.",
         1 if all(sign > 0 for sign in clear) else 0,
         reason="sag and whirl may reach a touchdown bearing or a limit",
         enclosures=enclosures_of(**dict(zip(names, held.steady, strict=True))),
@@ -134,7 +134,7 @@ def _sizes(kicks: list[arb], steps: list[arb], options: Mapping[str, Any], held:
                 "asked never touch",
                 f"After every kick up to speed, in c_r Omega of the fixed frame, {after}.",
                 1 if size < speed else 0,
-                reason="kicks from the speed above on are open: some may touch, and come back all the same",
+                reason="faster kicks are open: some may touch and still come back",
                 enclosures=held.both("speed", size),
                 limited=False,
             )

@@ -125,7 +125,7 @@ THEOREMS: Mapping[str, Theorem] = {
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the contact-free speed",
             "which disturbances end in a rub",
-            "which slides and whirls repeat that are not stated, or that there is no whirl that bounces",
+            "whether other sliding or whirling motions repeat, or whether there is whirl with bounces",
         ),
         ("longest_period", "cells"),
     ),
@@ -148,7 +148,7 @@ THEOREMS: Mapping[str, Theorem] = {
             *steady_line_claims(rotor, options),
         ],
         (
-            "what is said to be open on an interval, but for the points listed there",
+            "what is stated as open on an interval, except for the points listed there",
             "that there are no other bifurcation points there: those listed are what a search in double precision found",
             "that the orbit at a point has the name it is listed by",
             "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",

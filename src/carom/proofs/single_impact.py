@@ -56,7 +56,7 @@ def slip_claim(n: LineNumbers, statement: str = STATEMENT) -> Claim:
         return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
     reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
     if not n.gamma >= 0:
-        reason = "the argument needs damping that is not negative"
+        reason = "the argument requires non-negative damping"
     shown = any(out_of_clearance(n, Fraction(314 * k, 100 * STEPS)) for k in range(1, STEPS + 1))
     return claim_of("machine", "slip", statement, int(shown), reason=reason, limited=False)
 

@@ -75,8 +75,8 @@ THEOREM = "states"
 OPTIONS = ("states_up_to",)
 NOT_CLAIMED = (
     "that states faster than the speed that is shown do not return, but for those that are named",
-    "how many impacts there are on the way, how hard they are, or how long it takes",
-    "anything of a rotor with weight, of compliant walls, or of a shaft whose speed changes",
+    "how many impacts occur, how hard they are, or how long recovery takes",
+    "anything about a rotor with weight, of compliant walls, or of a shaft whose speed changes",
 )
 SPEED = Field("states_up_to", "V", "largest speed of a state", "a speed", "m/s", 1e-9, 1e9, '"100 mm/s"')
 _WHERE = "inside the clearance or on its wall"

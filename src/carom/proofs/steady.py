@@ -75,7 +75,7 @@ def _claims_of_rub(rotor: ProvenRotor, name: str, side: int) -> list[Claim]:
     exists = rotor.claim(
         name,
         "solution",
-        f"The balance of forces of a synchronous rub has two solutions; this is that of the {which} normal force.",
+        f"The balance of forces of a synchronous rub has two solutions; this is the one with the {which} normal force.",
         sign,
         "no rub is in balance, or both are one" if sign < 0 else "the rubs may meet in a fold",
     )

@@ -160,7 +160,7 @@ def _absence_claim(rotor: ProvenRotor, exact: LineNumbers, rolls: bool) -> Claim
     if rolls:
         return _claim(rotor, "absent", statement, -1, "the rotor can roll")
     sign = drag_sign(exact)
-    reason = "damping is not so strong that all backward whirl dies out" if sign == -1 else ""
+    reason = "the damping is too weak to suppress all backward whirl" if sign == -1 else ""
     return _claim(rotor, "absent", statement, 0 if sign == -1 else sign, reason)
 
 
@@ -170,7 +170,7 @@ def _below_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     words = "With its damping and stiffness, at every speed of the shaft"
     below = f"{words} below the lower end of share times the present one, {BACKWARD}."
     if damping == -1:
-        return _claim(rotor, "absent below", below, 0, "the argument needs damping that is not negative")
+        return _claim(rotor, "absent below", below, 0, "the argument requires non-negative damping")
     if damping == 0 and friction == 0:
         return _claim(rotor, "absent below", below, 0, "there is neither damping nor friction")
     if friction == 0:

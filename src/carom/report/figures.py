@@ -51,23 +51,23 @@ def pictures(study: Study) -> list[ReportPicture]:
     # Under weight levitation is no point there, and one point alone is not worth a picture.
     if not study.under_gravity and len(study.equilibria) + len(possible) > 1:
         words = (
-            "All steady motions and single-impact orbits, seen turning with the shaft: a steady whirl is a point, a bounce a "
-            "loop, and what lies on the circle touches the bearing."
+            "All steady motions and single-impact orbits in the frame that turns with the shaft: a synchronous whirl is a point, bouncing "
+            "is a loop, and points on the circle are in contact."
         )
         figures.append(ReportPicture("overview", "motions", words, study.plot))
     figures += [*_of_disturbances(study), *_of_levitation(study), *_of_loads(study)]
     if kicks is not None:
-        words = "Each point is a kick of the levitating rotor: what is proven of each cell of kicks, and why the others are open."
+        words = "Each point is a kick of the levitating rotor: the colour shows what is proven for its cell, or why it is open."
         figures.append(ReportPicture("proven-kicks", "proven", words, kicks.plot))
     for orbit in study.stable_orbits[:MOST_ORBITS]:
         words = (
-            f"How the rotor bounces for ever on {orbit.name}, with an impact every {study.wording.time(orbit.period)}: above as seen "
-            "turning with the shaft, where each bounce is the same loop, below as seen in the room."
+            f"Bouncing of the rotor on the orbit {orbit.name}, with an impact every {study.wording.time(orbit.period)}. Top: in the "
+            "frame that turns with the shaft, where each bounce is the same loop; bottom: in the fixed frame."
         )
         figures.append(ReportPicture(f"orbit-{_file_name(orbit.name)}", "method", words, orbit.plot))
     if possible:
         words = (
-            "A small disturbance of an orbit is multiplied by these numbers from impact to impact: the orbit is stable if all lie "
+            "Multipliers: growth factors of a small disturbance from impact to impact. The orbit is stable if all lie "
             "inside the unit circle."
         )
         figures.append(ReportPicture("multipliers", "method", words, partial(plots.multipliers, possible[:12])))
@@ -100,16 +100,16 @@ def _of_levitation(study: Study) -> Iterator[ReportPicture]:
     machine = found.machine
     if machine is None or found.campbell is None:
         return
-    whirls = "Free whirls over the speed of the shaft, from all modes, with their damping ratios. Unbalance excites forward whirls where they cross the line of the speed; peaks of the response lie elsewhere where damping is large."
+    whirls = "Whirl modes over shaft speed (Campbell diagram, all modes) and their damping ratios. Unbalance excites forward modes where they cross the synchronous line; with large damping the response peaks lie elsewhere."
     yield ReportPicture("campbell", "levitating", whirls, found.campbell.plot)
-    shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
+    shapes = "Shapes of the lowest whirl modes along the shaft at the operating speed."
     yield ReportPicture("shapes", "levitating", shapes, lambda: plots.mode_shapes(machine, found.whirls))
     if found.response is not None:
-        radii = "Vibration (peak to peak) by unbalance over the speed of the shaft, at the touchdown bearings, and its phase."
+        radii = "Unbalance response over shaft speed at the touchdown bearings: vibration (peak to peak) and phase."
         ends = float(found.response.speeds[0]), float(found.response.speeds[-1])
         yield ReportPicture("unbalance", "levitating", radii, lambda: unbalance_response(study.case, ends).plot())
     if found.sensitivity is not None:
-        peaks = "Sensitivity of each loop, with the zones of ISO 14839-3."
+        peaks = "Sensitivity of each control loop, with the zones of ISO 14839-3."
         yield ReportPicture("sensitivity", "levitating", peaks, found.sensitivity.plot)
 
 

@@ -114,7 +114,7 @@ class Film:
         sentences = [
             "The drop in slow motion, in the fixed frame.",
             f"Clearance, motion and depth are drawn {self.magnified:.2g} times larger than the shaft.",
-            "The dot on the shaft is its unbalance; the thin circle in the middle is the room of its centre, with the path over the last turn.",
+            "The dot on the shaft is its unbalance; the thin circle in the middle is the clearance of its centre, with the path over the last turn.",
             "The light mark on the race turns with it." if self.race_radius else "",
             "The bearing moves on its mount." if self.course.mount is not None else "",
             ""
@@ -132,7 +132,7 @@ class Film:
     def shown(self) -> str:
         """What instant the still picture shows."""
         if not self.legend:
-            return "Shown: the release; nothing is touched."
+            return "Shown: the release, without contact."
         what = "the largest force" if self.course.impacts is None else "the hardest impact"
         return f"Shown: {what}, {self._moment(self.poster)} after the release."
 

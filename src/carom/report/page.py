@@ -133,14 +133,14 @@ def _advice(study: Study) -> tuple[list[Advice], dict[str, str]]:
 
 DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"
 _ORBIT = (
-    "The orbit of the rotor centre in the fixed frame, and close to the wall: its gap over the angle from the direction of gravity. "
+    "Orbit of the rotor centre in the fixed frame, and its gap to the wall over the angle from the direction of gravity. "
     "The arrow shows the weight."
 )
-_SOFT = "Distance from the centre, forces of the contact, its slip and the speed of the surface of the race."
-_RIGID = "Distance from the centre, forces of lasting contact with the impulse of each impact, and slip of the contact."
+_SOFT = "Distance from the centre, contact forces, slip velocity and surface speed of the race."
+_RIGID = "Distance from the centre, forces in lasting contact, the impulse of each impact, and slip velocity."
 _WALLS = {
-    True: "The pressure of balls, if it is stated, is that of Hertz under the peak force, of which the most loaded ball bears 5/Z (Stribeck).",
-    False: "The wall is rigid: an impact has an impulse and no duration, so no peak force can be stated.",
+    True: "Ball pressure, where stated, is the Hertz pressure at the peak force, of which the most loaded ball carries 5/Z (Stribeck).",
+    False: "The wall is rigid: an impact has an impulse but no duration, so no peak force can be stated.",
 }
 
 

@@ -40,8 +40,8 @@ class BearingDemand:
         """What the limit does in the motions."""
         back = f", and {self.came_back_at_limit} of these came back" if self.at_limit else ""
         return (
-            f"The magnetic bearings give {self.control.words}: in every motion that was followed they do no more than that. "
-            f"{self.at_limit or 'None'} of {self.total} disturbances bring them to this limit{back}."
+            f"The magnetic bearings are limited to {self.control.words}, which every simulated motion respects. "
+            f"{self.at_limit or 'None'} of {self.total} disturbances reach this limit{back}."
         )
 
     def document(self) -> dict[str, object]:

@@ -20,11 +20,11 @@ from carom.studies.wording import Wording, entry_words, present_values
 CHANGES = ("Change", "Or")
 """Labels of the changes that help."""
 _NO_CHANGE = {
-    "no-change-needed": "none needed for what the machine must survive",
-    "not-decided": "not decided: too few of the disturbances that the machine must survive could be followed",
-    "no-change-found": f"none found that brings all back that must be survived and changes no gain by more than {number(GAIN_FACTOR)} times",
+    "no-change-needed": "none needed to survive the requirement",
+    "not-decided": "undecided: too few of the required disturbances could be followed to their end",
+    "no-change-found": f"none found that brings back every required disturbance and changes no gain by more than a factor of {number(GAIN_FACTOR)}",
 }
-_HOW_SURE = "closed form: exact; searched: complete lists of orbits at values close together; sampled: random disturbances, so rare ones may end elsewhere; proven only if marked so"
+_HOW_SURE = "closed form: exact; searched: complete lists of orbits at closely spaced values; sampled: random disturbances, so rare ones may end elsewhere; results not marked 'proven' are not proven"
 _LAST_ZONE = "D"
 _fact = partial(Fact, "Recommendation")
 
@@ -50,7 +50,7 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         text = f"{say.name(name)} {say.value(name, own)} is {number(100.0 * margin.share, 2)} % {side} {say.value(name, end)}, {_where(margin.edge)}"
         values = say.in_both(name, present=own) | margin.document(say)
         yield _fact(text, "Margin", evidence_of(margin.edge), values, detail=True)
-    of_now = "" if study.proof is None else ", and what is proven is so of the present values, not of the change"
+    of_now = "" if study.proof is None else "; proofs hold for the present values, not for the change"
     yield _fact(f"{_HOW_SURE}{of_now}.", "How sure")
 
 
@@ -59,7 +59,7 @@ def _change(study: StudyData, change: Change) -> str:
     name, terms = change.parameter, change.terms
     # ω varies with the square root of the stiffness.
     what = "stiffness" if name == "omega" and not study.wording.of_machine else study.wording.name(name)
-    times = "there is none now" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
+    times = "none at present" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
     now, far = (in_terms_of(study.case, name, value).text for value in (change.present, change.far.value))
     bound, searched = ("", "") if change.bound == "about" else (f"{change.bound} ", f", searched to {far}")
     return f"{entry_words(terms.entry)} {now} → {bound}{terms.text} ({', '.join([*terms.beside, times])}){searched}"
@@ -73,12 +73,12 @@ def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evide
     text += f"; stay on this side of {_end(say, change.parameter, change.far)}" if change.bound == "about" else ""
     yield "Margin", text, None
     if change.zone == _LAST_ZONE:
-        zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: less unbalance is needed too"
+        zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: the unbalance must be reduced too"
     yield "Then", f"levitates at a radius of {say.length(change.radius)}, {zone}", "closed form"
     yield "Tried", _tried(study, change), "sampled"
     if change.whirl is not None:
         fast = say.velocity(change.whirl.certain)
-        text = f"{Outcome.ROLLING.words}: it surely begins if, in lasting contact, the centre moves backward faster than {fast}"
+        text = f"{Outcome.ROLLING.words}: certain to begin if, in lasting contact, the rotor centre moves backward faster than {fast}"
         yield "Remains", text, "closed form"
 
 
@@ -86,8 +86,8 @@ def _tried(study: StudyData, change: Change) -> str:
     """Say how many fresh disturbances were followed at the value, and that all came back."""
     drawn, largest = change.check.drawn, sum(share.total for share in change.check.largest)
     return (
-        f"all of {drawn.total:,} fresh disturbances of up to {study.wording.velocity(study.required.kick)}, and {largest:,} at their largest, "
-        f"came back (so at least {number(100.0 * drawn.low, 4)} % do, with 95 % confidence)"
+        f"all of {drawn.total:,} new disturbances up to {study.wording.velocity(study.required.kick)}, and {largest:,} at full size, "
+        f"came back (95 % confidence: at least {number(100.0 * drawn.low, 4)} % do)"
     )
 
 

@@ -26,29 +26,29 @@ from carom.studies.wording import Wording
 PLANE = "is_compliant contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
 LOADS = f"impacts=contacts {' '.join(f'{name}:' for name in MEASURED)} goes_on still_growing"
 _IN_BOTH = (
-    ("restitution seen", "{restitution} in the fastest impact (with unbalance, weight)"),
+    ("observed restitution", "{restitution} in the fastest impact (includes the effect of unbalance and weight)"),
     ("slip energy (heat)", "{heat}"),
-    ("heating goes on", "with {lasting_power}"),
+    ("heating continues", "at {lasting_power}"),
     ("friction power", "up to {power}"),
-    ("race", "{race_at_end:speed} at the end, at most {fastest_race:speed}"),
+    ("inner race", "{race_at_end:speed} at the end, at most {fastest_race:speed}"),
     ("in contact to the end", "since {in_contact_since:time} after {since}"),
 )
 COMPLIANT = (
     ("peak force", "{force}, {force_at:time} after {since}"),
     ("depth", "{depth}"),
-    ("pressure of balls", "{pressure:pressure} on the most loaded one"),
-    ("largest impulse", "{impulse}, {impulse_at:time} after {since} (that of one contact)"),
+    ("ball pressure", "{pressure:pressure} on the most loaded ball"),
+    ("largest impulse", "{impulse} in one contact, {impulse_at:time} after {since}"),
     ("contacts", "{contacts:contact}, {contact_time} in contact"),
-    ("of which it left", "{bounces:bounce}"),
+    ("lift-offs", "{bounces:bounce}"),
     *_IN_BOTH,
 )
 RIGID = (
-    ("hardest impact", "impulse {impulse}, {impulse_at:time} after {since}; a rigid wall has no peak force"),
+    ("hardest impact", "impulse {impulse}, {impulse_at:time} after {since} (a rigid wall has no peak force)"),
     ("contacts", "{contacts:impact}"),
-    ("lasting contact", "force up to {force}, {contact_time} together"),
+    ("lasting contact", "force up to {force}, {contact_time} in total"),
     *_IN_BOTH,
 )
-"""What people see of a touchdown bearing: labels, and attributes of its loads by name and kind; what is zero or not known is left out."""
+"""Loads of a touchdown bearing as shown to people: labels, and attributes by name and kind; zero or unknown ones are left out."""
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
@@ -99,11 +99,11 @@ class LoadCheck:
         where = "" if self.touchdown_bearing is None else f" at touchdown bearing {self.touchdown_bearing}"
         text = f"{LIMIT_FIELDS[self.name].words}{where}: {value}, limit {limit}"
         if self.value > self.limit:
-            return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
+            return f"{text}: exceeded{', and still growing' if self.endless else ''}"
         if not self.endless:
             return f"{text}: kept{', but still growing at the end' if self.still_growing else ''}"
         when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
-        return f"{text}: exceeded{when}, as the motion goes on in contact"
+        return f"{text}: exceeded{when} if contact continues"
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON; values in the SI unit of the limit."""
@@ -176,8 +176,10 @@ def _shaft_words(shaft: Braking) -> str:
     text = f"{end} at the end, {before} before"
     if shaft.left_out == 0.0:
         return text
-    change = f"{'add' if shaft.left_out > 0.0 else 'take'} {Wording(shaft.scales).write(abs(shaft.left_out), 'speed')}"
-    return f"{text}; the torque of the drive is left out in flight, where it would {change}"
+    change = (
+        f"{'add' if shaft.left_out > 0.0 else 'subtract'} {Wording(shaft.scales).write(abs(shaft.left_out), 'speed')}"
+    )
+    return f"{text}; the drive torque is neglected in flight, where it would {change}"
 
 
 def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, object]]:
@@ -187,12 +189,12 @@ def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, object]
 
 def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str, str]]:
     if plane.is_compliant and plane.force_at is None:
-        rows = [("peak force", "none: it did not touch")]
+        rows = [("peak force", "none: no contact")]
     else:
         rows = Wording(plane.scales).rows(COMPLIANT if plane.is_compliant else RIGID, plane, since=since)
         if plane.still_growing:
             label, words = rows[0]
-            rows[0] = (label, f"{words}, still growing: follow the motion longer")
+            rows[0] = (label, f"{words}, still growing at the end: follow the motion longer")
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
@@ -213,7 +215,7 @@ def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
 
 
 def _by_shaft(times: str) -> str:
-    return "synchronous with the shaft" if times == "1" else f"{times.lstrip('-')} times the shaft"
+    return "synchronous with the shaft" if times == "1" else f"{times.lstrip('-')} times the shaft speed"
 
 
 def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
@@ -225,9 +227,9 @@ def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
     if whirl.frequency_si is not None:
         rate = f"{number(whirl.frequency_si, 4)} Hz ({_by_shaft(number(whirl.angular_speed, 3))})"
     if whirl.goes_on:
-        return f"{whirl.direction}, {rate}; it goes on"
-    seen = "and is not known to go on" if not outcome.settled else "in the mean"
-    return f"{whirl.direction}, {rate}, over the last {turns} turns of the shaft, {seen}"
+        return f"{whirl.direction}, {rate}; it persists"
+    seen = "; it may not persist" if not outcome.settled else ""
+    return f"{whirl.direction}, {rate}, mean of the last {turns} turns of the shaft{seen}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -269,12 +271,12 @@ class DropStudy(Result):
         """How the motion ended, and up to when it was followed."""
         say, loads = Wording(self.case.parameters.scales), self.loads
         if loads.outcome is Outcome.BEYOND_MODEL:
-            return f"Beyond the model since {say.time(loads.time)} after the release: {loads.outcome.meaning}"
+            return f"Beyond the model from {say.time(loads.time)} after the release: {loads.outcome.meaning}"
         if not loads.outcome.settled:
             why = "" if loads.outcome is Outcome.TIME_REACHED else f" ({loads.outcome.words})"
-            return f"Followed for {say.time(loads.time)}, and not settled by then{why}."
-        goes_on = "" if loads.outcome is Outcome.LEVITATED else ", and goes on"
-        how = goes_on if loads.settled_at is None else f", since {say.time(loads.settled_at)} after the release"
+            return f"Not settled after {say.time(loads.time)}{why}."
+        persists = "" if loads.outcome is Outcome.LEVITATED else ", which persists"
+        how = persists if loads.settled_at is None else f" from {say.time(loads.settled_at)} after the release"
         name = MotionName(loads.outcome).words
         return f"{name[0].upper()}{name[1:]}{how}; followed for {say.time(loads.time)}."
 

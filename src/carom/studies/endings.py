@@ -32,7 +32,7 @@ def ending_words(outcome: Outcome, motions: Iterable[MotionName] = ()) -> str:
     names = [name for name in motions if name.outcome is outcome]
     known = names[0] if len(names) == 1 else None
     if outcome in (Outcome.BOUNCING, Outcome.MIXED) and not (known and known.orbit):
-        return f"it goes on {outcome.words} as far as it was followed"
+        return f"it was still {outcome.words} at the end of the simulation"
     return f"it ends {ending_phrase(known) if known else f'in {outcome.words}'}"
 
 

@@ -26,26 +26,26 @@ from carom.studies.verdict import proven_words, verdict_facts
 from carom.studies.wording import Wording, counted, indentation_of_steel, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
-ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
+ASSUMED = "; gravity of 9.81 m/s² downward is assumed, as the file states none"
 BORNE = {
-    True: ("{contacts:contact}, {force}, {contact_time} in contact",),
-    False: ("{contacts:impact}, impulse {impulse}", "{force} in {contact_time} of lasting contact"),
+    True: ("{contacts:contact}, up to {force}, {contact_time} in contact",),
+    False: ("{contacts:impact}, impulse up to {impulse}", "up to {force} in {contact_time} of lasting contact"),
 }
 """What is stated of a compliant touchdown bearing, and of a rigid one, beside the orbit; what is zero is left out."""
 HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
-NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
-SAMPLED = "Disturbances other than those simulated{but}. They are samples: one between them, or a larger one, may end elsewhere."
-PROVEN_KICKS = ", but for the kicks that are proven to come back"
-LONGER_MOTIONS = "Motions with two or more impacts a period, that never repeat, or that alternate between bounces and lasting contact, unless a simulated disturbance ended in one."
-RIGID_WALL = (
-    "A touchdown bearing that moves, turns or is compliant: on a rigid wall the load of an impact is an impulse."
+NO_DROP = (
+    "No drop was simulated: it needs SI units for gravity, and a rotor whose stiffness without levitation is known."
 )
-COMPLIANT_WALL = "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated."
-PLANAR = "Changes of speed, gravity, bending and tilting of the rotor, and controllers that are no spring and damper."
-LINEAR = "Changes of speed, coefficients of supports at other speeds, and limits of the magnetic bearings that the file does not state."
-SYMMETRY = f"{RUB.capitalize()}s and orbits in closed form, which need the symmetry of a turn; and kicks while the unbalance is at another angle than that of the machine file."
-CLOSED_FORMS = "What closed forms say of the planar rotor alone: whether rolling lasts, from which speed whirl runs away to it, where each motion exists, and that no orbit is missing."
-AT_LIMITS = "Disturbances while the unbalance is at another angle than that of the machine file, saturation of the iron, and limits of the voltage of the magnetic bearings."
+SAMPLED = "Disturbances that were not simulated{but}: one between the samples, or a larger one, may end elsewhere."
+PROVEN_KICKS = ", except the kicks that are proven to come back"
+LONGER_MOTIONS = "Motions with two or more impacts a period, irregular motions, and motions that alternate between bounces and lasting contact, unless a simulated disturbance ended in one."
+RIGID_WALL = "Motion, rotation and compliance of the touchdown bearing: an impact on a rigid wall has an impulse but no peak force."
+COMPLIANT_WALL = "Wear, heat and axial motion of the touchdown bearing: its contact law is taken as stated."
+PLANAR = "Changes of speed, gravity, bending and tilting of the rotor, and controllers other than a spring and damper."
+LINEAR = "Changes of speed, support coefficients that vary with speed, and limits of the magnetic bearings that the file does not state."
+SYMMETRY = f"{RUB.capitalize()}s and orbits in closed form, which need rotational symmetry; and kicks at other angles of the unbalance than that in the machine file."
+CLOSED_FORMS = "What closed forms give for the planar rotor only: whether rolling persists, the speed from which whirl runs away to rolling, the range in which each motion exists, and that no orbit is missing."
+AT_LIMITS = "Disturbances at other angles of the unbalance than that in the machine file, saturation of the iron, and voltage limits of the magnetic bearings."
 
 
 def facts_of(study: StudyData) -> Iterator[Fact]:
@@ -78,7 +78,7 @@ def unfinished_facts(study: StudyData) -> Iterator[Fact]:
     """What was not followed to its end, and how much of it was."""
     if study.unfinished:
         shown = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in study.unfinished]
-        text = f"Not followed to the end: {listed(shown)}. Each question has a fixed number of events; a time limit ends it earlier."
+        text = f"Not completed: {listed(shown)}. Each search stops after a fixed number of simulated events, or at the time limit."
         yield Fact("Not reached", text, values={"questions": [record(each, UNFINISHED) for each in study.unfinished]})
 
 
@@ -88,45 +88,45 @@ def _levitation(study: StudyData) -> str:
         whirl = "Sag and whirl" if study.under_gravity else "Its whirl from unbalance"
         return f"The rotor cannot run without contact. {whirl} would need a radius of {say.radius(levitation.radius)}, more than the clearance."
     if levitation.status == "boundary":
-        return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
+        return "The contact-free whirl from unbalance just touches the wall: any disturbance leads to contact."
     where = f"levitates at r = {say.radius(levitation.radius)}"
     if isinstance(levitation, Levitation):
         widths = study.rotor.system.widths
         sag, whirl = (say.length(float((widths * each).max())) for each in (levitation.sags, levitation.radii))
-        where = f"hangs {sag} from the centre and whirls there with {whirl}, out to r = {say.radius(levitation.reach)}"
+        where = f"sags {sag} from the bearing centre and whirls about that point with a radius of {whirl}, reaching r = {say.radius(levitation.reach)}"
     limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
     text = f"The rotor {where}, zone {study.zone} (zone limits {limits} of the clearance)."
     if not levitation.stable:
-        return f"{text} But it has no damping: vibrations do not decay."
+        return f"{text} It has no damping: vibrations do not decay."
     decay = -float(levitation.eigenvalues.real.max())
     text += f" Small vibrations decay, with a time constant of {say.time(1.0 / decay)}."
     if "air_gap" in si:
         share = si["clearance"] / si["air_gap"]
-        text += f" It touches at {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
+        text += f" The clearance is {number(100.0 * share, 2)} % of the air gap; {pull_words(share)}."
     return text
 
 
 def _rub(study: StudyData) -> str:
     rubs, stable = [rub for rub in study.rubs if rub.status != "virtual"], study.stable_rub
     if study.under_gravity:
-        return "Under weight no rub is at rest in the frame that turns with the shaft: where the disturbances below end says whether the rotor stays on the bearing."
+        return "Under weight no rub is an equilibrium of the co-rotating frame. The disturbances below show whether the rotor stays on the bearing."
     if not rubs:
         return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."
     say, rub = study.wording, stable or rubs[0]
     wall = study.rotor.system.contacts[rub.plane].wall
     load = _load(study, rub.normal_force)
     if wall.friction and not is_compliant(indentation_of_steel(study.rotor, force=rub.normal_force)):
-        load += f", and friction would heat the contact with {say.power(wall.friction * rub.normal_force * wall.surface_speed)}"
+        load += f", and friction would heat the contact at {say.power(wall.friction * rub.normal_force * wall.surface_speed)}"
     coexists = "coexists with levitation" if study.levitates else "exists"
     holds = "is stable: it can hold the rotor" if stable else "is not stable in every direction"
     return f"A {RUB} {coexists} and {holds}. The bearing force would be {load}."
 
 
 def _load(study: StudyData, force: float) -> str:
-    """A force of lasting contact with its multiple of the weight of the rotor, or that no rigid wall bears it."""
+    """A force of lasting contact as a multiple of the weight of the rotor, or that the rigid model cannot predict it."""
     indentation, scales = indentation_of_steel(study.rotor, force=force), study.rotor.scales
     if is_compliant(indentation):
-        return f"one that the rigid model cannot predict: {steel_words(indentation)}"
+        return f"a force that the rigid model cannot predict: {steel_words(indentation)}"
     weight = f" ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)" if scales else ""
     return f"{study.wording.force(force)}{weight}"
 
@@ -142,14 +142,14 @@ def _bouncing(study: StudyData) -> str:
     if orbits.search is not None or study.rotor.system.why_not_stationary is not None:
         sure = orbits.argument
     elif not orbits.longest_period:
-        sure = "Orbits with one impact a period were not searched for."
+        sure = "Orbits with one impact a period were not searched."
     elif not orbits.complete:
         longest = study.wording.time(orbits.longest_period)
-        sure = f"Orbits of one impact a period were searched up to a period of {longest}; there may be more."
+        sure = f"Orbits with one impact a period were searched up to a period of {longest}; there may be others with longer periods."
     else:
         none = "" if study.stable_orbits else "No orbit with one impact a period is stable. "
-        but = ": bounds exclude any other" if orbits.slip_stays_forward else ", but for impacts that stop the slip"
-        sure = f"{none}The list of these is complete{but}."
+        but = "" if orbits.slip_stays_forward else ", except orbits with impacts that stop the slip"
+        sure = f"{none}All orbits with one impact a period were found{but}."
     return " ".join([*(_stable_orbit(study, orbit) for orbit in study.stable_orbits), sure])
 
 
@@ -157,7 +157,7 @@ def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
     say, impulse, words = study.wording, orbit.impulse, orbit.name.words
     whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
     return (
-        f"{words[0].upper()}{words[1:]} can hold the rotor for ever: one impact every {say.time(orbit.period)} "
+        f"{words[0].upper()}{words[1:]} can persist indefinitely: one impact every {say.time(orbit.period)} "
         f"({say.per_second(orbit.period)}) at {say.velocity(orbit.radial_speed)} towards the wall, each with a normal "
         f"impulse of {say.impulse(impulse)}, a mean force of {say.force(impulse / orbit.period)}, "
         f"in {whirl} whirl{_of_impact(study, impulse)}."
@@ -167,15 +167,17 @@ def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
 def _disturbances(study: StudyData) -> str:
     say, found, hardest = study.wording, study.attractors, hardest_impulse(study.attractors)
     counts, touched = {member.name: member.count for member in found if member.count}, touching(found)
-    text = f"Simulated to where they settle: {found.words()}."
+    text = f"Simulated until they settled: {found.words()}."
     if not counts:
         return f"{text} None of them was followed."
     if list(counts) == [LEVITATION]:
         text += " All of them came back to levitation."
     else:
-        text += f" They ended: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}."
+        text += f" Outcomes: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}."
         if study.levitates and touched:
-            text += f" Of {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
+            text += (
+                f" Of the {len(touched)} that touched the wall, {came_back(touched) or 'none'} came back to levitation."
+            )
     if hardest > 0.0:
         text += f" The hardest impact had a normal impulse of {say.impulse(hardest)}{_of_impact(study, hardest)}."
     return text
@@ -188,11 +190,11 @@ def _backward_whirl(study: StudyData) -> str:
         return _simulated_rolling(study)
     bound = f"{say.name('gamma')} above {say.value('gamma', roll.damping_bound)}"
     if roll.damping_bound <= 0.0:
-        return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
+        return "Friction cannot sustain backward whirl in lasting contact at any damping."
     if study.rotor.value("gamma") > roll.damping_bound:
-        return f"No backward whirl in lasting contact sustains itself: {bound} rules it out."
+        return f"Backward whirl in lasting contact cannot sustain itself: {bound} rules it out."
     if not roll.holds:
-        return f"The rotor cannot roll backward for a whole turn, but may slide backward for a part of each; {bound} would rule it out."
+        return f"The rotor cannot roll backward for a whole turn, but may slide backward for part of each turn; {bound} would rule this out."
     return f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway, roll)} Only {bound} rules that out."
 
 
@@ -200,9 +202,9 @@ def _simulated_rolling(study: StudyData) -> str:
     """Say what is known of rolling without closed forms."""
     rolled = [member for member in study.attractors if member.name.outcome is Outcome.ROLLING]
     if not rolled:
-        return f"No motion that was followed ended in {ROLLING}."
+        return f"No simulated motion ended in {ROLLING}."
     count = sum(member.count for member in rolled)
-    met = f"{counted(count, 'disturbance')} ended" if count else "a start in rolling stayed"
+    met = f"{counted(count, 'disturbance')} ended" if count else "a motion started in rolling stayed"
     return f"Dry friction can drive the rotor backward round the bearing: {met} in {ROLLING}."
 
 
@@ -211,8 +213,8 @@ def _no_return(study: StudyData, runaway: Runaway, roll: Rolling) -> str:
     at, whirl = study.case.parameters, number(runaway.certain, 3)
     force = runaway.certain**2 - at.omega**2 + at.rho
     return (
-        f"There is no return if, in lasting contact, its centre moves backward faster than {study.wording.velocity(runaway.certain)} (whirl at "
-        f"{whirl} times the speed of the shaft). The bearing then carries up to {_load(study, force)}, and in {ROLLING}, where it ends, "
+        f"There is no return once, in lasting contact, its centre moves backward faster than {study.wording.velocity(runaway.certain)} (whirl at "
+        f"{whirl} times the shaft speed). The bearing then carries up to {_load(study, force)}, and in the final {ROLLING} "
         f"{_load(study, roll.largest_force)}."
     )
 
@@ -222,15 +224,17 @@ def load_facts(study: StudyData) -> Iterator[Fact]:
     for each in study.full_size:
         label = LABELS[each.kind]
         size = study.wording.size_of(each.kind)(each.size)
-        lines = [f"{label} of {size}, the worst of {each.back.total} all around, of which {each.back.count} came back:"]
+        lines = [
+            f"{label} of {size}, worst of {each.back.total} {'phases' if each.kind == 'blade_loss' else 'directions'} ({each.back.count} came back):"
+        ]
         for bearing in each.bearings:
             say = Wording(bearing.scales)
             borne = filter(None, (say.fill(text, bearing) for text in BORNE[bearing.is_compliant]))
             at = f"touchdown bearing {bearing.touchdown_bearing}: " if len(each.bearings) > 1 else ""
-            orbit = f"orbit up to {say.length(bearing.radius)} from the centre"
+            orbit = f"orbit radius up to {say.length(bearing.radius)}"
             lines.append(f"{at}{', '.join([orbit, *(borne if bearing.contacts else ['no contact'])])}")
         if each.whirls:
-            lines.append(f"those that do not come back go round {listed(list(each.whirls))}")
+            lines.append(f"those that do not come back whirl {listed(list(each.whirls))}")
         yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", label, values=each.document())
         yield from (Fact("Touchdown loads", f"{label}, {check.words}.", label) for check in each.checks)
 
@@ -241,10 +245,10 @@ def drop_headline(study: StudyData) -> Iterator[Fact]:
     if drop is None:
         return
     shown = [
-        f"{title and f'{title.lower()} '}{', '.join(f'{label} {words}' for label, words in rows if label in HEADLINE) or 'no contact'}"
+        f"{title and f'{title.lower()}: '}{'; '.join(f'{label}: {words}' for label, words in rows if label in HEADLINE) or 'no contact'}"
         for title, rows in drop.tables
     ]
-    limits = "" if study.case.limits.given else "; no limit of a touchdown bearing is stated to compare them with"
+    limits = "" if study.case.limits.given else "; the file states no limits of the touchdown bearing"
     loads = drop.loads
     ending = "not settled" if loads.outcome is Outcome.TIME_REACHED else loads.outcome.words
     text = f"{ending} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
@@ -271,16 +275,16 @@ def accuracy_facts(study: StudyData) -> Iterator[Fact]:
         along.append(("Drop", study.drop.reduction))
     for kind, found in along:
         if found is not None and found.words:
-            yield Fact("Accuracy", f"{kind}, the worst: {found.words}", values=found.document())
+            yield Fact("Accuracy", f"{kind}, worst case: {found.words}", values=found.document())
 
 
 def reduction_words(reduced: ReducedMachine) -> str:
     """What the reduction of a machine leaves out."""
     ratio, error = reduced.damped.damping_ratio, number(100.0 * reduced.error, 2)
-    text = f"Linear results are of all modes, motions with contact of {reduced.vectors} vectors ({reduced.modes} modes of the free rotor): "
-    text += f"half as many more change the force of a first contact by {error} %."
+    text = f"Linear results use all modes; motions with contact use {reduced.vectors} vectors ({reduced.modes} modes of the free rotor). "
+    text += f"Half as many vectors more change the force of a first contact by {error} %."
     if ratio:
-        text += f" The vectors that are no modes have a damping ratio of {number(ratio)}, without which one of them would grow."
+        text += f" Vectors that are not modes are given a damping ratio of {number(ratio)}, without which one of them would grow."
     return text
 
 

@@ -35,7 +35,7 @@ SLOWEST, FASTEST, FOLLOWED = 0.05, 1.5, 40
 WHIRLS = 10
 COLLOCATION = "bearing frequency_hz=whirl.frequency sense=whirl.sense node_between=opposed node_at=hardly"
 SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
-RULE = "By API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10) with the half-power width; its annex on magnetic bearings may state others."
+RULE = "By API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10) with the half-power width; its annex on magnetic bearings may differ."
 
 
 @dataclass(frozen=True)
@@ -177,13 +177,13 @@ def levitation_facts(found: Levitating) -> Iterator[Fact]:
         least = min(each.damping_ratio for each in found.whirls)
         yield Fact("Levitation", text, "Whirls", "closed form", {"damping_ratio": least})
     else:
-        yield Fact("Levitation", "All that is free fades before it goes round once.", "Whirls")
+        yield Fact("Levitation", "Every free motion decays within one revolution of its own.", "Whirls")
     if found.campbell is not None:
         yield Fact("Levitation", other_speeds_words(found.campbell), "Other speeds")
     if found.at_speed is not None and found.machine is not None:
         yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
     if found.machine is not None and found.response is None:
-        yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be stated.")
+        yield Fact("Critical speeds", "Without unbalance there is no response and no critical speed.")
     for each in found.criticals:
         yield Fact("Critical speeds", each.words, values={"speed_si": each.speed, "met": each.separation.met})
     if found.response is not None:
@@ -197,10 +197,10 @@ def levitation_facts(found: Levitating) -> Iterator[Fact]:
 def whirl_words(speed: float, whirls: Sequence[WhirlMode], *, dimensionless: bool = False) -> str:
     """The least damped of the whirls at a speed, rad/s; without dimensions in units of the speed."""
     worst = min(whirls, key=lambda each: each.damping_ratio)
-    kind = f"the {len(whirls)} slowest whirls" if worst.damping_ratio >= 0.0 else "all whirls"
+    kind = f"the {len(whirls)} lowest whirl modes" if worst.damping_ratio >= 0.0 else "all whirl modes"
     often = frequency_words(worst, dimensionless=dimensionless)
     return (
-        f"At {'its speed Ω' if dimensionless else rpm(speed)} the least damped of {kind} is one of {often}, {worst.sense}, with a "
+        f"At {'its speed Ω' if dimensionless else rpm(speed)}, the least damped of {kind} is {worst.sense} at {often}, with a "
         f"damping ratio of {number(worst.damping_ratio, 2)}."
     )
 
@@ -214,9 +214,9 @@ def other_speeds_words(found: Campbell) -> str:
     """Whether a free motion grows at other speeds of the shaft, with the same gains and supports."""
     looked = f"{len(found.speeds)} speeds from {rpm(found.speeds[0])} to {rpm(found.speeds[-1])}"
     if found.levitates.all():
-        return f"No free motion of the machine grows at any of {looked}."
+        return f"Levitation is stable at all {looked}."
     grows = found.speeds[~found.levitates]
-    return f"Of {looked}, a free motion grows at {len(grows)} between {rpm(grows[0])} and {rpm(grows[-1])}: the rotor does not levitate there."
+    return f"Of {looked}, levitation is unstable at {len(grows)}, between {rpm(grows[0])} and {rpm(grows[-1])}: the rotor cannot levitate there."
 
 
 def response_words(at_speed: SynchronousResponse) -> str:
@@ -227,14 +227,14 @@ def response_words(at_speed: SynchronousResponse) -> str:
         for place, sizes in places.items()
     ]
     reached = ", and ".join(listed(each) for each in words if each)
-    sizes = "longer half axes" if at_speed.touchdowns.backward.any() else "radii"
-    return f"Its unbalance makes it whirl with {sizes} of {reached}."
+    sizes = "semi-major axes" if at_speed.touchdowns.backward.any() else "radii"
+    return f"Unbalance makes the rotor whirl with {sizes} of {reached}."
 
 
 def bearing_facts(found: Levitating) -> Iterator[Fact]:
     """Sensitivity of the loops, and whirls of which a node lies at a bearing."""
     if any(each.zone is None for each in found.loops):
-        text = "No sensitivity is stated of a loop that is unstable: it measures how far a stable one is from that."
+        text = "No sensitivity is stated for an unstable loop: it measures how far a stable loop is from instability."
         yield Fact("Magnetic bearings", text, "Sensitivity")
     elif found.loops:
         shown = listed([f"{_peak(each)}, zone {each.zone}, of bearing {each.bearing}" for each in found.loops])
@@ -243,14 +243,16 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
     for each in (each for each in found.collocations if each.opposed or each.hardly):
         whirl = each.whirl
         often, ratio = number(whirl.frequency, 3), number(whirl.damping_ratio, 2)
-        name = f"{whirl.sense} whirl of {often} Hz (damping ratio {ratio})"
+        name = f"{often} Hz {whirl.sense} whirl mode (damping ratio {ratio})"
         what = "at its sensors" if abs(each.sensor) <= abs(each.magnet) else "at its actuator"
-        text = f"Bearing {each.bearing}: the {name} has a node {what}: the bearing cannot damp it."
+        text = f"Magnetic bearing {each.bearing}: the {name} has a node {what}, so the bearing cannot damp it."
         if each.opposed:
-            text = f"A node of the {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
+            text = f"Magnetic bearing {each.bearing}: the {name} has a node between sensors and actuator. They move in antiphase, so derivative action destabilises this mode."
         texts.append(text)
     if found.collocations:
-        texts = texts or [f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet."]
+        texts = texts or [
+            f"None of the {len(found.whirls)} lowest whirl modes has a node between sensors and actuator."
+        ]
     yield from (Fact("Magnetic bearings", text, "Non-collocation") for text in texts)
 
 

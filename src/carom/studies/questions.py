@@ -18,11 +18,11 @@ Kind = Literal["kick", "shock", "blade_loss"]
 OF_ANOTHER_KIND = 0.2
 """Number of shocks, and of losses of a blade, relative to that of kicks, where such are required."""
 LABELS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
-DESCRIBED, PRESENT = "where disturbances end", "the share of {} that comes back"
+DESCRIBED, PRESENT = "the outcomes of disturbances", "the share of {} that comes back"
 SMALLEST = "the smallest {} that do not come back"
 ALONG = "recovery along {}"
 CHANGE = "the least change"
-FULL_SIZE, DROP = "what must be survived, at its full size all around", "the drop"
+FULL_SIZE, DROP = "required disturbances at full size, in all directions", "the drop"
 EVENTS = {
     DESCRIBED: 100_000,
     PRESENT: 300_000,

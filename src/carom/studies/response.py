@@ -27,7 +27,7 @@ from carom.studies.standards import FULL_SPEED, vibration_limit
 from carom.studies.wording import listed, micrometres, rpm
 
 RUB = STEADY_WORDS["rub"]
-_WHY_NO_RUBS = "they are found only with one touchdown bearing, at constant speed and without weight; carom attractors finds the motions on which disturbances end."
+_WHY_NO_RUBS = "they are found only with one touchdown bearing, at constant speed and without weight; carom attractors finds the motions in which disturbances end."
 RUB_SPEEDS = 121
 """About as many speeds of the curve at which rubs are looked for."""
 NARROWED = 1e-6
@@ -78,16 +78,16 @@ def _present(response: UnbalanceResponse) -> str:
     sizes, allowed = now.touchdowns.major[0], float(vibration_limit(np.array(speed)))
     width, several = 2.0 * float(sizes[worst]), len(sizes) > 1
     where = f" at touchdown bearing {worst + 1}" if several else ""
-    sagging = f" beside a sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
+    sagging = f" and a static sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
     if not response.steady_at_present.contact_free:
         return (
             f"At {rpm(speed)}, the present speed, the unbalance would need a contact-free whirl of {micrometres(width)} peak to "
-            f"peak{where}{sagging}, and the clearance allows {micrometres(2.0 * float(now.clearances[worst]))}: the rotor touches."
+            f"peak{where}{sagging}; the clearance allows {micrometres(2.0 * float(now.clearances[worst]))}: the rotor touches."
         )
     over, lag = width / allowed, response.lags_of(now)[worst]
     ratio = f", exceeded by a factor of {number(over, 3)}" if over > 1.0 else ""
     return (
-        f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak{where}{sagging} "
+        f"At {rpm(speed)}, the present speed, the rotor whirls without contact at {micrometres(width)} peak to peak{where}{sagging} "
         f"({number(float(now.reach[0, worst]), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), "
         f"{number(float(np.degrees(lag)), 3)}° behind the unbalance. API 617 allows {micrometres(allowed)} there{ratio}."
     )
@@ -95,7 +95,7 @@ def _present(response: UnbalanceResponse) -> str:
 
 def _limit(response: UnbalanceResponse) -> str:
     over = [stretch for stretch in response.exceeds_api_617 if stretch.what]
-    return f"The limit of API 617 is {f'exceeded {_from_to(over)}' if over else 'nowhere exceeded in this range'}."
+    return f"The API 617 vibration limit is {f'exceeded {_from_to(over)}' if over else 'not exceeded in this range'}."
 
 
 def _saturation(response: UnbalanceResponse) -> str:
@@ -104,23 +104,25 @@ def _saturation(response: UnbalanceResponse) -> str:
         return ""
     over = [stretch for stretch in asking if stretch.what]
     if over:
-        return f"The magnetic bearings saturate {_from_to(over)}: there the rotor does not whirl as is calculated here."
+        return f"The magnetic bearings saturate {_from_to(over)}: the response calculated there does not apply."
     most = float(response.whirl.saturation.max())
-    return f"The magnetic bearings do not saturate in this range: they are asked for at most {number(100.0 * most, 3)} % of a limit."
+    return (
+        f"The magnetic bearings do not saturate in this range: they use at most {number(100.0 * most, 3)} % of a limit."
+    )
 
 
 def _contact(response: UnbalanceResponse) -> list[str]:
     """Where it touches, and which motions in contact are possible."""
     said: dict[str, Callable[..., Any]] = {
-        "No levitation is possible {}: the response calculated there is virtual.": lambda free, *_: not free,
+        "Levitation is impossible {}: the response calculated there exceeds the clearance.": lambda free, *_: not free,
         f"In contact, a stable {RUB} can hold the rotor {{}}.": lambda free, stable, *_: not free and stable,
-        f"No stable {RUB} exists there {{}}: the rotor bounces or whirls backward.": lambda free, stable, *_: (
+        f"In contact, no stable {RUB} exists {{}}: the rotor bounces or whirls backward.": lambda free, stable, *_: (
             not free and stable == 0
         ),
-        f"Levitation and a stable {RUB} are both possible {{}}: which of them the rotor takes depends on how it came there.": lambda free, stable, *_: (
+        f"Levitation and a stable {RUB} are both possible {{}}: which of them occurs depends on the history of the motion.": lambda free, stable, *_: (
             free and stable
         ),
-        f"Once begun, {STEADY_WORDS['rolling']} lasts {{}}.": lambda *steady: steady[-1],
+        f"Once begun, {STEADY_WORDS['rolling']} persists {{}}.": lambda *steady: steady[-1],
     }
     found = []
     for text, holds in said.items():
@@ -129,12 +131,12 @@ def _contact(response: UnbalanceResponse) -> list[str]:
         if joined:
             found.append(text.format(_from_to([each[0]._replace(high=each[-1].high) for each in joined])))
     if all(each.what.contact_free for each in response.stretches):
-        found.insert(0, "Without a disturbance the rotor touches nowhere in this range.")
+        found.insert(0, "Without a disturbance the rotor does not touch anywhere in this range.")
     if response.rubs is None:
-        found.append(f"{RUB.capitalize()}s are not part of this: {_WHY_NO_RUBS}")
+        found.append(f"{RUB.capitalize()}s are not included: {_WHY_NO_RUBS}")
     elif not response.exact:
-        found.append(f"{RUB.capitalize()}s were looked for at {len(response.rubs.speeds)} speeds; rolling was not.")
-    return [*found, "Bouncing motions are not part of this: carom bifurcations --along speed finds them."]
+        found.append(f"{RUB.capitalize()}s were searched at {len(response.rubs.speeds)} speeds; rolling was not.")
+    return [*found, "Bouncing is not included: carom bifurcations --along speed finds it."]
 
 
 def _from_to(stretches: list[SpeedStretch]) -> str:

@@ -35,8 +35,8 @@ ASSUMPTIONS = (
     "Amplification factor: critical speed over the width of the peak at 0.707 (1/√2) of its height (API RP 684, SP6.8.2.1); separation by SP6.8.2.10.",
     "API 617 limit (4.8.2.11): 25.4 µm √(12000 rpm/N) peak to peak, at most 25.4 µm, compared with the calculated response at each speed.",
     "Editions of API 617, and its annex on magnetic bearings, may state other limits.",
-    "Zones of ISO 14839-2: sag and whirl together, as a share of the smallest radial clearance, taken to be that of the touchdown bearing.",
-    "Mass, damping, stiffness, eccentricity, friction and restitution are the same at every speed.",
+    "Zones of ISO 14839-2: sag and whirl together, as a share of the smallest radial clearance, assumed to be that of the touchdown bearing.",
+    "Mass, damping, stiffness, eccentricity, friction and restitution are held constant over speed.",
 )
 """What is taken from the standards, and what is assumed."""
 

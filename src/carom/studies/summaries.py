@@ -58,7 +58,7 @@ MOTIONS: dict[Motion, str] = {
     "rolling": STEADY_WORDS["rolling"],
 }
 """Names of the motions whose ranges are known."""
-BACK = "all that must be survived comes back"
+BACK = "full recovery from the required disturbances"
 MOTION_COLUMNS = {
     "name": "motion",
     "state": "state",
@@ -199,11 +199,11 @@ def _back_words(say: Wording, found: Recovery) -> str:
     """Where along a parameter everything tried came back, how much was tried, and what was met beyond."""
     along = found.along.name
     if found.motions and not found.range_of("single-impact"):
-        return "where was not searched"
+        return "not searched"
     if not found.searched:
-        return "nowhere: it does not levitate in the range searched"
+        return "nowhere: the rotor does not levitate in the searched range"
     if not found.complete:
-        return "where is not known, as the search was not finished"
+        return "unknown: the search was not finished"
     low, high = say.value(along, found.searched[0].low.value), say.value(along, found.searched[-1].high.value)
     if not found.spans:
         return f"at no value tried from {low} to {high}"

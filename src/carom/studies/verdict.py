@@ -41,19 +41,19 @@ _SAID = {
 _KINDS = {"speed": "velocity", "change": "length"}
 Level = Literal["no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"]
 NEARLY_ALL = 0.95
-"""Share from which on of disturbances that do not come back it is said that nearly all are such."""
+"""Share from which on of disturbances that do not come back the text says "nearly all"."""
 _CHOSEN = {
-    "file": "as its file says",
-    "option": "as the options say",
+    "file": "from the machine file",
+    "option": "from the options",
     "default": "default: the impact speed of a free fall across the diametral clearance",
 }
 SURVIVED = {
     "untouched": "cannot touch up to",
-    "sure": "every one comes back up to",
+    "sure": "all come back up to",
     "back": "all tried came back up to",
     "lost": "smallest found that does not come back",
 }
-"""What is said of each kind of disturbance: headings of a table, and words before the size in a sentence."""
+"""Results for each kind of disturbance: headings of a table, and words before the size in a sentence."""
 _fact = partial(Fact, "Verdict")
 
 
@@ -159,7 +159,7 @@ def _required_words(study: StudyData) -> str:
     if source == "default" and study.wording.scales is None:
         how = "default"
     elif source != "default" and requirement.kick is None:
-        how = f"{how}; of the kick the {_CHOSEN['default']}"
+        how = f"{how}; kick: {_CHOSEN['default']}"
     return f"{listed(study.wording.required(study.required))} ({how})"
 
 
@@ -179,13 +179,13 @@ def size_cells(wording: Wording, found: SmallestUnrecovered, *remarks: str) -> d
         cells["untouched"] = f"{size(found.contact_free)} (proven)"
     none = found.size is None and found.complete
     if (up_to := found.largest if none else found.all_back) is not None:
-        most = "; with more it cannot levitate" if none and name == "blade_loss" else ""
+        most = "; beyond it the rotor cannot levitate" if none and name == "blade_loss" else ""
         cells["back"] = f"{size(up_to)} ({found.tried:,} tried{most})"
-    shown = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "search cut short")))
+    shown = "; ".join(filter(None, (*remarks, found.sensitivity, "" if found.complete else "search not finished")))
     if found.size is not None:
         cells["lost"] = f"{size(found.size)} ({shown})"
     elif not found.complete:
-        cells["lost"] = "none yet; the search was cut short"
+        cells["lost"] = "none found before the search was stopped"
     return cells
 
 
@@ -195,7 +195,7 @@ def condition_of(study: StudyData, name: Kind) -> str:
     if name == "shock" and study.survives is not None:
         parts.append(f"of {study.wording.time(study.survives.duration)}")
     if name == "blade_loss":
-        parts.append("by a change of the unbalance at the worst phase")
+        parts.append("as a change of unbalance at the worst phase")
     return ", ".join([*parts, ANY_INSTANT] if study.rotor.depends_on_instant else parts)
 
 
@@ -239,19 +239,19 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
         why = f"its {whirl} {what} the wall of the touchdown bearing"
         return "no-contact-free-motion", "Cannot run without contact", why
     if not levitation.stable:
-        why = "its levitation has no damping, so vibrations do not decay"
+        why = "levitation has no damping, so vibrations do not decay"
         if study.rotor.system.limits:
-            why = "its levitation asks for more than its magnetic bearings can give, or is not damped"
+            why = "levitation saturates the magnetic bearings, or is not damped"
         return "no-contact-free-motion", f"Does not stay in levitation, {zone}", why
     lost = [_lost_words(study, *found) for found in study.unrecovered_kinds]
     if lost:
-        return "may-not-come-back", f"Does not come back from all that it must survive, {zone}", listed(lost)
+        return "may-not-come-back", f"Does not come back from everything it must survive, {zone}", listed(lost)
     if not decides(study.present):
-        outcome = f"Not decided whether it comes back from what it must survive, {zone}"
+        outcome = f"Undecided whether it comes back from what it must survive, {zone}"
         return "not-decided", outcome, "too few disturbances could be followed"
-    outcome = f"Came back each time from what it must survive, {zone}"
+    outcome = f"Came back in every trial from what it must survive, {zone}"
     if kicks_surely_return(study) and not (study.required.shock or study.required.blade_loss):
-        outcome = f"Comes back from every kick that it must survive, {zone}"
+        outcome = f"Comes back from every kick it must survive, {zone}"
     return "all-tried-came-back", outcome, _reservations(study)
 
 
@@ -262,14 +262,14 @@ def kicks_surely_return(study: StudyData) -> bool:
 
 
 def _reservations(study: StudyData) -> str:
-    """What has to be said where all that must be survived came back."""
-    parts = ["no guarantee, as disturbances are samples"]
+    """Reservations where every required disturbance came back."""
+    parts = ["sampled, not proven"]
     if kicks_surely_return(study):
-        parts = ["proven for these kicks; no guarantee for other disturbances, which are samples"]
+        parts = ["proven for these kicks; other disturbances are sampled, not proven"]
     zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
-    parts += [f"sensitivity of its loops in zone {max(zones)} (ISO 14839-3)"] if zones else []
+    parts += [f"control-loop sensitivity in zone {max(zones)} (ISO 14839-3)"] if zones else []
     near = not all(each.separation.met for each in study.levitating.criticals)
-    parts += ["a critical speed is nearer than API 617 allows"] if near else []
+    parts += ["a critical speed is closer than API 617 allows"] if near else []
     parts += [f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits]
     return "; ".join(parts)
 
@@ -279,6 +279,6 @@ def _lost_words(study: StudyData, kind: Kind, back: Share | None) -> str:
     lost = 1.0 - back.fraction if back else 0.0
     many = "nearly all" if lost > NEARLY_ALL else "most" if lost > 0.5 else "some"
     if kind == "blade_loss":
-        return f"{many} losses of a blade are not survived"
+        return f"{many} blade losses are not survived"
     sizes = {kind: size for kind, size, _ in required_kinds(study.required)}
-    return f"{many} {kind}s of up to {study.wording.size_of(kind)(sizes[kind])} do not come back"
+    return f"{many} {kind}s up to {study.wording.size_of(kind)(sizes[kind])} do not come back"

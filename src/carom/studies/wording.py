@@ -66,7 +66,7 @@ def indentation_of_steel(rotor: Rotor, impulse: float = 0.0, force: float = 0.0)
 
 def no_rigid_wall(indentation: float) -> str:
     """Say that the rigid wall is not a valid model if the indentation of steel, in clearances, is large; else nothing."""
-    return f"a rigid wall is no model there: {steel_words(indentation)}" if is_compliant(indentation) else ""
+    return f"the rigid model does not apply: {steel_words(indentation)}" if is_compliant(indentation) else ""
 
 
 def steel_words(indentation: float) -> str:
@@ -200,12 +200,12 @@ class Wording:
 
     def required(self, required: Required) -> list[str]:
         """What a machine must survive: ``kicks of up to 166 mm/s``, and what else."""
-        parts, shock = [f"kicks of up to {self.velocity(required.kick)}"], required.shock
+        parts, shock = [f"kicks up to {self.velocity(required.kick)}"], required.shock
         if shock:
-            parts.append(f"shocks of up to {self.write(shock.peak, 'acceleration')} over {self.time(shock.duration)}")
+            parts.append(f"shocks up to {self.write(shock.peak, 'acceleration')} over {self.time(shock.duration)}")
         if required.blade_loss:
             change = self.write(required.blade_loss, "unbalance")
-            parts.append(f"the loss of a blade that changes the unbalance by {change}")
+            parts.append(f"blade losses that change the unbalance by {change}")
         return parts
 
     def where(self, name: str, spans: tuple[Span, ...], searched: Span | None = None) -> str:
