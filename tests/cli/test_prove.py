@@ -35,7 +35,7 @@ def test_json_is_the_certificate(capsys, tmp_path):
     [
         ([], "give a machine file"),
         ([PAPER, "--along", "gamma", "--from", "[0.1, 0.2]", "--to", "0.3"], "must be one number"),
-        ([PAPER, "--check", "proof.json"], "not allowed with other options"),
+        ([PAPER, "--check", "proof.json"], "must be given alone"),
         ([PAPER, "--most-impacts", "3"], "cannot be combined"),
         ([PAPER, "--kicks-up-to", "0.2", "--most-impacts", "36"], "most_impacts"),
         ([PAPER, "--kicks-up-to", "0.2", "--time-limit", "soon"], "time_limit"),

@@ -122,9 +122,7 @@ def smallest_unrecovered(
     search = _SizeSearch(rotor, model, tolerance, threads, _effort(rotor, model))
     chosen = directions or search.effort.directions, sizes or search.effort.sizes
     try:
-        return _searched(
-            search, *chosen, Reporter.of(progress, "searching the smallest disturbance that does not come back")
-        )
+        return _searched(search, *chosen, Reporter.of(progress, "searching the smallest that does not come back"))
     except BudgetSpentError:
         return search.unfinished()
 

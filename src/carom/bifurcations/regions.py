@@ -222,9 +222,7 @@ def map_regions(
 
 def _remarks(grid: int, examined: int) -> list[str]:
     """What is said of regions that are known by where disturbances settle."""
-    settled = (
-        f"Regions are named after the motions in which {STARTS} disturbances at each of {examined} grid points settle"
-    )
+    settled = f"Regions are named after the motions in which {STARTS} disturbances at each of {examined} points settle"
     words = [f"{settled}; curves are followed only from special points of orbits on two lines of the plane."]
     if examined < grid**2:
         words.append(

@@ -119,9 +119,7 @@ def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:
     scales, usual = case.parameters.scales, case.requirement.own(case.parameters.scales).kick
     chosen = {name: text for name, text in ways.items() if text is not None}
     if len(chosen) > 1:
-        raise InputError(
-            *list(chosen.items())[1], f"not allowed with {next(iter(chosen))}: give one kind of disturbance"
-        )
+        raise InputError(*list(chosen.items())[1], f"not allowed with {next(iter(chosen))}: give one kind only")
     if not chosen:
         return VelocityKick(usual)
     ((name, text),) = chosen.items()
@@ -159,9 +157,7 @@ def _plan(
     if seed is not None and not drawn:
         raise InputError("--seed", seed, "allowed only for a sample: give --starts too")
     if instant is not None and drawn:
-        raise InputError(
-            "--instant", instant, "allowed only with a grid: the disturbances of a sample come at random instants"
-        )
+        raise InputError("--instant", instant, "allowed only with a grid: a sample has random instants")
     if grid is not None and drawn:
         raise InputError("--grid", grid, "not allowed for states, which have four coordinates: give --starts")
     if drawn:

@@ -147,7 +147,7 @@ def _print_map(screen: Console, found: DropMap) -> None:
         screen.print(f"{words}: {where}.")
     if found.still_growing.any():
         screen.print(
-            "The largest loads of these are unknown: follow one of them longer, with --until and without --map."
+            "The largest loads of these are unknown: simulate one of them longer, with --until, without --map."
         )
     for load, limit in found.limits.items():
         over = int(found.exceeding(load).sum())

@@ -96,11 +96,7 @@ def prove(
         part = tell.part(0.0, _DRAWING)
         if check is not None:
             if machine is not None or settings or sizes or given:
-                raise InputError(
-                    "--check",
-                    shown(check),
-                    "not allowed with other options or a machine file: a certificate contains its machine",
-                )
+                raise InputError("--check", shown(check), "must be given alone: a certificate contains its machine")
             from carom.proofs import check as verify
 
             proof = verify(check, progress=part)

@@ -57,9 +57,8 @@ def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales
 def moving(place: complex, rate: complex, scales: Scales | None) -> Echo:
     """A displacement and its rate in the frame that turns with the shaft; the velocity is stated in the fixed frame."""
     speed = rate + 1j * place
-    at = (
-        f"{format_quantity(abs(place), 'length', scales)} from the bearing centre at {format_angle(cmath.phase(place))}"
-    )
+    distance = format_quantity(abs(place), "length", scales)
+    at = f"{distance} from the bearing centre at {format_angle(cmath.phase(place))}"
     moves = f"moving at {format_quantity(abs(speed), 'velocity', scales)} towards {format_angle(cmath.phase(speed))} in the fixed frame"
     return Echo(
         "start",

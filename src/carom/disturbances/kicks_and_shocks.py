@@ -275,9 +275,7 @@ class BaseShock(Disturbance):
         size = f"{format_quantity(peak, 'acceleration', scales)} for {format_quantity(self.duration, 'time', scales)} at {format_angle(angle)}"
         counted = angles_words(rotor.unbalance_phase, " at the instant the shock begins")
         sizes = {"peak": (peak, "acceleration"), "duration": (self.duration, "time"), "angle": (angle, "")}
-        return Echo(
-            self.kind, f"Base shock: half-sine, {size}; {counted}; times count from the start of the shock", sizes
-        )
+        return Echo(self.kind, f"Base shock: half-sine, {size}; {counted}; times count from its start", sizes)
 
     def up_to_words(self, before: float | None, scales: Scales | None) -> str:
         """See :meth:`carom.disturbances.Disturbance.up_to_words`."""

@@ -53,9 +53,7 @@ class ContactHistory(LogTable):
     angle: np.ndarray = column("rad", "angle in the co-rotating frame")
     gap: np.ndarray = column("length", "distance from the wall")
     normal_force: np.ndarray = column("force", "normal force of the bearing on the rotor, inward")
-    friction_force: np.ndarray = column(
-        "force", "friction force of the bearing on the rotor, positive in the sense of rotation"
-    )
+    friction_force: np.ndarray = column("force", "friction force on the rotor, positive in the sense of rotation")
     slip: np.ndarray = column("velocity", "slip velocity")
     friction_power: np.ndarray = column("power", "power of friction on the contact point, never positive")
     drive_power: np.ndarray = column("power", "power of the shaft's drive through friction")

@@ -63,9 +63,7 @@ class EnergyLedger(LogTable):
     impacts: np.ndarray = column("energy", "work at the contact point in impacts since the start")
     friction: np.ndarray = column("energy", "work of friction in lasting contact since the start")
     drive: np.ndarray = column("energy", "work of the shaft's drive since the start")
-    wall_loss: np.ndarray = column(
-        "energy", "work lost in compliant walls, in dampers and at lift-off, since the start"
-    )
+    wall_loss: np.ndarray = column("energy", "work lost in walls, in dampers and at lift-off, since the start")
     race_drag: np.ndarray = column("energy", "work of drag on the races that turn since the start")
     scales: Scales | None = None
 

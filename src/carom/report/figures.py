@@ -132,7 +132,7 @@ def _of_loads(study: Study) -> Iterator[ReportPicture]:
             if touched(seen):
                 until = _until(seen)
                 cut = f" Drawn: the first {FOLLOWED} contacts." if until < shown_until(seen) else ""
-                words = f"Distance from the centre, force of contact and slip over time{at} {when}.{cut}"
+                words = f"Distance from the centre, contact force and slip over time{at} {when}.{cut}"
                 loads = partial(plots.touchdown, seen, title=title, until=until)
                 yield ReportPicture(f"{name}-loads{mark}", "loads", words, loads)
 

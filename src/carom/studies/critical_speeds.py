@@ -110,11 +110,7 @@ class Critical:
         if factor is None or factor < CRITICALLY_DAMPED:
             return f"{text}; critically damped: API 617 requires no separation margin."
         inside = margin.side == "inside"
-        where = (
-            "inside the operating range, at"
-            if inside
-            else f"separation margin {number(100.0 * margin.actual, 3)} % {margin.side}"
-        )
+        where = "at" if inside else f"separation margin {number(100.0 * margin.actual, 3)} % {margin.side}"
         required = f"required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
         return f"{text}, {where} {rpm(margin.operating)}, {required}"
 

@@ -176,10 +176,8 @@ def _shaft_words(shaft: Braking) -> str:
     text = f"{end} at the end, {before} before"
     if shaft.left_out == 0.0:
         return text
-    change = (
-        f"{'add' if shaft.left_out > 0.0 else 'subtract'} {Wording(shaft.scales).write(abs(shaft.left_out), 'speed')}"
-    )
-    return f"{text}; the drive torque is neglected in flight, where it would {change}"
+    change = f"{'+' if shaft.left_out > 0.0 else '−'}{Wording(shaft.scales).write(abs(shaft.left_out), 'speed')}"
+    return f"{text}; the drive torque is neglected in flight, where it would change it by {change}"
 
 
 def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, object]]:

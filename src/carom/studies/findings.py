@@ -33,9 +33,7 @@ BORNE = {
 }
 """What is stated of a compliant touchdown bearing, and of a rigid one, beside the orbit; what is zero is left out."""
 HEADLINE = ("peak force", "depth", "hardest impact", "lasting contact", "whirl at the end")
-NO_DROP = (
-    "No drop was simulated: it needs SI units for gravity, and a rotor whose stiffness without levitation is known."
-)
+NO_DROP = "No drop was simulated: it needs SI units, and a rotor whose stiffness without levitation is known."
 SAMPLED = "Disturbances that were not simulated{but}: one between the samples, or a larger one, may end elsewhere."
 PROVEN_KICKS = ", except the kicks that are proven to come back"
 LONGER_MOTIONS = "Motions with two or more impacts a period, irregular motions, and motions that alternate between bounces and lasting contact, unless a simulated disturbance ended in one."
@@ -175,9 +173,7 @@ def _disturbances(study: StudyData) -> str:
     else:
         text += f" Outcomes: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}."
         if study.levitates and touched:
-            text += (
-                f" Of the {len(touched)} that touched the wall, {came_back(touched) or 'none'} came back to levitation."
-            )
+            text += f" Of {len(touched)} that touched the wall, {came_back(touched) or 'none'} came back to levitation."
     if hardest > 0.0:
         text += f" The hardest impact had a normal impulse of {say.impulse(hardest)}{_of_impact(study, hardest)}."
     return text
@@ -224,9 +220,8 @@ def load_facts(study: StudyData) -> Iterator[Fact]:
     for each in study.full_size:
         label = LABELS[each.kind]
         size = study.wording.size_of(each.kind)(each.size)
-        lines = [
-            f"{label} of {size}, worst of {each.back.total} {'phases' if each.kind == 'blade_loss' else 'directions'} ({each.back.count} came back):"
-        ]
+        of = "phases" if each.kind == "blade_loss" else "directions"
+        lines = [f"{label} of {size}, worst of {each.back.total} {of} ({each.back.count} came back):"]
         for bearing in each.bearings:
             say = Wording(bearing.scales)
             borne = filter(None, (say.fill(text, bearing) for text in BORNE[bearing.is_compliant]))

@@ -250,9 +250,7 @@ def bearing_facts(found: Levitating) -> Iterator[Fact]:
             text = f"Magnetic bearing {each.bearing}: the {name} has a node between sensors and actuator. They move in antiphase, so derivative action destabilises this mode."
         texts.append(text)
     if found.collocations:
-        texts = texts or [
-            f"None of the {len(found.whirls)} lowest whirl modes has a node between sensors and actuator."
-        ]
+        texts = texts or [f"None of the {len(found.whirls)} lowest whirl modes has a node between sensor and actuator."]
     yield from (Fact("Magnetic bearings", text, "Non-collocation") for text in texts)
 
 

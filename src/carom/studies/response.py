@@ -107,7 +107,7 @@ def _saturation(response: UnbalanceResponse) -> str:
         return f"The magnetic bearings saturate {_from_to(over)}: the response calculated there does not apply."
     most = float(response.whirl.saturation.max())
     return (
-        f"The magnetic bearings do not saturate in this range: they use at most {number(100.0 * most, 3)} % of a limit."
+        f"The magnetic bearings do not saturate in this range: at most {number(100.0 * most, 3)} % of a limit is used."
     )
 
 
