@@ -10,7 +10,7 @@ import xarray
 from compilation import sized
 from damage import CONTENT, spoilt
 
-from carom.base.netcdf import load, save
+from carom.base.files import load_dataset, save_dataset
 from carom.base.outcome import InputError
 from carom.basins import Basin, GainMap
 
@@ -29,14 +29,14 @@ DATASET = xarray.Dataset(
 
 
 def test_what_is_read_is_what_was_written(tmp_path):
-    save(DATASET, tmp_path / "b.nc")
+    save_dataset(DATASET, tmp_path / "b.nc")
 
-    assert load(tmp_path / "b.nc", ("outcome", "time")).identical(DATASET)
+    assert load_dataset(tmp_path / "b.nc", ("outcome", "time")).identical(DATASET)
     assert [file.name for file in tmp_path.iterdir()] == ["b.nc"]
 
 
 def test_other_readers_of_netcdf_take_the_file(tmp_path):
-    save(DATASET, tmp_path / "b.nc")
+    save_dataset(DATASET, tmp_path / "b.nc")
     with xarray.open_dataset(tmp_path / "b.nc", engine="h5netcdf") as read:
         np.testing.assert_array_equal(read["outcome"], DATASET["outcome"])
 
@@ -44,21 +44,21 @@ def test_other_readers_of_netcdf_take_the_file(tmp_path):
 @pytest.mark.parametrize("kind", CONTENT)
 def test_damaged_files_are_one_line(tmp_path, kind):
     file, chance = tmp_path / "b.nc", random.Random(4)
-    save(DATASET, file)
+    save_dataset(DATASET, file)
     whole = file.read_bytes()
     for _ in range(sized(30, 30, 400)):
         data = spoilt(whole, chance, kind)
         file.write_bytes(data)
         if data != whole:
             with pytest.raises(InputError, match=r"^file = .*: (is damaged|must hold|cannot be read)"):
-                load(file, ("outcome",))
+                load_dataset(file, ("outcome",))
     file.write_bytes(whole)
-    assert load(file, ("outcome",)).identical(DATASET)
+    assert load_dataset(file, ("outcome",)).identical(DATASET)
 
 
 @pytest.mark.parametrize("result", [Basin, GainMap])
 def test_files_that_hold_something_else(tmp_path, result):
-    save(DATASET.drop_vars(["outcome", "time"]), tmp_path / "b.nc")
+    save_dataset(DATASET.drop_vars(["outcome", "time"]), tmp_path / "b.nc")
     with pytest.raises(InputError, match=r"must hold the variables [a-z_, ]*$"):
         result.load(tmp_path / "b.nc")
     DATASET.to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
@@ -79,7 +79,7 @@ def test_full_disk_is_one_line(tmp_path):
     try:
         large = DATASET.assign(noise=("z", np.random.default_rng(1).random(100_000)))
         with pytest.raises(InputError, match="cannot be written"):
-            save(large, tmp_path / "b.nc")
+            save_dataset(large, tmp_path / "b.nc")
         assert not list(tmp_path.iterdir())
     finally:
         subprocess.run(["umount", str(tmp_path)], check=True)

@@ -72,16 +72,15 @@ def test_a_file_that_holds_no_motion_is_refused(motion, tmp_path):
     with pytest.raises(InputError, match="damaged"):
         Trajectory.load(path)
 
-    from carom.base.netcdf import load as load_dataset
-    from carom.base.netcdf import save
+    from carom.base.files import load_dataset, save_dataset
     from carom.motions.storage import SEGMENTS
 
     motion.save(path)
     dataset = load_dataset(path, SEGMENTS)
     for changes in ({"outcome": "FLYING"}, {"parameters": "{}"}, {"start": "[1]"}):
-        save(dataset.assign_attrs(changes), path)
+        save_dataset(dataset.assign_attrs(changes), path)
         with pytest.raises(InputError, match="must hold a motion that carom has written"):
             Trajectory.load(path)
-    save(xarray.Dataset({"other": 1}), path)
+    save_dataset(xarray.Dataset({"other": 1}), path)
     with pytest.raises(InputError, match="must hold the variables segment_starts"):
         Trajectory.load(path)

@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.attractors import MotionName
 from carom.base.arguments import checked
-from carom.base.netcdf import load, save
+from carom.base.files import load_dataset, save_dataset
 from carom.base.outcome import Outcome
 from carom.base.results import Result, flags
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
@@ -76,14 +76,14 @@ class Stored(Result):
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file atomically; see :func:`carom.base.netcdf.save`."""
-        save(self.dataset, path)
+        """Write a netCDF file atomically; see :func:`carom.base.files.save_dataset`."""
+        save_dataset(self.dataset, path)
 
     @classmethod
     @checked
     def load(cls, path: str | os.PathLike[str]) -> Self:
         """Read a netCDF file written by :meth:`save`; refuse one that cannot be read or holds other results."""
-        return cls(load(path, cls.needed))
+        return cls(load_dataset(path, cls.needed))
 
 
 class Mapped(Stored):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.base import netcdf
+from carom.base.files import load_dataset, save_dataset
 from carom.base.outcome import InputError, Outcome, Phase
 from carom.models import rotor_from
 from carom.motions.starts import State
@@ -44,7 +44,7 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
         shown = provenance(part) | {name: getattr(part, name) for name in NUMBERS}
         shown |= {name: json.dumps(_numbers(getattr(part, name))) for name in ("start", "final")}
         attributes |= {f"{name}{mark}": value for name, value in shown.items()}
-    netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
+    save_dataset(xarray.Dataset(columns, attrs=attributes), path)
 
 
 def _mark(number: int) -> str:
@@ -54,7 +54,7 @@ def _mark(number: int) -> str:
 
 def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     """Read a motion that :func:`save_trajectory` has written; refuse a file that is damaged or holds no motion."""
-    dataset = netcdf.load(path, tuple(SEGMENTS))
+    dataset = load_dataset(path, tuple(SEGMENTS))
     try:
         parts = tuple(_stage(dataset, _mark(number)) for number in range(int(dataset.attrs["parts"])))
     except (KeyError, TypeError, ValueError) as problem:

@@ -244,9 +244,8 @@ def _read(name: str, given: object, kind: str, scales: Scales | None, bare: bool
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
     if not isinstance(given, str) or (not needs_unit and _PLAIN.fullmatch(without_separators(given))):
         return Size(read_quantity(field, given), False, kind)
-    in_units = replace(field, unit=unit, usual=example.partition(" ")[2], needs_unit=needs_unit)
-    if needs_unit:
-        in_units = replace(in_units, example=f"'{example}'")
+    stated = f"'{example}'" if needs_unit else field.example
+    in_units = replace(field, unit=unit, usual=example.partition(" ")[2], needs_unit=needs_unit, example=stated)
     gravities = _GRAVITIES.fullmatch(given) if kind == "acceleration" else None
     try:
         value = read_quantity(in_units, f"{gravities[1]} standard_gravity" if gravities else given)
