@@ -237,13 +237,13 @@ def resolve(entries: Mapping[str, object], base: Resolved | None = None) -> Reso
         if name in (ENTRIES if base is None else SETTABLE)
     }
     problems.raise_all()
-    return _Work(entries, cast("dict[str, Decimal]", numbers), base).resolved()
+    return _Work(entries, cast("dict[str, Decimal]", numbers), base or Resolved({})).resolved()
 
 
 class _Work:
-    """One resolution: entries, the numbers they hold, and the machine that they change."""
+    """One resolution: entries, the numbers they hold, and the machine that they change, which may have nothing yet."""
 
-    def __init__(self, entries: Mapping[str, object], numbers: Mapping[str, Decimal], base: Resolved | None) -> None:
+    def __init__(self, entries: Mapping[str, object], numbers: Mapping[str, Decimal], base: Resolved) -> None:
         self.entries, self.numbers, self.base = entries, numbers, base
         self.ways = {set_by(name): name for name in entries}
         self.values: dict[str, float] = {}
@@ -268,7 +268,7 @@ class _Work:
         way, base = self.ways.get(name), self.base
         if way is not None:
             number, written = self.numbers[way], self.entries[way]
-        elif base is not None and name in base.values:
+        elif name in base.values:
             source = base.source(name)
             way = source or name
             if source not in TERMS or self.entries.keys().isdisjoint(HELPER_FIELDS.keys() & set(TERMS[way].needs)):
@@ -299,11 +299,9 @@ class _Work:
     def _needed(self, need: str, way: str, written: object) -> tuple[Decimal, dict[str, object]]:
         """Value of what a formula needs, and the entries that gave it."""
         if need == "rated_speed":
-            before = self.base.given.get("eccentricity", {}) if self.base is not None else {}
-            written_before = self.entries.get(need, before.get(need))
-            if written_before is not None:
-                number = read_quantity(HELPER_FIELDS[need], written_before)
-                return Decimal(repr(number)), {need: written_before}
+            stated = self.entries.get(need, self.base.given.get("eccentricity", {}).get(need))
+            if stated is not None:
+                return Decimal(repr(read_quantity(HELPER_FIELDS[need], stated))), {need: stated}
             need = "speed"
         if need not in self.values:
             raise InputError(way, shown(written), f"needs {need} too, which {HELPER_FIELDS[need].allowed}")
