@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3183,
+    "parameters base": 3181,
     "models": 2140,
     "core": 6600,
     "motions disturbances": 3460,

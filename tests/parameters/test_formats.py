@@ -46,5 +46,5 @@ def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
     assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
     rotor = jeffcott(PAPER.replace(scales=scales))
     kick = Single(VelocityKick(speed), (speed, 0.0))
-    assert kick.echo(rotor).words.startswith(f"Kick: {text} at 0°; angles count from ")
+    assert kick.echo(rotor).words.startswith(f"Kick: {text} at 0°; angles are measured from ")
     assert f"at up to {text} in the fixed frame" in DisturbanceSet(10, fastest=speed).words(rotor)

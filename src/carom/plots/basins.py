@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
-ProvenKicks = Any
-"""Those of :mod:`carom.proofs`, which lies above."""
+    ProvenKicks = Any
+    """Those of :mod:`carom.proofs`, which lies above: arguments are compared with its name."""
+
 _CHORDS = 120
 """Least number of straight edges in a ring of cells."""
 _RING = (0.82, 0.98)

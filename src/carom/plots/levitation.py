@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from carom.rotors import Campbell, FlexibleMachine, Sensitivity, WhirlMode
     from carom.rotors.free_rotor import FreeRotor
 
-UnbalanceResponse = Any
-"""That of :mod:`carom.studies`, which lies above."""
+    UnbalanceResponse = Any
+    """That of :mod:`carom.studies`, which lies above: arguments are compared with its name."""
+
 NO_LEVITATION = f"no {STEADY_WORDS['contact-free']}"
 _FREE = replace(LOOKS["contact-free"], line="-", width=1.7)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
