@@ -2900,9 +2900,9 @@ _NO_BASINS = (
     "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the contact-free speed"
 )
 _DISC_LEAVES_OUT = (
-    "that what is open does not return, or that it does; why it is open is stated by the search",
-    "that the impacts stated happen: they are bounds from above",
-    "anything beyond the largest size, of starts other than levitation, or of compliant walls",
+    "whether the open cases return (the search states why they are open)",
+    "that as many impacts occur as stated: these are upper bounds",
+    "anything about larger sizes, starts other than levitation, or compliant walls",
 )
 
 
@@ -2920,8 +2920,8 @@ FORMS = {
         ("states_up_to",),
         (
             "that states faster than the speed that is shown do not return, but for those that are named",
-            "how many impacts there are on the way, how hard they are, or how long it takes",
-            "anything of a rotor with weight, of compliant walls, or of a shaft whose speed changes",
+            "how many impacts occur, how hard they are, or how long recovery takes",
+            "anything about a rotor with weight, of compliant walls, or of a shaft whose speed changes",
         ),
     ),
     "single-impact orbits": Form(
@@ -2931,7 +2931,7 @@ FORMS = {
             "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             _NO_BASINS,
             "which disturbances end in a rub",
-            "which slides and whirls repeat that are not stated, or that there is no whirl that bounces",
+            "whether other sliding or whirling motions repeat, or whether there is whirl with bounces",
         ),
     ),
     "orbits of several impacts": Form(
@@ -2947,7 +2947,7 @@ FORMS = {
         _ALONG,
         ("along", "from", "to", "blocks", "narrowest"),
         (
-            "what is said to be open on an interval, but for the points listed there",
+            "what is stated as open on an interval, except for the points listed there",
             "that there are no other bifurcation points there: those listed are what a search in double precision found",
             "that the orbit at a point has the name it is listed by",
             "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
@@ -2963,7 +2963,7 @@ FORMS = {
         ("kicks_up_to", "most_impacts", "box"),
         (
             *_DISC_LEAVES_OUT,
-            "anything of machines with parameters outside of the intervals, or whose parameters move while they are kicked",
+            "anything about machines with parameters outside the intervals, or with parameters that vary during the motion",
         ),
     ),
 }
