@@ -20,16 +20,16 @@ LIMITS = {
     "core": 6600,
     "motions disturbances": 3460,
     "orbits bifurcations closed_forms continuation": 6540,
-    "basins attractors": 2245,
-    "studies": 3299,
-    "cli plots report": 5287,
+    "basins attractors": 2195,
+    "studies": 3210,
+    "cli plots report": 5284,
     "rotors": 3260,
     "proofs": 6045,
     "explorer": 2300,
     "sweeps": 1400,
     "reproductions": 1322,
 }
-TESTS, ANY = 36_000, 536
+TESTS, ANY = 36_000, 514
 LONGEST_FILE, LONGEST_FUNCTION = 400, 80
 SKIPPED = (
     tokenize.COMMENT,

@@ -31,9 +31,9 @@ EXAMPLES = {
     "Orbit": lambda: carom.find_orbits(PAPER)["B1,d"],
     "OrbitSet": lambda: carom.find_orbits(PAPER),
     "Basin": lambda: map_basins(PAPER, KICKS),
-    "GainMap": lambda: map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2)),
+    "GainMap": lambda: map_gains(PAPER, KICKS, {"omega": 2, "gamma": 2}),
     "DropMap": lambda: carom.basins.map_drops(
-        carom.load("examples/dropped-rotor.toml"), names=("phase", "friction"), shape=(2, 2), until="20 ms"
+        carom.load("examples/dropped-rotor.toml"), over={"phase": 2, "friction": 2}, until="20 ms"
     ),
     "Diagram": lambda: carom.find_bifurcations(PAPER, "gamma", (0.1, 0.12)),
     "RegionMap": lambda: carom.map_regions(

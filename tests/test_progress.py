@@ -32,7 +32,7 @@ LONG = {
         PAPER, carom.bifurcations.Plane("gamma", "omega", (0.1, 0.12), (0.75, 0.77)), grid=2, **given
     ),
     "map_basins": lambda **given: carom.map_basins(PAPER, KICKS, **given),
-    "map_gains": lambda **given: carom.map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2), **given),
+    "map_gains": lambda **given: carom.map_gains(PAPER, KICKS, {"omega": 2, "gamma": 2}, **given),
     "smallest_unrecovered": lambda **given: basins.smallest_unrecovered(
         PAPER, VelocityKick(0.5), directions=8, sizes=8, **given
     ),

@@ -10,8 +10,8 @@ import carom as cm
 machine = cm.load("../keogh-cole.toml")
 kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
 sample = cm.disturbances.Sample(kicks, 200, seed=1)
-ranges = (("5e5 N/m", "2e6 N/m"), ("700 N s/m", "5000 N s/m"))
-gains = cm.map_gains(machine, sample, ranges=ranges, shape=(10, 10))
+over = {"stiffness": ("5e5 N/m", "2e6 N/m", 10), "damping": ("700 N s/m", "5000 N s/m", 10)}
+gains = cm.map_gains(machine, sample, over)
 
 # %%
 # What to see: above the solid line at least 99 % of the kicks come back.  The star is the present machine: twice its damping is not enough, three times is.

@@ -6,6 +6,7 @@ from linear_rotors import random_rotor, tilting, touchdowns
 from machines import PAPER
 
 import carom
+from carom.attractors import DisturbanceSet
 from carom.base.outcome import Outcome
 from carom.models import from_matrices
 from carom.motions.starts import State
@@ -53,7 +54,7 @@ def test_the_same_attractors_as_of_the_planar_rotor():
 
 def test_rubs_at_rest_in_different_places_are_different_attractors():
     model = random_rotor(117, n=2, planes=2, unbalance=1.5, damping=0.3)
-    found = carom.find_attractors(model, count=24, fastest=1.0)
+    found = carom.find_attractors(model, DisturbanceSet(24, fastest=1.0))
     rubs = [member for member in found if member.name.outcome is Outcome.FORWARD_RUB and not member.name.drifting]
     stable = [at for at in carom.find_equilibria(model) if at.planes and at.stable and at.status == "admissible"]
     assert [at.planes for at in stable] == [(0,), (1,)]
@@ -65,7 +66,7 @@ def test_rubs_at_rest_in_different_places_are_different_attractors():
 
 def test_a_rotor_with_two_planes_is_followed_from_kicks_and_from_motions_next_to_known_ones():
     model = tilting(damping=0.15 * np.eye(2), restitution=0.6).model
-    found = carom.find_attractors(model, count=24, fastest=1.5)
+    found = carom.find_attractors(model, DisturbanceSet(24, fastest=1.5))
     assert {ending.start.kind for ending in found.endings} >= {"kick", "start", "whirl"}
     assert sum(member.count for member in found) == 24
     kicked = [ending for ending in found.endings if ending.start.kind == "kick" and not ending.recovered]

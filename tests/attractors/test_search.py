@@ -113,7 +113,7 @@ def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     last = found.members[-1]
 
     assert last.name == "unresolved: time-reached"
-    assert (last.count, last.settled, last.touches) == (2, False, False)
+    assert (last.count, last.settled) == (2, False)
     assert found.members[0].name == "levitation"
 
 

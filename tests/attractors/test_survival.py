@@ -7,8 +7,8 @@ import pytest
 from machines import PAPER
 
 from carom.attractors import Survival, follow_until_settled
-from carom.attractors import survival as module
-from carom.attractors.survival import measure_survival, still_irregular
+from carom.attractors import following as module
+from carom.attractors.following import measure_survival, still_irregular
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
 from carom.motions import Endings, settle

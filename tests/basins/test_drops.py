@@ -27,7 +27,9 @@ def balls():
 @pytest.fixture(scope="module")
 def found(balls):
     """Levitation lost and regained, on a race that turns, by the phase of the unbalance and the speed of the shaft."""
-    return map_drops(balls, cm.drop(regained_after="12 ms", race_speed="500 rpm"), shape=(5, 3), until="40 ms")
+    return map_drops(
+        balls, cm.drop(regained_after="12 ms", race_speed="500 rpm"), {"phase": 5, "speed": 3}, until="40 ms"
+    )
 
 
 def test_fresh_drops_agree_with_the_map(balls, found):
@@ -67,11 +69,11 @@ def test_it_is_kept(found, tmp_path):
 
 def test_it_says_where_a_force_still_grows(balls):
     """Drag of the race drives a slow whirl faster and faster; the drop at rest has had its largest force."""
-    names, ranges = ("speed", "friction"), (("9000 rpm", "30000 rpm"), (0.05, 0.5))
-    falls = map_drops(balls, names=names, ranges=ranges, shape=(2, 2))
+    over = {"speed": ("9000 rpm", "30000 rpm", 2), "friction": (0.05, 0.5, 2)}
+    falls = map_drops(balls, over=over)
     growing = falls.still_growing
     for place in np.ndindex(2, 2):
-        speed, friction = (float(falls.dataset[name].values[at]) for name, at in zip(names, place, strict=True))
+        speed, friction = (float(falls.dataset[name].values[at]) for name, at in zip(over, place, strict=True))
         loads = cm.motions.follow_loads(balls.replace(speed=speed, friction=friction), cm.drop(), settle=True)
         assert growing[place] == loads.planes[0].still_growing
     assert growing.any()
@@ -82,22 +84,21 @@ def test_it_says_where_a_force_still_grows(balls):
 
 def test_machines_that_cannot_levitate_are_not_dropped():
     weak = cm.load(RIGID)
-    ranges = ((1e5, 1e6), (0.1, 0.2))
-    falls = map_drops(weak, names=("stiffness", "friction"), ranges=ranges, shape=(2, 2), until="10 ms")
+    falls = map_drops(weak, over={"stiffness": (1e5, 1e6, 2), "friction": (0.1, 0.2, 2)}, until="10 ms")
     assert (falls.dataset["outcome"].values[0] == NO_START).all()
     assert (falls.dataset["outcome"].values[1] != NO_START).all()
     assert falls.exists.tolist() == [[False, False], [True, True]]
     assert all(np.isnan(falls.dataset[name].values[0]).all() for name in MEASURES)
     with pytest.raises(InputError, match="levitation = of none of the machines"):
-        map_drops(weak, names=("stiffness", "friction"), ranges=((1e5, 1.1e5), (0.1, 0.2)), shape=(2, 2))
+        map_drops(weak, over={"stiffness": (1e5, 1.1e5, 2), "friction": (0.1, 0.2, 2)})
 
 
 def test_wrong_input(balls):
-    with pytest.raises(InputError, match=r"^names = phase,phase: two different ones$"):
-        map_drops(balls, names=("phase", "phase"))
+    with pytest.raises(InputError, match=r"^over = phase: two names$"):
+        map_drops(balls, over={"phase": 4})
     with pytest.raises(InputError, match="unknown name"):
-        map_drops(balls, names=("phase", "spede"))
+        map_drops(balls, over={"phase": 4, "spede": 4})
     with pytest.raises(InputError, match="needed: the drop states no regained_after"):
-        map_drops(balls, names=("phase", "regained_after"))
+        map_drops(balls, over={"phase": 4, "regained_after": 4})
     with pytest.raises(InputError, match="gravity"):
         map_drops(PAPER)

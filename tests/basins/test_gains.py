@@ -15,11 +15,11 @@ pytestmark = pytest.mark.jit_only
 
 MACHINE = PAPER.replace(gamma=0.152, scales=SCALES)
 KICKS = Grid(VelocityKick.of(MACHINE, "20 mm/s"), (10, 10))
-RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))
+OVER = {"stiffness": (7.0e5, 1.4e6, 5), "damping": (500.0, 4500.0, 6)}
 
 
 def test_each_node_is_the_basin_of_its_machine():
-    found = map_gains(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, source={"machine_file": "machine.toml"})
+    found = map_gains(MACHINE, KICKS, OVER, source={"machine_file": "machine.toml"})
     levitates = found.dataset["levitates"].values > 0.0
     assert levitates.any()
     assert not levitates.all()
@@ -48,7 +48,7 @@ def test_each_node_is_the_basin_of_its_machine():
 
 
 def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
-    found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
+    found = map_gains(MACHINE, KICKS, {"speed": (120.0, 400.0, 2), "damping": (3000.0, 6000.0, 2)})
     slow = MACHINE.replace(speed=120.0, damping=3000.0)
     plan = Grid(VelocityKick.of(slow, "20 mm/s"), (10, 10))
     assert plan.model.fastest == pytest.approx(KICKS.model.fastest * slow.scales.time / MACHINE.scales.time, rel=1e-12)
@@ -59,7 +59,7 @@ def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
 def test_samples_and_dimensionless_axes_and_files(tmp_path):
     plan = Sample(VelocityKick(0.2), 60, seed=5)
     limits = {"patience": 9_000, "max_events": 90_000}
-    found = map_gains(PAPER.replace(gamma=0.15), plan, ("omega", "gamma"), shape=(3, 4), **limits)
+    found = map_gains(PAPER.replace(gamma=0.15), plan, {"omega": 3, "gamma": 4}, **limits)
     low, middle, high = (found.dataset[name].values for name in ("recovered_low", "recovered", "recovered_high"))
     able = found.dataset["levitates"].values > 0.0
     assert (low <= middle).all()
@@ -74,16 +74,16 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "complaint"),
+    ("over", "complaint"),
     [
-        ({"names": ("gamma", "gamma")}, "two different"),
-        ({"names": ("gama", "omega")}, "gamma"),
-        ({"shape": (1, 4)}, "at least 2"),
-        ({"ranges": ((2.0, 1.0), None)}, "ascending order"),
-        ({"ranges": ((1.0, math.inf), None)}, "ranges = .*a finite number"),
-        ({"ranges": (None, (-1.0, 10.0))}, "damping"),
+        ({"gamma": 4}, "two names"),
+        ({"gama": 4, "omega": 4}, "gamma"),
+        ({"stiffness": 1, "damping": 4}, "at least 2"),
+        ({"stiffness": (2.0, 1.0, 4), "damping": 4}, "ascending order"),
+        ({"stiffness": (1.0, math.inf, 4), "damping": 4}, "over = .*a finite number"),
+        ({"stiffness": 4, "damping": (-1.0, 10.0, 4)}, "damping"),
     ],
 )
-def test_what_cannot_be_mapped(words, complaint):
+def test_what_cannot_be_mapped(over, complaint):
     with pytest.raises(InputError, match=complaint):
-        map_gains(MACHINE, KICKS, **words)
+        map_gains(MACHINE, KICKS, over)

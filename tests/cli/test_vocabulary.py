@@ -10,7 +10,7 @@ from carom.base.outcome import Outcome
 from carom.cli.app import main
 from carom.orbits.names import OrbitName
 from carom.plots import OUTCOMES
-from carom.studies.endings import ending_words
+from carom.studies.wording import ending_words
 
 MACHINE = "examples/keogh-cole.toml"
 PAGE = Path("docs/reference/motions.md").read_text(encoding="utf-8")

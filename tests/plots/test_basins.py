@@ -86,7 +86,7 @@ def test_a_grid_of_states_has_no_picture(rotor):
 
 def test_gain_map(rotor):
     plan = Grid(VelocityKick.of(MACHINE, "80 mm/s"), (8, 8))
-    found = map_gains(MACHINE, plan, shape=(6, 7), ranges=((7e5, 1.6e6), (200.0, 4000.0)))
+    found = map_gains(MACHINE, plan, {"stiffness": (7e5, 1.6e6, 6), "damping": (200.0, 4000.0, 7)})
     figure = plots.gain_map(found)
     assert fits(figure)
     axes, bar = figure.axes

@@ -17,7 +17,10 @@ def mesh(axes):
 
 def test_both_panels_show_the_cells():
     found = cm.basins.map_drops(
-        cm.load("examples/touchdown-balls.toml"), cm.drop(regained_after="12 ms"), shape=(6, 4), until="40 ms"
+        cm.load("examples/touchdown-balls.toml"),
+        cm.drop(regained_after="12 ms"),
+        over={"phase": 6, "speed": 4},
+        until="40 ms",
     )
     figure = plots.drop_map(found)
     left, right = figure.axes[:2]

@@ -12,7 +12,7 @@ from studies import study_once
 from carom.loading import load
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
-from carom.studies.facts import about
+from carom.studies.questions import about
 from carom.studies.summaries import survived_rows
 
 pytestmark = pytest.mark.jit_only

@@ -10,7 +10,7 @@ from carom import find_attractors, load, simulate
 from carom.base.files import as_json
 from carom.disturbances import KickPlane, Sample
 from carom.parameters import Case, Parameters, Scales, Zones
-from carom.studies.actuator import bearing_demand
+from carom.studies.study_data import bearing_demand
 
 KEOGH = "examples/keogh-cole.toml"
 

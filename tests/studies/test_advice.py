@@ -12,7 +12,7 @@ from carom.models import jeffcott
 from carom.motions import settle
 from carom.parameters import Case, Machine, Zones
 from carom.studies.advice import with_setting
-from carom.studies.facts import about
+from carom.studies.questions import about
 
 pytestmark = pytest.mark.jit_only
 

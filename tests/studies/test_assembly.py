@@ -12,8 +12,8 @@ from studies import ORBIT_KEYS, study_once
 from carom.base.files import as_json
 from carom.base.outcome import Outcome
 from carom.parameters import Case, Zones
-from carom.studies.facts import about
 from carom.studies.findings import LONGER_MOTIONS, PLANAR, RIGID_WALL, SAMPLED
+from carom.studies.questions import about
 from carom.studies.summaries import motion_rows
 
 QUIET = PAPER.replace(gamma=0.5, mu=0.0)
@@ -46,7 +46,9 @@ def test_real_machine(real):
     assert real.levitates
     assert real.zone == "D"
     assert [orbit.name for orbit in real.stable_orbits] == ["B1,d"]
-    values = {(entry.motion, entry.parameter, entry.exists): entry.edge.value for entry in real.thresholds}
+    values = {
+        (entry.motion, entry.parameter, side): edge.value for entry in real.ranges for edge, side in entry.thresholds
+    }
     scales = REAL.scales
     assert values["rub", "gamma", "below"] * scales.damping == pytest.approx(RUB_FOLD, abs=1e-3)
     assert values["single-impact", "gamma", "below"] * scales.damping == pytest.approx(1639.6, abs=0.1)

@@ -9,10 +9,10 @@ import pytest
 import carom as cm
 from carom.base.outcome import Outcome
 from carom.rotors import find_whirls, load_machine, synchronous_response
-from carom.studies.facts import about
+from carom.studies.critical_speeds import required_margin
 from carom.studies.findings import facts_of
 from carom.studies.levitating import levitating
-from carom.studies.standards import required_margin
+from carom.studies.questions import about
 from carom.studies.survives import DIRECTIONS, all_round, at_full_size
 
 pytestmark = pytest.mark.jit_only

@@ -6,7 +6,7 @@ from machines import machine_file
 import carom as cm
 from carom.studies import questions
 from carom.studies.advice import GAIN_FACTOR
-from carom.studies.facts import about
+from carom.studies.questions import about
 
 pytestmark = pytest.mark.jit_only
 

@@ -8,7 +8,7 @@ import carom as cm
 from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.parameters import Case, Zones
-from carom.studies.facts import about
+from carom.studies.questions import about
 
 pytestmark = pytest.mark.jit_only
 
@@ -52,7 +52,7 @@ def test_sizes_that_are_survived_are_found_beyond_a_bound_by_energy(planar, matr
 def test_what_only_closed_forms_say_is_left_out_and_named(matrices):
     (named,) = (each.text for each in about(matrices.facts, "Not covered") if "planar rotor" in each.text)
     assert "closed form" in named
-    assert matrices.ranges == matrices.thresholds == ()
+    assert matrices.ranges == ()
     assert matrices.orbits.search is not None
     assert "so the list may be incomplete" in "".join(each.text for each in about(matrices.facts, "Bouncing"))
     assert not any(each.evidence == "proven" for each in matrices.facts)

@@ -16,7 +16,7 @@ from carom.models import Edge, Span, axis, jeffcott
 from carom.orbits import orbits_within_reach
 from carom.parameters import Parameters
 from carom.studies import MotionRange
-from carom.studies.ranges import motion_ranges
+from carom.studies.recovery import motion_ranges
 
 planar = st.builds(
     Parameters,
@@ -66,14 +66,14 @@ def test_range_says_where_the_motion_exists(motion, gain, parameters, value):
 @given(parameters=planar)
 def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
     exists = EXISTS[motion]
-    for threshold in steady_range(parameters, motion, gain).thresholds:
-        value = threshold.edge.value
+    for edge, side in steady_range(parameters, motion, gain).thresholds:
+        value = edge.value
         low, high = 0.999 * value, 1.001 * value
         # Two thresholds closer together than the bracket cannot be distinguished by it.
         assume(value > 1e-3)
         there = [exists(parameters.replace(**{gain: end})) for end in (low, high)]
         assume(there[0] != there[1])
-        assert there == [threshold.exists == "below", threshold.exists == "above"]
+        assert there == [side == "below", side == "above"]
         while high - low > 1e-12 * value:
             middle = 0.5 * (low + high)
             if exists(parameters.replace(**{gain: middle})) == there[0]:
@@ -88,14 +88,14 @@ def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
     parameters = PAPER.replace(radius_ratio=5.0, gamma=0.3)
-    (threshold,) = steady_range(parameters, "rolling", gain).thresholds
-    rotor = jeffcott(parameters.replace(**{gain: factor * threshold.edge.value}))
+    ((edge, side),) = steady_range(parameters, "rolling", gain).thresholds
+    rotor = jeffcott(parameters.replace(**{gain: factor * edge.value}))
 
     motion = simulate(rotor, State(1.0 + 0j, -6j), 2.5)
 
     rolls_on = {contact.kind for contact in motion.lasting_contacts} == {"roll"}
     assert rolls_on == (factor < 1.0)
-    assert threshold.exists == "below"
+    assert side == "below"
 
 
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
@@ -127,7 +127,7 @@ def orbits_at(parameters, gain, value):
 def check(parameters, gain, values):
     """The ranges and the certified orbits agree at these values and on both sides of every end."""
     for found, which in zip(orbit_ranges(parameters, gain), (0, 1), strict=True):
-        edges = np.array([threshold.edge.value for threshold in found.thresholds])
+        edges = np.array([edge.value for edge, _ in found.thresholds])
         beside = [edge * (1.0 + side * 1e-6) for edge in edges for side in (-1.0, 1.0)]
         for value in (*values, *beside):
             if not len(edges) or np.abs(edges / value - 1.0).min() > 1e-7:
@@ -138,12 +138,12 @@ def test_no_orbit_of_the_readme_machine_above_the_stiffness_at_which_levitation_
     """All four roots are virtual at 3.0e6 N/m, where roots of ``F₁`` were once taken for motions."""
     found, _ = orbit_ranges(README.parameters, "omega")
     assert not found.exists_at(math.sqrt(3.0e6 / README.scales.stiffness))
-    (end,) = found.thresholds
+    ((end, side),) = found.thresholds
     # Every orbit shrinks into the levitation that touches the wall there.
     parameters = README.parameters
     touching = math.sqrt(1.0 + math.sqrt(parameters.rho**2 - parameters.gamma**2))
-    assert end.edge.value == pytest.approx(touching, rel=1e-12)
-    assert (end.edge.kind, end.exists) == ("non-smooth-hopf", "below")
+    assert end.value == pytest.approx(touching, rel=1e-12)
+    assert (end.kind, side) == ("non-smooth-hopf", "below")
 
 
 def test_ranges_agree_with_the_certified_orbits():
@@ -179,7 +179,7 @@ def test_ranges_along_any_parameter_agree_with_the_motions_there(name):
 def test_ends_along_any_parameter_say_what_happens_there():
     rotor = jeffcott(README.parameters)
     found = {entry.motion: entry for entry in motion_ranges(rotor, axis(rotor, "speed"))}
-    for edge in (threshold.edge for threshold in found["contact-free"].thresholds):
+    for edge, _ in found["contact-free"].thresholds:
         there = rotor.replace(speed=edge.value)
         assert (edge.kind, abs(there.equilibrium)) == ("boundary-equilibrium", pytest.approx(1.0, rel=1e-12))
     assert len(found["contact-free"].thresholds) == 2

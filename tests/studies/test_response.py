@@ -16,8 +16,8 @@ from carom.models import Rotor, jeffcott
 from carom.motions.ensembles import settle
 from carom.parameters import Machine
 from carom.studies import unbalance_response
+from carom.studies.critical_speeds import vibration_limit
 from carom.studies.response import BEARING
-from carom.studies.standards import vibration_limit
 
 RPM = math.pi / 30.0
 

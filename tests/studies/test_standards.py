@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from carom.studies.standards import required_margin, vibration_limit
+from carom.studies.critical_speeds import required_margin, vibration_limit
 
 
 @pytest.mark.parametrize(

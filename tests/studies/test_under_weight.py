@@ -8,7 +8,7 @@ import pytest
 import carom as cm
 from carom.base.outcome import InputError
 from carom.closed_forms.sag import Levitation
-from carom.studies.facts import about
+from carom.studies.questions import about
 
 pytestmark = pytest.mark.jit_only
 HEAVY = "examples/dropped-rotor.toml"

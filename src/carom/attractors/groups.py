@@ -1,28 +1,86 @@
-"""Attractors: groups of motions that have settled to the same one."""
+"""Attractors: groups of motions that have settled to the same one, and how fast disturbed motions return to them, or separate on them."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from carom.attractors.following import FIRST_PATIENCE, Ending
-from carom.attractors.names import MotionName
+import numpy as np
+
+from carom.attractors.following import FIRST_PATIENCE, Ending, Survival
+from carom.attractors.naming import MotionName
 from carom.attractors.settled import SettledMotion, Whirl, forces_on, seen_in_contact, settled_motion, whirl_of
 from carom.attractors.starts import Start
-from carom.attractors.survival import Survival
-from carom.base.outcome import Outcome, Phase
+from carom.base.arguments import Count, checked
+from carom.base.outcome import CaromError, Outcome, Phase
 from carom.base.results import Result
+from carom.closed_forms import find_equilibria
+from carom.models import Rotor, Subject, rotor_of
+from carom.motions import State, Trajectory, simulate
 from carom.motions.settling import REPEATING
-from carom.motions.simulation import simulate
-from carom.motions.starts import State, levitating
-from carom.motions.trajectories import Trajectory
-from carom.orbits.orbit import Orbit
+from carom.motions.starts import levitating
+from carom.orbits import LyapunovExponents, Orbit, lyapunov_exponents, orbit_exponents
 from carom.orbits.simulated import SimulatedOrbit
 from carom.parameters import Scales
 from carom.parameters.formats import format_quantity
 
+MEASURED = 20_000
+"""Impacts from which exponents of irregular bouncing are measured."""
+APPROACHED = 1e-6
+"""Distance from a synchronous rub below which a motion is at it."""
 FADING = "It was still bouncing when the simulation ended: friction stops its slip in every impact, and the bounces provably fade."
 """What is said of rolling that is reached only after more impacts than are followed, or in the limit of infinitely many."""
+
+
+@checked
+def exponents_of(machine: Subject, attractor: Attractor, impacts: Count = MEASURED) -> LyapunovExponents | None:
+    """Lyapunov exponents of an attractor: from the modes of levitation, the eigenvalues of a rub, or the multipliers of its orbit.
+
+    Those of irregular bouncing are measured on one motion, with standard errors.  ``None`` where they are not known.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+        That of :func:`~carom.attractors.find_attractors`.
+    attractor : Attractor
+    impacts : int
+        Impacts from which exponents of irregular bouncing are measured.
+    """
+    rotor, name = rotor_of(machine), attractor.name
+    if name.outcome is Outcome.LEVITATED:
+        return _exact(np.repeat(rotor.system.exponents.real, 2))
+    if name.irregular:
+        try:
+            return lyapunov_exponents(rotor, attractor.state, impacts)
+        except CaromError:
+            return None
+    if attractor.orbit is not None:
+        return orbit_exponents(attractor.orbit) if attractor.orbit.admissible else None
+    if name.outcome is Outcome.ROLLING:
+        return _rolling(rotor, attractor)
+    return _rubbing(rotor, attractor) if name.outcome is Outcome.FORWARD_RUB and not name.drifting else None
+
+
+def _exact(rates: np.ndarray, along: float = math.nan, time: float = math.inf) -> LyapunovExponents:
+    return LyapunovExponents(np.sort(rates)[::-1], np.zeros(len(rates)), along, float(rates.sum()), 0, 0, time)
+
+
+def _rolling(rotor: Rotor, attractor: Attractor) -> LyapunovExponents | None:
+    """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor on a rigid wall does."""
+    # On an elastic wall bounces fade at a finite rate.
+    if not rotor.has_closed_forms or attractor.period is None or rotor.system.arrays.restitution[0] == 1.0:
+        return None
+    return _exact(np.array([0.0, -np.inf, -np.inf, -np.inf]), 0.0, attractor.period)
+
+
+def _rubbing(rotor: Rotor, attractor: Attractor) -> LyapunovExponents | None:
+    """Exponents of sliding next to a synchronous rub; the directions off the wall have none."""
+    for rub in find_equilibria(rotor)[1:] if rotor.system.forced is None else ():
+        if np.abs(np.atleast_1d(rub.position) - np.atleast_1d(attractor.state.position)).max() < APPROACHED:
+            rates = np.array([complex(value).real for value in rub.eigenvalues])
+            return _exact(np.append(rates, np.full(2 * len(rotor.system.exponents) - len(rates), -np.inf)))
+    return None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -87,11 +145,6 @@ class Attractor(Result):
     def transient(self) -> bool:
         """Whether it is irregular bouncing that ends: no attractor, but a transient on which motions were given up."""
         return self.survival is not None and self.survival.transient
-
-    @property
-    def touches(self) -> bool:
-        """Whether it keeps touching the bearing."""
-        return self.settled and self.name.outcome is not Outcome.LEVITATED
 
 
 def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> Attractor:

@@ -9,11 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.attractors.following import SLOWER, Ending, follow_in_stages
+from carom.attractors.following import SLOWER, Ending, Survival, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions, orbits_of
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturbances_of, known_starts, starts_at
-from carom.attractors.survival import Survival
 from carom.base.arguments import Count, Seed, Whole, checked
 from carom.base.outcome import IRREGULAR_BOUNCING, InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
@@ -22,11 +21,9 @@ from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance, Plan, Sample, Single, Starts
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, rotor_of
+from carom.motions import PATIENCE, Endings, State
 from carom.motions.budget import NOT_FOLLOWED
-from carom.motions.ensembles import Endings
-from carom.motions.settling import PATIENCE
-from carom.motions.starts import State
-from carom.orbits.orbit import Orbit
+from carom.orbits import Orbit
 
 RECOGNISED = (
     "Levitation is proven. A rub at rest in the co-rotating frame is recognised by its linearised sliding, other rubs by a full turn "
@@ -75,21 +72,32 @@ class AttractorSet(Members[Attractor]):
         """Where the disturbances ended."""
         return tuple(ending for ending in self.endings if ending.start.disturbance)
 
+    @property
+    def touched(self) -> tuple[Ending, ...]:
+        """The disturbances in which the rotor touched the wall."""
+        return tuple(ending for ending in self.disturbances if ending.touched)
+
+    @property
+    def hardest_impulse(self) -> float:
+        """Largest normal impulse in any disturbance, in ``m c_r Ω``."""
+        return max((ending.hardest_impulse for ending in self.disturbances), default=0.0)
+
     @checked
     def ending_on(self, name: str) -> tuple[Ending, ...]:
         """Disturbances and other starts that ended on an attractor."""
         return tuple(ending for ending in self.endings if ending.attractor == name)
+
+    def example_of(self, member: Attractor) -> Ending:
+        """The first to settle of the starts that end on an attractor, among disturbances with contact if there are any."""
+        endings = self.ending_on(member.name)
+        disturbed = [ending for ending in endings if ending.start.disturbance]
+        return min(disturbed, key=lambda ending: (not ending.impacts, ending.time), default=endings[0])
 
     @property
     def transient(self) -> Survival | None:
         """How long irregular bouncing lasts, if it occurred and was seen to end; otherwise ``None``."""
         seen = (ending.survival for ending in self.endings)
         return next((survival for survival in seen if survival and survival.transient), None)
-
-    @property
-    def touching(self) -> tuple[Attractor, ...]:
-        """Attractors on which the rotor keeps touching the bearing."""
-        return tuple(member for member in self.members if member.touches)
 
     @property
     def smallest_unrecovered_kick(self) -> float | None:
@@ -133,7 +141,6 @@ def find_attractors(
     *,
     seed: Seed = 0,
     count: Count = DISTURBANCES,
-    fastest: float | str | None = None,
     known: bool = True,
     patience: Whole = PATIENCE,
     threads: Count | None = None,
@@ -152,10 +159,7 @@ def find_attractors(
         of :mod:`carom.disturbances`, of which a sample is drawn, or single starts.  Those that are not possible are
         left out.
     seed, count : int
-        Seed and size of the standard set or of the sample.
-    fastest : float or str, optional
-        Largest speed of the standard set in the fixed frame: in ``c_r Ω``, or text with a unit; by default the
-        :func:`~carom.parameters.usual_kick` of the machine.
+        Seed and size of the standard set or of the sample; ``DisturbanceSet.of(machine, count, seed, fastest)`` is a standard set of other speeds.
     known : bool
         Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
     patience : int
@@ -186,7 +190,7 @@ def find_attractors(
     rotor, tell = rotor_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Single]
     if disturbances is None:
-        given = DisturbanceSet.of(rotor, count, seed, fastest)
+        given = DisturbanceSet.of(rotor, count, seed)
     else:
         given = Sample(disturbances, count, seed) if isinstance(disturbances, Disturbance) else disturbances
     refuse_another_machine(given)

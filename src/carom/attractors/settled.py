@@ -14,11 +14,11 @@ from carom.base.outcome import Outcome, Phase
 from carom.base.results import Result
 from carom.base.roots import bracketed_root, sign_change
 from carom.closed_forms.exact_results import exact_results
+from carom.motions import Trajectory
 from carom.motions.settling import REPEATING
-from carom.motions.trajectories import Trajectory
+from carom.orbits import Orbit, orbit_of_motion
 from carom.orbits.happenings import begins_contact, first_of_period
-from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import orbit_of_motion
+from carom.orbits.orbit import same_orbit
 from carom.orbits.simulated import SimulatedOrbit
 
 Whirl = Literal["forward", "backward", "none"]

@@ -6,21 +6,21 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from carom.base.arguments import Positive, Seed, Whole, checked
 from carom.base.outcome import STEADY_WORDS
-from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms import find_equilibria
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Single, Starts, VelocityKick
 from carom.disturbances.coordinates import INSTANT, ON_WALL
 from carom.disturbances.following import require_start
 from carom.disturbances.plans import INSTANTS, ITS_INSTANT
 from carom.models import Rotor, Subject, rotor_of
-from carom.motions.starts import State
-from carom.orbits.orbit import Orbit
+from carom.motions import State
+from carom.orbits import Orbit
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.formats import format_quantity
 
@@ -69,7 +69,7 @@ class Start:
         return cmath.phase(max(np.atleast_1d(self._velocity).tolist(), key=abs))
 
     @property
-    def _velocity(self) -> Any:
+    def _velocity(self) -> complex | np.ndarray:
         """Change of velocity by a kick, the same in both frames; velocity in the fixed frame of another start."""
         carried = 0.0 if self.kind == "kick" else 1j * self.state.position
         return self.state.velocity + carried

@@ -4,21 +4,19 @@
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
-``brackets``            the bracket that a search for the smallest unrecovered size finds
+``sizes``               which kinds have sizes, up to which they cannot touch, and the bracket that a search finds
 ``unrecovered``         the smallest kicks, shocks and losses of a blade that do not come back
-``families``            which kinds have sizes, and up to which they cannot touch
-``maps``                maps over two numbers of any measure: the next two
-``gains``               these measures against two parameters: gain maps
+``maps``                maps over two numbers of any measure, and of these gain maps: the share that comes back
 ``drops``               how drops end and what the bearing bears, against two numbers
 ``document``            results as JSON
 ======================  ==================================================================================
 """
 
-from carom.basins.brackets import SmallestUnrecovered
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.drops import DropMap, map_drops
-from carom.basins.gains import GainMap, map_gains
+from carom.basins.maps import GainMap, map_gains
 from carom.basins.shares import Population, Share, share_of_kicks
+from carom.basins.sizes import SmallestUnrecovered
 from carom.basins.unrecovered import smallest_unrecovered
 
 __all__ = [

@@ -20,8 +20,9 @@ from carom.disturbances import Coordinate, Plan, Starts
 from carom.disturbances.following import follow, require_start
 from carom.disturbances.plans import instants_words
 from carom.models import Rotor, Subject, rotor_of
-from carom.motions.ensembles import MOST_EVENTS, Endings
-from carom.motions.settling import PATIENCE, longest_time
+from carom.motions import PATIENCE, Endings
+from carom.motions.ensembles import MOST_EVENTS
+from carom.motions.settling import longest_time
 from carom.motions.starts import Until
 from carom.parameters import Scales, own_time
 

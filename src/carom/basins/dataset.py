@@ -21,7 +21,7 @@ from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.models import Rotor, exact_rotor_of, rotor_from
-from carom.motions.ensembles import Endings
+from carom.motions import Endings
 from carom.parameters import Parameters, Scales
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def dataset_of(
     import xarray
 
     axes, dimensions = _axes(rotor, plan)
-    reached = {
+    reached: dict[str, object] = {
         "long_name": "motion on which it ends",
         "flag_values": np.arange(len(names), dtype=np.int16),
         "flag_meanings": " ".join(name.replace(" ", "_") for name in names),
@@ -151,7 +151,7 @@ def dataset_of(
         "start_vx": ("c_r Omega", "velocity at the start, Re dU/dt", starts.velocities.real),
         "start_vy": ("c_r Omega", "velocity at the start, Im dU/dt", starts.velocities.imag),
     }
-    variables: dict[str, tuple[np.ndarray, dict[str, Any]]] = {
+    variables: dict[str, tuple[np.ndarray, dict[str, object]]] = {
         "outcome": (endings.outcomes, outcome_flags()),
         "motion": (motions, reached),
         **{name: (values, {"units": unit, "long_name": words}) for name, (unit, words, values) in numbers.items()},
@@ -159,8 +159,8 @@ def dataset_of(
     if rotor.scales:
         variables["time"][1].update(si_units="s", si_factor=rotor.scales.time)
     if rotor.depends_on_instant:
-        words = {"units": INSTANT.units[0], "long_name": INSTANT.words}
-        variables[INSTANT.name] = plan.instants().reshape(starts.exists.shape), words
+        noted: dict[str, object] = {"units": INSTANT.units[0], "long_name": INSTANT.words}
+        variables[INSTANT.name] = plan.instants().reshape(starts.exists.shape), noted
     # The starts of a rotor of several coordinates have one axis more.
     several = (*dimensions, "coordinate")
     return xarray.Dataset(

@@ -8,19 +8,18 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
 
 import numpy as np
 
 from carom.attractors import MotionName
 from carom.base.outcome import Outcome
 from carom.base.results import Column, in_si, record
-from carom.basins.brackets import SmallestUnrecovered
 from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
-from carom.basins.gains import WANTED, GainMap
+from carom.basins.maps import WANTED, GainMap
 from carom.basins.shares import Share
-from carom.closed_forms.contact_free import contact_free_blade_loss, contact_free_shock
+from carom.basins.sizes import SmallestUnrecovered
+from carom.closed_forms import contact_free_blade_loss, contact_free_shock
 from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
@@ -72,6 +71,11 @@ DROPPED = (
     Column("", "at rest or whirling since (median)", _settled),
 )
 """Of each motion, by its name, what people see of a map of drops."""
+LOSS = (
+    "{name}=size{kind} {name}_bracket=bracket{kind} {name}_angle=angle {name}_instant=instant {name}_outcome=outcome.label "
+    "{name}_tolerance=tolerance {several}_tried=tried {several}_tried_afresh=fresh {several}_lost_below=share_below"
+)
+"""Of the smallest unrecovered size."""
 
 
 def basin_document(
@@ -87,7 +91,7 @@ def basin_document(
     return to.  Kicks up to the speed ``contact_free`` provably never reach the wall.  With a machine ``in_terms_of``, the values of a gain map are there in the terms of its file too.
     """
     scales, attributes = basin.scales, basin.dataset.attrs
-    document: dict[str, Any] = {
+    document: dict[str, object] = {
         **record(basin, "starts fractions beyond_model unresolved irregular"),
         **_loss(smallest, basin, "kick"),
         "harmless_kick": contact_free,
@@ -117,9 +121,8 @@ def basin_document(
     kind = "acceleration" if isinstance(model, BaseShock) else "unbalance"
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:
-        document["gains"] = _gains(gains)
-        if in_terms_of is not None:
-            document["gains"]["terms"] = _terms(gains, in_terms_of)
+        terms = {} if in_terms_of is None else {"terms": _terms(gains, in_terms_of)}
+        document["gains"] = _gains(gains) | terms
     return document
 
 
@@ -129,19 +132,9 @@ def _loss(smallest: SmallestUnrecovered | None, basin: Basin, kind: str) -> dict
     key = kind.replace("-", "_")
     name = f"smallest_unrecovered_{key}"
     several = f"{key}es" if key.endswith("s") else f"{key}s"
-    document: dict[str, object] = {
-        name: found.size if found else None,
-        f"{name}_bracket": [found.all_back, found.size] if found else None,
-        f"{name}_angle": found.angle if found else None,
-        f"{name}_instant": found.instant if found else None,
-        f"{name}_outcome": found.outcome.label if found and found.outcome else None,
-        f"{name}_tolerance": found.tolerance if found else None,
-        f"{several}_tried": found.tried if found else None,
-        f"{several}_tried_afresh": found.fresh if found else None,
-        f"{several}_lost_below": found.share_below if found else None,
-    }
     quantity = found.quantity if found else "velocity"
-    return document | in_si(document, basin.scales, **{name: quantity, f"{name}_bracket": quantity})
+    columns = LOSS.format(name=name, several=several, kind=f":{quantity}" if quantity else "")
+    return record(found, columns, basin.scales)
 
 
 def _share(share: Share) -> dict[str, object]:

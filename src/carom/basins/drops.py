@@ -16,15 +16,14 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import STEADY_WORDS, InputError
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.dataset import about, outcome_flags
-from carom.basins.maps import Entry, Measure, OverPlane, Several, map_over
+from carom.basins.maps import Entry, Measure, Over, OverPlane, map_over
 from carom.core.processors import available_cores
 from carom.disturbances import Drop, Single, VelocityKick
 from carom.disturbances.following import NO_START
 from carom.disturbances.measures import Quantity
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
-from carom.motions import follow_loads
-from carom.motions.loads import DropLoads
+from carom.motions import DropLoads, follow_loads
 from carom.motions.starts import Until
 from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
 from carom.parameters.formats import number
@@ -34,6 +33,7 @@ if TYPE_CHECKING:
 
 MOST_STEPS = 100_000
 """Default number of impacts and steps of contact after which a drop is given up: several seconds of a machine on its bearing."""
+USUAL = {"phase": 24, "speed": 16}
 MEASURES = {
     "force": Quantity("N", "peak force"),
     "impulse": Quantity("N s", "largest impulse"),
@@ -87,7 +87,7 @@ class DropMap(OverPlane):
 
     figure: ClassVar[str] = "drop_map"
     shown: ClassVar[tuple[str, ...]] = ("rotor", "plane", "ends", "worst")
-    needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "force", "impulse")
+    needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "force", "impulse", "whirl", "still_growing")
 
     def varied(self, name: str) -> Axis:
         """What is varied under a name."""
@@ -118,16 +118,12 @@ class DropMap(OverPlane):
     @property
     def backward(self) -> np.ndarray:
         """Which drops whirl backward at the end, bool."""
-        return -self._known("whirl") > 0.0
+        return np.asarray(self.dataset["whirl"].values < 0.0)
 
     @property
     def still_growing(self) -> np.ndarray:
         """Of which drops the force still grew at the end, so that it is not their largest, bool."""
-        return self._known("still_growing") > 0.0
-
-    def _known(self, name: str) -> np.ndarray:
-        """Numbers of all drops; NaN where the map was made before they were kept."""
-        return np.asarray(self.dataset[name].values if name in self.dataset else np.full(self.exists.shape, np.nan))
+        return np.asarray(self.dataset["still_growing"].values > 0.0)
 
     @property
     def hardest(self) -> str:
@@ -158,10 +154,8 @@ class DropMap(OverPlane):
 def map_drops(
     machine: Subject,
     released: Drop | None = None,
-    names: tuple[str, str] = ("phase", "speed"),
+    over: Over = USUAL,
     *,
-    ranges: tuple[Ends | None, Ends | None] = (None, None),
-    shape: tuple[Several, Several] = (24, 16),
     until: Until | None = None,
     max_events: Count = MOST_STEPS,
     threads: Count | None = None,
@@ -179,13 +173,9 @@ def map_drops(
         One that states no weight falls by 9.81 m/s² downward; the limits of a case are kept beside the loads.
     released : Drop, optional
         By default ``carom.drop()``.  Where the speed of the shaft is varied, sizes with a unit stay what they are.
-    names : tuple of str
-        What is varied: ``"phase"``, ``"regained_after"`` or ``"race_speed"`` of the release, or any of :func:`carom.models.axis`.
-    ranges : tuple of tuple of float or str, optional
-        Ranges of both, in SI units, or texts with a unit; by default a whole turn for the phase, in cells of which the middles are tried,
-        and half to twice the present value for others.
-    shape : tuple of int
-        Number of values of both; ends of a range are included.
+    over : mapping of str to tuple or int
+        What is varied: ``"phase"``, ``"regained_after"`` or ``"race_speed"`` of the release, or any of :func:`carom.models.axis`, as for
+        :func:`map_gains`.  How many alone is over a whole turn for the phase, in cells of which the middles are tried.
     until : float or str, optional
         Time after which a drop that has not settled is given up, in ``1/Ω`` of the present machine or text with a unit.
     max_events : int
@@ -210,7 +200,7 @@ def map_drops(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/dropped-rotor.toml")
-    >>> found = cm.basins.map_drops(machine, names=("phase", "friction"), ranges=(None, (0.05, 0.3)), shape=(4, 2))
+    >>> found = cm.basins.map_drops(machine, over={"phase": 4, "friction": (0.05, 0.3, 2)})
     >>> {str(name): share for name, share in found.fractions.items()}
     {'rest on the touchdown bearing': 1.0}
     """
@@ -221,7 +211,7 @@ def map_drops(
         raise InputError("machine", "no scales", "a rotor with mass, clearance and speed, in which weight is in m/s^2")
     longest = None if until is None else own_time("until", until, scales) * scales.time
     measure = Landing(released, longest, max_events, threads or available_cores())
-    dataset, rows = map_over(rotor, measure, names, ranges, shape, Reporter.of(progress, "following drops"))
+    dataset, rows = map_over(rotor, measure, over, Reporter.of(progress, "following drops"))
     if not any(rows):
         allowed = "static sag and whirl must stay inside the wall: below 1"
         raise InputError(STEADY_WORDS["contact-free"], "of none of the machines", allowed)
@@ -269,7 +259,7 @@ class Landing(Measure):
         if given is None and varied.name == "phase":
             return TURN * (np.arange(count) + 0.5) / count
         if given is None and varied.name in RELEASED and not present > 0.0:
-            raise InputError("ranges", None, f"needed: the drop states no {varied.name} around which a range could be")
+            raise InputError("over", None, f"needed: the drop states no {varied.name} around which a range could be")
         return super().values(varied, present, given, count)
 
     def entries(self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]) -> Iterator[Entry]:

@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
-from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.base.arguments import Truths, Whole, checked
 from carom.base.results import record
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
@@ -136,7 +134,7 @@ class Share:
             how = f"{self.count:,} of {self.total:,} cells of a grid, weighted by area, each represented by its centre{error}"
         return f"{percent(self.fraction)} of {self.population.words} {self.does} ({how})"
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The share as plain data for JSON."""
         of = self.population
         si = {} if of.up_to_si is None else {"up_to_si": of.up_to_si}

@@ -15,9 +15,9 @@ import numpy as np
 from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.basins.brackets import BESIDE_LOST, NEIGHBOURS, SmallestUnrecovered
-from carom.basins.families import contact_free_size, on_few_machines, size_coordinate, starts_by_size
-from carom.disturbances import Disturbance, KickPlane, Starts, VelocityKick
+from carom.basins.sizes import BESIDE_LOST, SmallestUnrecovered, contact_free_size, size_coordinate
+from carom.disturbances import BladeLoss, Disturbance, KickPlane, Starts, VelocityKick
+from carom.disturbances.blade_loss import starts_after
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Rotor, Subject, rotor_of
@@ -57,6 +57,8 @@ AGAIN, CLOSEST = 0.05, 0.5
 """Part of the smallest unrecovered size by which the search begins again below it, and share of the tolerance at which it ends."""
 MARGIN = 10.0
 """Where the instant matters, all are said to come back up to so many tolerances below the smallest: basins are rough there, and no sample finds their lowest point."""
+NEIGHBOURS = 32
+"""Disturbances beside the smallest unrecovered one that are followed too."""
 FEWEST = 60
 """Fewest fresh starts for which the budget of a study must suffice: 95 of 100 such samples show that one in twenty does not come back."""
 
@@ -206,7 +208,7 @@ class _SizeSearch:
         for low, high in pairwise(levels.tolist()):
             at = self.all_around(directions)
             sizes = low + (high - low) * self.random.random(at.shape[1])
-            if self.follow(*on_few_machines(self.rotor, self.model, sizes, at, MACHINES)):
+            if self.follow(*_on_few_machines(self.rotor, self.model, sizes, at, MACHINES)):
                 return
             self.back = high
 
@@ -227,7 +229,7 @@ class _SizeSearch:
             )
             at += apart * math.sqrt(gap / reach) * self.random.standard_normal(at.shape)
             sizes = np.maximum(before - gap * self.random.random(count), self.contact_free)
-            self.follow(*on_few_machines(self.rotor, self.model, sizes, at, MACHINES))
+            self.follow(*_on_few_machines(self.rotor, self.model, sizes, at, MACHINES))
             gap /= 1.0 if before - self.least > 0.5 * gap else 2.0
         low = self.contact_free
         while self.least - low > self.tolerance * self.least:
@@ -307,12 +309,38 @@ class _SizeSearch:
     def _outcomes(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
         """Outcomes; of impossible starts as of undecided ones."""
         sizes, *at = np.broadcast_arrays(sizes, *angles)
-        starts = starts_by_size(self.rotor, self.model, sizes, *at)
+        starts = _starts(self.rotor, self.model, sizes, *at)
         outcomes = follow(self.rotor, starts, threads=self.threads).outcomes
         outcomes[~starts.exists] = Outcome.GRAZING
         counted = starts.exists & (starts.ended == Outcome.CLEAR) & (outcomes != NOT_FOLLOWED)
         self.tried += int(np.count_nonzero(counted))
         return outcomes
+
+
+def _starts(rotor: Rotor, model: Disturbance, sizes: np.ndarray, *at: np.ndarray) -> Starts:
+    """Starts after disturbances of these sizes in these directions, at these instants where they matter."""
+    if isinstance(model, BladeLoss):
+        phases, *instants = at
+        return starts_after(rotor, sizes, phases, model.node, *instants)
+    return model.starts_on(rotor, sizes, *at)
+
+
+def _on_few_machines(
+    rotor: Rotor, model: Disturbance, sizes: np.ndarray, at: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Disturbances close to those of these sizes in these directions ``at[0]``, that lead to so many machines at most.
+
+    The unbalances after losses of a blade, of any rotor that changes along its unbalance, are moved to circles: all of one circle lead
+    to the same machine, the frame of which has turned.
+    """
+    before = rotor.definition.unbalance_along(model.node) if isinstance(model, BladeLoss) else None
+    if before is None:
+        return sizes, at
+    places = before + sizes * np.exp(1j * at[0])
+    for some in np.array_split(np.abs(places).argsort(), count):
+        if some.size:
+            places[some] *= np.abs(places[some[some.size // 2]]) / np.abs(places[some])
+    return np.abs(places - before), np.vstack([np.angle(places - before), at[1:]])
 
 
 def _turned(angles: np.ndarray) -> np.ndarray:

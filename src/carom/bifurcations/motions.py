@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carom.attractors.names import LEVITATION
+from carom.attractors.naming import LEVITATION
 from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS, Outcome
 from carom.bifurcations.conditions import Solution, is_admissible, orbit_solutions, spectral_radii

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from carom.base.outcome import IRREGULAR_BOUNCING
@@ -36,16 +37,15 @@ def attractors(
     case = read_machine(machine, settings)
     check_output(out)
     with progress("attractors (the kernels are compiled on first use)") as tell:
-        from carom.attractors import exponents_of, find_attractors
-        from carom.models import rotor_of
+        from carom.attractors import DisturbanceSet, exponents_of, find_attractors
         from carom.studies.document import attractors_document
 
-        fastest = case.requirement.own(case.parameters.scales).kick
-        found = find_attractors(case, count=starts, seed=seed or 0, fastest=fastest, progress=tell)
+        tried = DisturbanceSet(starts, seed or 0, case.requirement.own(case.parameters.scales).kick)
+        found = find_attractors(case, tried, progress=tell)
         known = [exponents_of(case, entry) for entry in found]
-        document = attractors_document(rotor_of(case), found, known if exponents else None)
+        document = cache(lambda: attractors_document(found, known if exponents else None))
         write_output(out, case, "attractors", document, {"attractors": found.plot})
-    hand_over(lambda: document, as_json, lambda: _print(case, found, known, exponents), out)
+    hand_over(document, as_json, lambda: _print(case, found, known, exponents), out)
 
 
 def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None], exponents: bool) -> None:
@@ -53,7 +53,8 @@ def _print(case: Case, found: AttractorSet, known: list[LyapunovExponents | None
     from carom.base.results import table_of
     from carom.basins import share_of_kicks
     from carom.cli.screen import print_table
-    from carom.studies.document import ACROSS, MEASURED, SEEN
+    from carom.studies.document import SEEN
+    from carom.studies.summaries import ACROSS, MEASURED
 
     screen = console()
     measured = list(zip(found, known, strict=True))

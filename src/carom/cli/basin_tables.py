@@ -8,14 +8,14 @@ from carom.base.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.base.results import table_of
 from carom.basins import Basin, GainMap, SmallestUnrecovered
 from carom.basins.document import MOTION
-from carom.basins.families import size_coordinate
-from carom.basins.gains import WANTED
+from carom.basins.maps import WANTED
+from carom.basins.sizes import size_coordinate
 from carom.cli.screen import print_table
 from carom.cli.tables import print_rows
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
 from carom.parameters.formats import format_angle
-from carom.studies.wording import Wording
+from carom.studies.wording import Wording, counted, ending_words
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | None, contact_free: float) -> None:
@@ -40,7 +40,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestUnrecovered | N
 def print_gains(screen: Console, found: GainMap, case: Case) -> None:
     """Print what a gain map says about the present machine, in the terms of its file."""
     share = found.dataset["recovered"].values
-    able = found.dataset["levitates"].values > 0.0
+    lost = int((found.dataset["levitates"].values <= 0.0).sum())
     back, of_what = found.present_share, found.population.words
     names = [axis.name for axis in found.axes]
     here = [in_terms_of(case, name, value, digits=5) for name, value in zip(names, found.present, strict=True)]
@@ -58,7 +58,7 @@ def print_gains(screen: Console, found: GainMap, case: Case) -> None:
     )
     screen.print(
         f"Of {shape} machines with other {varied}, {reach} of {share.size} bring back at least "
-        f"{100 * WANTED:g} % of {of_what}{shown}; {int((~able).sum()) or 'none'} cannot levitate."
+        f"{100 * WANTED:g} % of {of_what}{shown}; {counted(lost, 'machine') if lost else 'none'} cannot levitate."
     )
 
 
@@ -72,7 +72,6 @@ def _touching(basin: Basin) -> str:
 
 def _losses(basin: Basin, smallest: SmallestUnrecovered | None, contact_free: float) -> list[tuple[str, str]]:
     """From which size on disturbances do not come back, if they have a size; else why nothing was searched."""
-    from carom.studies.endings import ending_words  # only here: it takes long to load
     from carom.studies.verdict import SURVIVED, size_cells
 
     system = basin.rotor.system

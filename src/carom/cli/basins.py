@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,8 +73,8 @@ def basins(
             refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y})
         from carom.basins import map_basins, map_gains, smallest_unrecovered
         from carom.basins.document import basin_document
-        from carom.basins.families import size_coordinate
-        from carom.basins.gains import usual_gains
+        from carom.basins.maps import usual_gains
+        from carom.basins.sizes import size_coordinate
         from carom.closed_forms import contact_free_kick
         from carom.models import rotor_of
 
@@ -88,17 +89,15 @@ def basins(
         contact_free, smallest = contact_free_kick(rotor), None
         if contact_free > 0.0 and size_coordinate(plan.model) is not None:
             smallest = smallest_unrecovered(rotor, plan.model, progress=tell.part(share, 2.0 * share))
-        over: tuple[Any, ...] = ()
-        if gains is not None:
-            ways_of = {"ranges": asked.ranges, "shape": shape, "source": source, "progress": tell.part(0.33, 0.97)}
-            found = map_gains(rotor, plan, asked.names, **ways_of)  # type: ignore[arg-type]
-            over = (found, asked.in_terms_of)
-        document = basin_document(basin, smallest, contact_free, *over)
         figures: Drawings = {"basins": lambda: basin.plot(smallest)}
         files: dict[str, Callable[[Path], None]] = {"basins.nc": basin.save}
-        if over:
+        over: tuple[Any, ...] = ()
+        if gains is not None:
+            found = map_gains(rotor, plan, asked.over(shape), source=source, progress=tell.part(0.33, 0.97))
+            over = (found, asked.in_terms_of)
             figures["gain-map"] = lambda: found.plot(in_terms_of=asked.in_terms_of)
             files["gains.nc"] = found.save
+        document = cache(lambda: basin_document(basin, smallest, contact_free, *over))
         write_output(out, case, "basins", document, figures, files=files, tell=tell.part(0.97, 1.0))
 
     def show() -> None:
@@ -108,7 +107,7 @@ def basins(
         if over:
             print_gains(console(), *over)
 
-    hand_over(lambda: document, as_json, show, out)
+    hand_over(document, as_json, show, out)
 
 
 def _model(case: Case, ways: dict[str, str | None]) -> Disturbance:

@@ -52,9 +52,9 @@ def bifurcations(
         interval = read_ends(start, end, varied)
         check_output(out)
         diagram = find_bifurcations(model, varied.name, interval, impacts=impacts, progress=tell)
-        document, name = diagram_document(diagram), f"bifurcations-{varied.name}"
-        write_output(out, case, name, document, {name: diagram.plot})
-    hand_over(lambda: document, as_json, lambda: _print_diagram(diagram, varied.value(model)), out)
+        name = f"bifurcations-{varied.name}"
+        write_output(out, case, name, lambda: diagram_document(diagram), {name: diagram.plot})
+    hand_over(lambda: diagram_document(diagram), as_json, lambda: _print_diagram(diagram, varied.value(model)), out)
 
 
 def _shown(varied: Axis, value: float) -> str:

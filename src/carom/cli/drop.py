@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from carom.cli import options
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
 _DRAWN = 20_000
 """Impacts and steps of contact that are drawn: figures need them all at once."""
-CELLS = (24, 16)
 MOST_CELLS = 100_000
 """Each takes some hundredths of a second to some seconds: more would be a typing error."""
 WHIRL = option(
@@ -61,7 +61,7 @@ def drop(
     Levitation is lost and the rotor falls under [gravity], or 9.81 m/s² downward if the file has none. With --out it also writes figures, drop.json
     and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map drops are simulated over two quantities.
     """
-    from carom.basins.drops import RELEASED
+    from carom.basins.drops import RELEASED, USUAL
     from carom.cli.starts import read_cells, read_plane, read_time, refuse_without, released
 
     case = read_machine(machine, settings)
@@ -73,8 +73,8 @@ def drop(
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
     end = read_time(until, case.parameters.scales)
     if asked:
-        shape = CELLS if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
-        _map(case, begins, {"names": asked.names, "ranges": asked.ranges, "shape": shape, "until": end}, out, as_json)
+        shape = tuple(USUAL.values()) if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
+        _map(case, begins, {"over": asked.over(shape), "until": end}, out, as_json)
     else:
         _drop_once(case, begins, end, out, as_json)
 
@@ -125,9 +125,9 @@ def _map(case: Case, begins: StatedBeginning, asked: dict[str, Any], out: str | 
 
     with progress("following drops (the kernels are compiled on first use)") as tell:
         found = map_drops(case, begins.release, **asked, progress=tell if out is None else tell.part(0.0, 0.95))
-        document = {"name": case.name, **drop_map_document(found)}
+        document = cache(lambda: {"name": case.name, **drop_map_document(found)})
         write_output(out, case, "drop-map", document, {"drop-map": found.plot}, files={"drop-map.nc": found.save})
-    hand_over(lambda: document, as_json, lambda: _print_map(console(), found), out)
+    hand_over(document, as_json, lambda: _print_map(console(), found), out)
 
 
 def _print_map(screen: Console, found: DropMap) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from carom.cli import options
 from carom.cli.options import option
@@ -49,14 +49,11 @@ def orbits(
         exact = model.has_closed_forms
     longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
-        from carom.base.results import record
         from carom.closed_forms.equilibria import steady_motions
         from carom.orbits.single_impact import find_orbits, orbits_within_reach
-        from carom.studies import found_orbits_document, orbits_document
 
         if impacts is not None:
             found = find_orbits(case, impacts=impacts, guesses=guesses, progress=tell)
-            document = found_orbits_document(found)
         else:
             tell(0.3)
             steady, whirls = steady_motions(model), [] if exact else _whirls(model)
@@ -64,13 +61,19 @@ def orbits(
                 found = orbits_within_reach(model) if longest is None else find_orbits(model, longest)
             else:
                 found = find_orbits(case, longest, guesses=guesses, progress=tell.part(0.3, 1.0))
-            document = orbits_document(model, steady, found, case)
-            for entry, each in zip(document["equilibria"], steady, strict=True):
-                entry["touchdown_bearings"] = [place + 1 for place in each.planes]
-            document["whirls"] = [
-                {"touchdown_bearing": place + 1, **record(each, "speed radius: normal_force: slips", model.scales)}
-                for place, each in whirls
-            ]
+
+    def document() -> dict[str, Any]:
+        from carom.base.results import record
+        from carom.studies import found_orbits_document, orbits_document
+
+        if impacts is not None:
+            return found_orbits_document(found)
+        entries = orbits_document(model, steady, found, case)
+        for entry, each in zip(entries["equilibria"], steady, strict=True):
+            entry["touchdown_bearings"] = [place + 1 for place in each.planes]
+        columns = "speed radius: normal_force: slips"
+        said = [{"touchdown_bearing": place + 1, **record(each, columns, model.scales)} for place, each in whirls]
+        return entries | {"whirls": said}
 
     def show() -> None:
         from carom.cli.tables import print_found_orbits, print_orbits
@@ -80,7 +83,7 @@ def orbits(
         else:
             print_orbits(console(), case, steady, found, whirls)
 
-    hand_over(lambda: document, as_json, show, None)
+    hand_over(document, as_json, show, None)
 
 
 def _whirls(rotor: Rotor) -> list[tuple[int, SlippingWhirl]]:

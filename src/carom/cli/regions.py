@@ -37,7 +37,7 @@ def regions(
     """
     case = read_machine(machine, settings)
     with progress("loading") as tell:
-        from carom.basins.gains import usual_gains
+        from carom.basins.maps import usual_gains
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
         from carom.cli.starts import read_plane
@@ -54,9 +54,9 @@ def regions(
         ]
         check_output(out)
         found = map_regions(subject, Plane(axes[0].name, axes[1].name, *ranges), grid=grid, progress=tell)
-        document, name = regions_document(found), f"regions-{axes[0].name}-{axes[1].name}"
-        write_output(out, case, name, document, {name: found.plot})
-    hand_over(lambda: document, as_json, lambda: _print_map(console(), found), out)
+        name = f"regions-{axes[0].name}-{axes[1].name}"
+        write_output(out, case, name, lambda: regions_document(found), {name: found.plot})
+    hand_over(lambda: regions_document(found), as_json, lambda: _print_map(console(), found), out)
 
 
 def _print_map(screen: Console, found: RegionMap) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from carom.base.outcome import InputError
@@ -51,9 +52,9 @@ def response(
         found = unbalance_response(case, interval, operating=run)
         tell(0.3, "unbalance response")
         echo = echo_of_unbalance(rotor_of(case).value("rho"), found.interval, found.scales)
-        document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
+        document = cache(lambda: {"disturbance": echo.document(found.scales)} | found.to_dict())
         write_output(out, case, "response", document, {"response": found.plot}, tell=tell.part(0.4, 1.0))
-    hand_over(lambda: document, as_json, lambda: _print(found, echo, out), out)
+    hand_over(document, as_json, lambda: _print(found, echo, out), out)
 
 
 def _read(case: Case, start: str | None, end: str | None, operating: str | None) -> tuple[Interval, Interval]:

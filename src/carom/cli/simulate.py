@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING
 
 from carom.base.outcome import InputError
@@ -72,8 +72,9 @@ def simulate(
         loads = drop_loads(motion)
         beside = {"magnets": loads.magnets, "reduction": begins.reduction_error(case, loads)}
         known = {name: found for name, found in beside.items() if found is not None}
-        document = {"disturbance": echo.document(case.parameters.scales), **_document(case, motion)}
-        document |= {name: found.document() for name, found in known.items()}
+        said = {name: found.document() for name, found in known.items()}
+        beginning = {"disturbance": echo.document(case.parameters.scales)}
+        document = cache(lambda: beginning | _document(case, motion) | said)
         if out is not None:
             figures = _figures(case, motion, decaying=end is None)
             write_output(out, case, "simulation", document, figures, tell=tell.part(0.4, 1.0, "drawing"))
@@ -87,7 +88,7 @@ def simulate(
             console().print()
             console().print(words)
 
-    hand_over(lambda: document, as_json, show, out)
+    hand_over(document, as_json, show, out)
 
 
 def _document(case: Case, motion: Trajectory) -> dict[str, object]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from types import MappingProxyType
@@ -22,6 +22,7 @@ from carom.parameters.fields import unknown_name
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
+    from carom.basins.maps import Over
     from carom.disturbances import Disturbance, Drop
     from carom.disturbances.echo import Echo
     from carom.models import Axis, Rotor
@@ -177,10 +178,10 @@ class PlaneRead(NamedTuple):
     ranges: tuple[tuple[float, float] | None, tuple[float, float] | None]
     in_terms_of: Case
 
-    @property
-    def names(self) -> tuple[str, str]:
-        """Names of both parameters."""
-        return self.axes[0].name, self.axes[1].name
+    def over(self, shape: Sequence[int]) -> Over:
+        """Both with their ranges and these numbers of values."""
+        each = zip(self.axes, self.ranges, shape, strict=True)
+        return {varied.name: (*ends, count) if ends else count for varied, ends, count in each}
 
 
 def read_plane(

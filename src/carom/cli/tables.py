@@ -23,10 +23,10 @@ from carom.motions import Trajectory, drop_loads
 from carom.parameters.formats import complex_words, format_angle, format_quantity, number, shown_from_si
 from carom.parameters.indentation import indentation_of_impact
 from carom.studies import LoadCheck, Study, Wording
-from carom.studies.advice_facts import CHANGES
 from carom.studies.document import FOUND_ORBIT, MULTIPLIERS, ORBIT
 from carom.studies.drops import checks_of_planes, load_tables
-from carom.studies.facts import Topic, about, paragraphs
+from carom.studies.findings import CHANGES
+from carom.studies.questions import about, paragraphs
 from carom.studies.summaries import (
     MOTION_COLUMNS,
     MotionRow,
@@ -88,7 +88,7 @@ def _print_topics(console: Console, study: Study) -> None:
         console.print(shown, width=min(console.width, TEXT_WIDTH))
 
 
-def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:
+def _print_facts(console: Console, study: Study, topic: str, heading: str) -> None:
     """Print the facts of a topic with their labels, details indented."""
     facts = about(study.facts, topic)
     rows = [(f"  {fact.label}" if fact.detail else fact.label, fact.sentence) for fact in facts]

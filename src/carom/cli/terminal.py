@@ -79,7 +79,7 @@ def write_output(
     out: str | None,
     case: Case,
     name: str,
-    document: dict[str, object],
+    document: Callable[[], dict[str, object]],
     figures: Drawings,
     *,
     files: Mapping[str, Callable[[Path], None]] = MappingProxyType({}),
@@ -103,7 +103,7 @@ def write_output(
         tell(1.0, "writing")
         for file, write in files.items():
             write(directory / file)
-        write_json(directory / f"{name}.json", document)
+        write_json(directory / f"{name}.json", document())
 
 
 def hand_over(

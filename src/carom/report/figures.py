@@ -22,10 +22,9 @@ from carom.motions.simulation import simulate
 from carom.parameters import in_terms_of
 from carom.report.html import ReportPicture
 from carom.studies import Study
-from carom.studies.endings import ending_phrase, shown_example
 from carom.studies.questions import LABELS, MANY_MODES, Kind, required_kinds
 from carom.studies.response import unbalance_response
-from carom.studies.wording import entry_words
+from carom.studies.wording import ending_phrase, entry_words
 
 if TYPE_CHECKING:
     from carom.motions import Trajectory
@@ -77,7 +76,7 @@ def pictures(study: Study) -> list[ReportPicture]:
 def _of_disturbances(study: Study) -> Iterator[ReportPicture]:
     reached = [member for member in study.attractors if member.count]
     for member in reached[:MOST_ENDINGS]:
-        example = shown_example(study.attractors, member)
+        example = study.attractors.example_of(member)
         what = "a kick of the levitating rotor" if example.start.kind == "kick" else "a start within the clearance"
         shown = (
             "with its distance from the centre, contact and load over time" if example.impacts else "without contact"

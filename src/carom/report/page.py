@@ -18,11 +18,10 @@ from carom.report.figures import drawable, pictures
 from carom.report.film import Film, film_of, film_script
 from carom.report.html import InlineFigure, ReportPicture, draw_figures, page_template, versions
 from carom.studies import Study
-from carom.studies.advice_facts import CHANGES
 from carom.studies.drops import DropStudy
-from carom.studies.facts import Fact, about, paragraphs
-from carom.studies.findings import not_covered
+from carom.studies.findings import CHANGES, not_covered
 from carom.studies.levitating import Levitating, frequency_words
+from carom.studies.questions import Fact, about, paragraphs
 from carom.studies.summaries import MOTION_COLUMNS, MotionRow, motion_rows, survived_rows
 from carom.studies.wording import Wording, machine_heading
 

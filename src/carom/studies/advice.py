@@ -15,15 +15,14 @@ from typing import Literal
 
 from carom.base.results import Result, record
 from carom.basins.shares import percent
+from carom.closed_forms import Runaway
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
-from carom.closed_forms.whirl import Runaway
 from carom.disturbances import Sample
 from carom.models import Edge, Span, rotor_of
 from carom.motions.budget import BudgetSpentError
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.studies.facts import Evidence
-from carom.studies.questions import FEWEST
+from carom.studies.questions import FEWEST, Evidence
 from carom.studies.recovery import Recovery, power_of
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.wording import Wording

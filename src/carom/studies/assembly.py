@@ -26,15 +26,15 @@ from carom.disturbances import Disturbance, Plan, Sample
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Rotor, Subject, axis, case_of, rotor_of
 from carom.motions.budget import Budget
-from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
+from carom.orbits import OrbitSet, find_orbits, orbits_within_reach
 from carom.parameters import Case, Field, Required, Requirement, read_quantity
 from carom.studies import questions
 from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
 from carom.studies.document import study_document
 from carom.studies.drops import drop_of
-from carom.studies.facts import Fact
 from carom.studies.findings import facts_of
 from carom.studies.levitating import levitating
+from carom.studies.questions import Fact
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.study_data import StudyData
 from carom.studies.survives import FullSize, Survives, at_full_size, comes_to_rest, decides, survives, unrecovered_kinds
@@ -219,7 +219,7 @@ def _is_known(asked: Asked) -> bool:
     return exact_results(asked.rotor).orbits
 
 
-def _prove_kicks(asked: Asked, tell: Reporter) -> Any:
+def _prove_kicks(asked: Asked, tell: Reporter) -> object:
     """Of the kicks that must be survived, or of larger ones where these never touch."""
     contact_free = contact_free_kick(asked.rotor)
     reach = asked.required.kick if asked.required.kick > contact_free else BEYOND * contact_free

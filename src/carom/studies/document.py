@@ -7,38 +7,45 @@ ends in ``_si``; those keys exist if the machine is known.  Values that are not 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from importlib.metadata import version
+from operator import itemgetter
+from types import SimpleNamespace
 from typing import Any
 
 from carom.attractors import Attractor, AttractorSet, document_of, exact_interval
 from carom.base.arguments import checked
+from carom.base.outcome import Phase
 from carom.base.results import Column, keys_of, record
 from carom.basins import share_of_kicks
 from carom.bifurcations.documents import search_document
+from carom.closed_forms import Levitation
 from carom.closed_forms.equilibria import SteadyMotion
-from carom.closed_forms.sag import Levitation
 from carom.models import Rotor, rotor_of
-from carom.orbits.exponents import LyapunovExponents
+from carom.motions import LastingContact, Trajectory, drop_loads
+from carom.orbits import LyapunovExponents, Orbit, OrbitSet
 from carom.orbits.happenings import RECOVERS, SATURATES
-from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
-from carom.orbits.single_impact import OrbitSet
-from carom.parameters import MACHINE_FIELDS, Case, Parameters
+from carom.parameters import MACHINE_FIELDS, Case, LoadLimits, Parameters
 from carom.parameters.formats import complex_words, format_quantity
 from carom.parameters.indentation import is_compliant
-from carom.studies.endings import came_back, hardest_impulse, touching
-from carom.studies.facts import Fact
-from carom.studies.motion_documents import SCALES, STATE
-from carom.studies.questions import UNFINISHED
+from carom.studies.drops import load_entries
+from carom.studies.questions import UNFINISHED, Fact
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
 from carom.studies.wording import Wording, counted, indentation_of_steel
 
+_TIMES = ("time", "start", "end", "peak_time")
+STATE = "U=position V=velocity"
+SCALES = "length time velocity acceleration force impulse energy damping stiffness"
+IMPACT = ("time", "touchdown_bearing", "angle", "radial_speed", "angular_speed", "normal_impulse")
+CONTACT = "angle radial_speed radial_speed_after peak_force:force peak_time deepest:length heat: lasts impulse=normal_impulse:"
 
-def _number(name: str) -> Any:
+
+def _number(name: str) -> Callable[[Orbit, object], str]:
     return lambda orbit, _: f"{getattr(orbit, name):.10g}"
 
 
@@ -80,7 +87,6 @@ ATTRACTOR = (
 )
 DISTURBANCES = "fastest patience smallest_unrecovered_kick:velocity"
 STUDY = "zone survives levitating bearing_demand full_size drop proof kick_proof=kicks.proof"
-THRESHOLD = "motion kind=edge.kind exists parameter value=edge.value period=edge.period"
 SHARE = "tried=total came_back=count"
 
 
@@ -101,7 +107,7 @@ def orbits_document(
 
 
 @checked
-def found_orbits_document(found: OrbitSet) -> dict[str, Any]:
+def found_orbits_document(found: OrbitSet) -> dict[str, object]:
     """Return the document of orbits with at most a number of impacts."""
     return {
         **found.rotor.document(),
@@ -136,7 +142,7 @@ def _turns(orbit: Orbit | SimulatedOrbit | None) -> dict[str, object]:
 
 
 def attractors_document(
-    rotor: Rotor, found: AttractorSet, exponents: Sequence[LyapunovExponents | None] | None = None
+    found: AttractorSet, exponents: Sequence[LyapunovExponents | None] | None = None
 ) -> dict[str, object]:
     """Return the document of attractors, with the Lyapunov exponents of each member of ``found`` where they are given."""
     total, share = len(found.disturbances), share_of_kicks(found)
@@ -144,7 +150,7 @@ def attractors_document(
     for entry, known in zip(entries, exponents or (), strict=False):
         entry["exponents"] = known and record(known, EXPONENTS)
     return {
-        **rotor.document(),
+        **found.rotor.document(),
         "attractors": entries,
         "share": share.document() if share else None,
         "disturbances": found.words(),
@@ -157,39 +163,6 @@ def attractors_document(
 
 
 EXPONENTS = "per_time=values per_impact error_per_time=errors error_per_impact lost"
-Measured = tuple[Attractor, LyapunovExponents | None]
-
-
-def _exponent(value: float, error: float, digits: int) -> str:
-    return f"{value:.{digits}g}" + (f" ± {error:.1g}" if error else "")
-
-
-def _all_exponents(measured: Measured, _: object) -> str:
-    if (found := measured[1]) is None:
-        return "not known"
-    pairs = zip(found.values, found.errors, strict=True)
-    return ", ".join(_exponent(value, error, 4 if error else 6) for value, error in pairs)
-
-
-def _measured(measured: Measured, _: object) -> str:
-    found = measured[1]
-    return "-" if found is None else f"{found.impacts:,}" if found.errors.any() else "exact"
-
-
-def _across(measured: Measured, _: object) -> str:
-    if (found := measured[1]) is None:
-        return "-"
-    value, error = found.across
-    return _exponent(value, error, 3)
-
-
-ACROSS = (Column("", "largest exponent across the motion", _across),)
-MEASURED = (
-    Column("", "motion", lambda measured, _: measured[0].name.words),
-    Column("", "exponents", _all_exponents),
-    Column("", "impacts measured", _measured),
-)
-"""Of each attractor with its exponents, what people see of these."""
 
 
 def _lasting(entry: Attractor, _: AttractorSet) -> str:
@@ -261,7 +234,11 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "facts": [fact.document() for fact in facts],
         "not_reached": [record(each, UNFINISHED) for each in study.unfinished],
         "thresholds": [
-            record(each, THRESHOLD) | say.in_si(each.parameter, value=each.edge.value) for each in study.thresholds
+            record(entry, "motion parameter")
+            | {"exists": side, **record(edge, "kind value period")}
+            | say.in_si(entry.parameter, value=edge.value)
+            for entry in study.ranges
+            for edge, side in entry.thresholds
         ],
         "ranges": [record(entry, "motion parameter step spans searched") for entry in study.ranges],
         "present": study.present and _check(study.present),
@@ -311,15 +288,15 @@ def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, object]:
 
 
 def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, object]:
-    hardest, touched = hardest_impulse(found), touching(found)
+    hardest, touched = found.hardest_impulse, found.touched
     return {
         "seed": getattr(found.sample, "seed", None),
         **record(found, DISTURBANCES, rotor.scales),
         "words": found.words(),
         "count": len(found.disturbances),
-        "recovered": came_back(found.disturbances),
+        "recovered": sum(each.recovered for each in found.disturbances),
         "touching": len(touched),
-        "touching_recovered": came_back(touched),
+        "touching_recovered": sum(each.recovered for each in touched),
         "irregular_transient": found.transient and document_of(found.transient),
         "starts": [
             record(ending, "kind=start.kind attractor time impacts hardest_impulse")
@@ -343,3 +320,70 @@ def _rolling(study: StudyData) -> dict[str, object] | None:
     if roll is None:
         return None
     return record(roll, "holds speed largest_force:", rotor.scales) | _wall(rotor, force=roll.largest_force)
+
+
+@checked
+def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None) -> dict[str, object]:
+    """Return the document of one motion with its impacts and lasting contacts; velocities are those before impacts.
+
+    Of a motion in several stages it is that of all, with times from its beginning, and ``stages`` has the document of each.  Loads are
+    compared with limits, if some are stated.
+    """
+    limits, parts = limits or LoadLimits(), trajectory.parts
+    if len(parts) == 1:
+        return _stage(trajectory, limits)
+    stages = [{"begins": part.begins} | _stage(replace(part, earlier=()), limits) for part in parts]
+    document = _stage(trajectory, limits) | {"start": stages[0]["start"], "time": trajectory.begins + trajectory.time}
+    for key in ("impacts", "contacts"):
+        document[key] = [
+            entry | {name: stage["begins"] + entry[name] for name in _TIMES if name in entry}
+            for stage in stages
+            for entry in stage[key]
+        ]
+    return document | {"stages": stages}
+
+
+def _stage(motion: Trajectory, limits: LoadLimits) -> dict[str, Any]:
+    """A stage, with what the bearings bear in it and in those before that it knows."""
+    loads = zip(load_entries(drop_loads(motion), limits), motion.at_each, strict=True)
+    return {
+        **motion.rotor.document(),
+        "start": record(motion.start, STATE),
+        **record(motion, "outcome=outcome.label meaning=outcome.meaning multiplicity time"),
+        "impacts": sorted((each for seen in motion.at_each for each in _impacts_at(seen)), key=itemgetter("time")),
+        "contacts": sorted((each for seen in motion.at_each for each in _contacts(seen)), key=itemgetter("start")),
+        "final": record(motion.final, STATE),
+        "touchdown_bearings": [entry | {"final": _end(seen)} for entry, seen in loads],
+        **({} if motion.scales is None else {"scales_si": record(motion.scales, SCALES)}),
+    }
+
+
+def _impacts_at(motion: Trajectory) -> list[dict[str, object]]:
+    """Impacts at one bearing."""
+    if motion.is_compliant:
+        return []
+    columns = record(motion.contacts, " ".join(IMPACT)).values()
+    return [dict(zip(IMPACT, each, strict=True)) for each in zip(*columns, strict=True)]
+
+
+def _contacts(motion: Trajectory) -> list[dict[str, object]]:
+    """Stretches of lasting contact at one bearing; of a compliant one whole contacts, by the kind that takes most of each."""
+    log, number = motion.contacts, {"touchdown_bearing": motion.plane + 1}
+    if not motion.is_compliant:
+        return [_stretch(contact) | number for contact in motion.lasting_contacts]
+    columns = record(log, CONTACT, log.scales)
+    kinds = zip(log.phase.tolist(), log.time.tolist(), log.end.tolist(), strict=True)
+    return [
+        _stretch(LastingContact(Phase(phase), start, end)) | number | dict(zip(columns, values, strict=True))
+        for (phase, start, end), *values in zip(kinds, *columns.values(), strict=True)
+    ]
+
+
+def _stretch(contact: LastingContact) -> dict[str, object]:
+    return record(contact, "kind phase=phase.label start end")
+
+
+def _end(seen: Trajectory) -> dict[str, object]:
+    """Place and velocity of the rotor in one bearing at the end, in the fixed frame."""
+    place, velocity = seen.end()
+    return record(SimpleNamespace(place=place, velocity=velocity), "place:length velocity:", seen.scales)

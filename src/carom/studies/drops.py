@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from carom.attractors import MotionName
 from carom.base.arguments import checked
@@ -15,9 +14,8 @@ from carom.disturbances import Drop, drop
 from carom.disturbances.drops import ASSUMED
 from carom.disturbances.echo import Echo
 from carom.models import Rotor, rotor_of
-from carom.motions import Braking, DropLoads, LastWhirl, TouchdownLoads, Trajectory, drop_loads, simulate
+from carom.motions import Braking, DropLoads, LastWhirl, State, TouchdownLoads, Trajectory, drop_loads, simulate
 from carom.motions.loads import MEASURED
-from carom.motions.starts import State
 from carom.parameters import LIMIT_FIELDS, Case, LoadLimits
 from carom.parameters.formats import number
 from carom.rotors.reduction_errors import ReductionError, reduction_error
@@ -105,7 +103,7 @@ class LoadCheck:
         when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
         return f"{text}: exceeded{when} if contact continues"
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON; values in the SI unit of the limit."""
         return record(self, "name exceeded endless still_growing value_si=value limit_si=limit reached_after_si=after")
 
@@ -196,20 +194,21 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
-def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, Any]:
-    whirl = plane.whirl
-    entry = {"touchdown_bearing": plane.plane + 1, **record(plane, PLANE, plane.scales)}
-    entry["loads"] = record(plane, LOADS, plane.scales)
+def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, object]:
+    whirl, loads = plane.whirl, record(plane, LOADS, plane.scales)
     if plane.pressure is not None:
-        entry["loads"]["pressure_si"] = plane.pressure
+        loads["pressure_si"] = plane.pressure
     if not plane.is_compliant:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
-        entry["loads"]["force_is_of_lasting_contact"] = True
-    entry["whirl"] = whirl and record(whirl, WHIRL, whirl.scales)
-    if whirl is not None and whirl.frequency_si is not None:
-        entry["whirl"]["frequency_si"] = whirl.frequency_si
-    entry["limits"] = [check.document() for check in check_loads(plane, limits)]
-    return entry
+        loads["force_is_of_lasting_contact"] = True
+    often = {} if whirl is None or whirl.frequency_si is None else {"frequency_si": whirl.frequency_si}
+    return {
+        "touchdown_bearing": plane.plane + 1,
+        **record(plane, PLANE, plane.scales),
+        "loads": loads,
+        "whirl": whirl and record(whirl, WHIRL, whirl.scales) | often,
+        "limits": [check.document() for check in check_loads(plane, limits)],
+    }
 
 
 def _by_shaft(times: str) -> str:

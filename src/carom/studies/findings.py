@@ -1,29 +1,40 @@
-"""Every fact of a study, topic by topic: the motions, what disturbances did, loads, what would change it, and what is not covered."""
+"""Every fact of a study, topic by topic: the recommendation, the motions, what disturbances did, loads, what would change it, and what is not covered."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from functools import partial
 
-from carom.attractors.names import LEVITATION
+from carom.attractors.naming import LEVITATION
 from carom.base.outcome import STEADY_WORDS, Outcome
 from carom.base.results import record
-from carom.closed_forms.sag import Levitation
-from carom.closed_forms.whirl import Rolling, Runaway
+from carom.closed_forms import Levitation, Rolling, Runaway
+from carom.models import Edge
 from carom.motions.magnets import pull_words
-from carom.orbits.orbit import Orbit
-from carom.parameters import GRAVITY
-from carom.parameters.formats import number
+from carom.orbits import Orbit
+from carom.parameters import GRAVITY, in_terms_of
+from carom.parameters.formats import format_entry, number
 from carom.parameters.indentation import is_compliant
 from carom.rotors import ReducedMachine
-from carom.studies.advice_facts import advice_facts
-from carom.studies.endings import came_back, ending_phrase, hardest_impulse, touching
-from carom.studies.facts import Fact
+from carom.studies.advice import GAIN_FACTOR, Change, evidence_of
 from carom.studies.levitating import bearing_facts, levitation_facts
-from carom.studies.questions import LABELS, UNFINISHED
+from carom.studies.questions import LABELS, UNFINISHED, Evidence, Fact
 from carom.studies.study_data import StudyData
 from carom.studies.summaries import ranges_along
 from carom.studies.verdict import proven_words, verdict_facts
-from carom.studies.wording import Wording, counted, indentation_of_steel, listed, no_rigid_wall, steel_words
+from carom.studies.wording import (
+    Wording,
+    counted,
+    edge_words,
+    ending_phrase,
+    entry_words,
+    indentation_of_steel,
+    listed,
+    no_rigid_wall,
+    present_values,
+    steel_words,
+)
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 ASSUMED = "; gravity of 9.81 m/s² downward is assumed, as the file states none"
@@ -44,6 +55,16 @@ LINEAR = "Changes of speed, support coefficients that vary with speed, and limit
 SYMMETRY = f"{RUB.capitalize()}s and orbits in closed form, which need rotational symmetry; and kicks at other angles of the unbalance than that in the machine file."
 CLOSED_FORMS = "What closed forms give for the planar rotor only: whether rolling persists, the speed from which whirl runs away to rolling, the range in which each motion exists, and that no orbit is missing."
 AT_LIMITS = "Disturbances at other angles of the unbalance than that in the machine file, saturation of the iron, and voltage limits of the magnetic bearings."
+CHANGES = ("Change", "Or")
+"""Labels of the changes that help."""
+_NO_CHANGE = {
+    "no-change-needed": "none needed to survive the requirement",
+    "not-decided": "undecided: too few of the required disturbances could be followed to their end",
+    "no-change-found": f"none found that brings back every required disturbance and changes no gain by more than a factor of {number(GAIN_FACTOR)}",
+}
+_HOW_SURE = "closed form: exact; searched: complete lists of orbits at closely spaced values; sampled: random disturbances, so rare ones may end elsewhere; results not marked 'proven' are not proven"
+_LAST_ZONE = "D"
+_advised = partial(Fact, "Recommendation")
 
 
 def facts_of(study: StudyData) -> Iterator[Fact]:
@@ -163,8 +184,8 @@ def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
 
 
 def _disturbances(study: StudyData) -> str:
-    say, found, hardest = study.wording, study.attractors, hardest_impulse(study.attractors)
-    counts, touched = {member.name: member.count for member in found if member.count}, touching(found)
+    say, found, hardest = study.wording, study.attractors, study.attractors.hardest_impulse
+    counts, touched = {member.name: member.count for member in found if member.count}, found.touched
     text = f"Simulated until they settled: {found.words()}."
     if not counts:
         return f"{text} None of them was followed."
@@ -173,7 +194,8 @@ def _disturbances(study: StudyData) -> str:
     else:
         text += f" Outcomes: {listed([f'{count} {ending_phrase(name)}' for name, count in counts.items()])}."
         if study.levitates and touched:
-            text += f" Of {len(touched)} that touched the wall, {came_back(touched) or 'none'} came back to levitation."
+            back = sum(each.recovered for each in touched)
+            text += f" Of {len(touched)} that touched the wall, {back or 'none'} came back to levitation."
     if hardest > 0.0:
         text += f" The hardest impact had a normal impulse of {say.impulse(hardest)}{_of_impact(study, hardest)}."
     return text
@@ -296,3 +318,69 @@ def not_covered(study: StudyData) -> tuple[str, ...]:
         AT_LIMITS: bool(rotor.system.limits),
     }
     return tuple(text for text, holds in shown.items() if holds)
+
+
+def advice_facts(study: StudyData) -> Iterator[Fact]:
+    """The machine, what it does now, the changes that help, and how sure all this is."""
+    say, si, recommended = study.wording, study.case.si, study.recommendation
+    shown = [present_values(study.case)]
+    shown += [f"{name} {format_entry(name, si[name])}" for name in ("mass", "clearance", "eccentricity") if name in si]
+    yield _advised(", ".join(shown), "Machine")
+    kind = recommended.kind
+    if kind in _NO_CHANGE:
+        finished = all(entry.complete and entry.searched for entry in study.recoveries)
+        but = ", but the search was not finished" if kind == "no-change-found" and not finished else ""
+        yield _advised(f"{_NO_CHANGE[kind]}{but}", "Change", "sampled")
+    for place, change in enumerate(recommended.changes):
+        yield _advised(_change(study, change), CHANGES[min(place, 1)], values=change.document(say))
+        for label, text, sure in _details(study, change):
+            yield _advised(text, label, sure, detail=True)
+    for margin in recommended.margins:
+        name, end, own = margin.parameter, margin.edge.value, study.case.parameters.value(margin.parameter)
+        side = "above" if own > end else "below"
+        text = f"{say.name(name)} {say.value(name, own)} is {number(100.0 * margin.share, 2)} % {side} {say.value(name, end)}, {edge_words(margin.edge)}"
+        values = say.in_both(name, present=own) | margin.document(say)
+        yield _advised(text, "Margin", evidence_of(margin.edge), values, detail=True)
+    of_now = "" if study.proof is None else "; proofs hold for the present values, not for the change"
+    yield _advised(f"{_HOW_SURE}{of_now}.", "How sure")
+
+
+def _change(study: StudyData, change: Change) -> str:
+    """The change in the terms of the machine file, what it is in others, and how far beyond it was searched."""
+    name, terms = change.parameter, change.terms
+    # ω varies with the square root of the stiffness.
+    what = "stiffness" if name == "omega" and not study.wording.of_machine else study.wording.name(name)
+    times = "none at present" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
+    now, far = (in_terms_of(study.case, name, value).text for value in (change.present, change.far.value))
+    bound, searched = ("", "") if change.bound == "about" else (f"{change.bound} ", f", searched to {far}")
+    return f"{entry_words(terms.entry)} {now} → {bound}{terms.text} ({', '.join([*terms.beside, times])}){searched}"
+
+
+def _details(study: StudyData, change: Change) -> Iterator[tuple[str, str, Evidence | None]]:
+    """Label, text and evidence of the lines under a change: how to try it, margin, levitation there, what was tried, what remains."""
+    say, margin, zone = study.wording, change.margin, f"zone {change.zone}"
+    yield "Set", f'--set "{change.terms.setting}"', None
+    text = f"{number(100.0 * margin.share, 2)} % beyond {_end(say, margin.parameter, margin.edge)}"
+    text += f"; stay on this side of {_end(say, change.parameter, change.far)}" if change.bound == "about" else ""
+    yield "Margin", text, None
+    if change.zone == _LAST_ZONE:
+        zone = f"{'still ' if study.zone == _LAST_ZONE else ''}{zone}: the unbalance must be reduced too"
+    yield "Then", f"levitates at a radius of {say.length(change.radius)}, {zone}", "closed form"
+    yield "Tried", _tried(study, change), "sampled"
+    if change.whirl is not None:
+        fast = say.velocity(change.whirl.certain)
+        text = f"{Outcome.ROLLING.words}: certain to begin if, in lasting contact, the rotor centre moves backward faster than {fast}"
+        yield "Remains", text, "closed form"
+
+
+def _tried(study: StudyData, change: Change) -> str:
+    """Say how many fresh disturbances were followed at the value, and that all came back."""
+    drawn, largest = change.check.drawn, sum(share.total for share in change.check.largest)
+    return (
+        f"all of {drawn.total:,} new disturbances up to {study.wording.velocity(study.required.kick)}, and {largest:,} at full size, "
+        f"came back (95 % confidence: at least {number(100.0 * drawn.low, 4)} % do)"
+    )
+
+
+def _end(say: Wording, name: str, edge: Edge) -> str:
+    return f"{say.value(name, edge.value)}, {edge_words(edge)} ({evidence_of(edge)})"

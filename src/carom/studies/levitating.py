@@ -12,7 +12,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
-from typing import Any
 
 import numpy as np
 
@@ -21,13 +20,22 @@ from carom.models import Rotor
 from carom.parameters import Case
 from carom.parameters.fields import RPM
 from carom.parameters.formats import number
-from carom.rotors import Campbell, FlexibleMachine, Sensitivity, WhirlMode, campbell, find_whirls, sensitivity
+from carom.rotors import (
+    Campbell,
+    FlexibleMachine,
+    Sensitivity,
+    SynchronousResponse,
+    WhirlMode,
+    campbell,
+    find_whirls,
+    sensitivity,
+    synchronous_response,
+)
 from carom.rotors.collocation import Collocation, collocations
 from carom.rotors.loop_sensitivity import zone_of
-from carom.rotors.synchronous import SynchronousResponse, synchronous_response
 from carom.rotors.whirls import turns
 from carom.studies.critical_speeds import Critical, response_curve, usual_range
-from carom.studies.facts import Fact
+from carom.studies.questions import Fact
 from carom.studies.wording import listed, micrometres, rpm
 
 SLOWEST, FASTEST, FOLLOWED = 0.05, 1.5, 40
@@ -96,7 +104,7 @@ class Levitating(Result):
         """As plain data for JSON, in SI units; planes and bearings count from 1."""
         known, now = self.campbell, self.at_speed
         speeds = zip(known.speeds.tolist(), known.levitates.tolist(), strict=True) if known else ()
-        found: dict[str, Any] = {
+        found: dict[str, object] = {
             "whirls": [record(each, "frequency_hz=frequency sense damping_ratio") for each in self.whirls],
             "levitates_over_speed": [{"speed_rpm": speed / RPM, "levitates": holds} for speed, holds in speeds],
             "critical_speeds": [each.document() for each in self.criticals],

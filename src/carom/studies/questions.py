@@ -1,14 +1,17 @@
-"""What a machine may have to survive, the questions of a study, and how many events each may take.
+"""What a machine may have to survive, the questions of a study, how many events each may take, and the form of its answers.
 
 An event, an impact or a step of lasting contact, takes some 10 microseconds, of a rotor of 64 modes 70; a motion without contact counts as
-60.  Motions of planar rotors on a rigid wall do not count (:mod:`carom.motions.budget`).
+60.  Motions of planar rotors on a rigid wall do not count (:mod:`carom.motions.budget`).  Headline, report and JSON show one list of facts.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Literal
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import Any, Literal
 
+from carom.base.results import record
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.models import Rotor
 from carom.parameters import Required
@@ -64,3 +67,55 @@ def required_kinds(required: Required) -> Iterator[tuple[Kind, float, Disturbanc
 def events_for(rotor: Rotor, question: str) -> int:
     """Events of a question for a rotor."""
     return round(EVENTS[question] * min(1.0, FEW_MODES / rotor.system.modes))
+
+
+Evidence = Literal["proven", "closed form", "searched", "sampled", "stated", "default"]
+
+
+@dataclass(frozen=True)
+class Fact:
+    """Something that a study has found.
+
+    Attributes
+    ----------
+    topic : str
+        Under which heading it stands.
+    text : str
+        The fact in words, in the units of the machine; speeds are those of the fixed frame.
+    label : str
+        What it is about, in a word or two.
+    evidence : str or None
+        How sure it is: proven; by a closed form; searched with complete lists of motions at many values; sampled by simulated
+        disturbances; stated by the user; a default.  ``None`` where the text says it.
+    values : mapping
+        Its numbers, as plain data for JSON.
+    detail : bool
+        Whether it belongs to the last fact before it that is no detail.
+    """
+
+    topic: str
+    text: str
+    label: str = ""
+    evidence: Evidence | None = None
+    values: Mapping[str, Any] = field(default_factory=dict)
+    detail: bool = False
+
+    @property
+    def sentence(self) -> str:
+        """The text with the evidence behind it."""
+        return f"{self.text} ({self.evidence})" if self.evidence else self.text
+
+    def document(self) -> dict[str, object]:
+        """As plain data for JSON."""
+        return record(self, "topic label text evidence values detail")
+
+
+def about(facts: Sequence[Fact], topic: str) -> tuple[Fact, ...]:
+    """The facts of one topic."""
+    return tuple(fact for fact in facts if fact.topic == topic)
+
+
+def paragraphs(facts: Sequence[Fact]) -> list[tuple[str, list[str]]]:
+    """The facts of each topic as text, without the verdict and the recommendation: topic and paragraphs."""
+    rest = [fact for fact in facts if fact.topic not in ("Verdict", "Recommendation")]
+    return [(topic, [fact.text for fact in alike]) for topic, alike in groupby(rest, key=lambda fact: fact.topic)]

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import groupby
-from typing import Any
 
 import numpy as np
 
@@ -19,11 +18,10 @@ from carom.models import Axis, Rotor, Subject, axis, case_of, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.parameters import read_quantity
 from carom.parameters.formats import number
-from carom.studies.critical_speeds import response_curve, usual_range
+from carom.studies.critical_speeds import FULL_SPEED, response_curve, usual_range, vibration_limit
 from carom.studies.levitating import WHIRLS, whirls_of
 from carom.studies.recovery import changes
 from carom.studies.response_data import Rubs, SpeedStretch, Steady, UnbalanceResponse, stretches_between
-from carom.studies.standards import FULL_SPEED, vibration_limit
 from carom.studies.wording import listed, micrometres, rpm
 
 RUB = STEADY_WORDS["rub"]
@@ -113,7 +111,7 @@ def _saturation(response: UnbalanceResponse) -> str:
 
 def _contact(response: UnbalanceResponse) -> list[str]:
     """Where it touches, and which motions in contact are possible."""
-    said: dict[str, Callable[..., Any]] = {
+    said: dict[str, Callable[..., object]] = {
         "Levitation is impossible {}: the response calculated there exceeds the clearance.": lambda free, *_: not free,
         f"In contact, a stable {RUB} can hold the rotor {{}}.": lambda free, stable, *_: not free and stable,
         f"In contact, no stable {RUB} exists {{}}: the rotor bounces or whirls backward.": lambda free, stable, *_: (

@@ -18,9 +18,8 @@ from carom.base.results import Result, in_a_line, record
 from carom.models import rotor_of
 from carom.parameters import Case, Scales
 from carom.parameters.fields import RPM
-from carom.rotors.synchronous import SynchronousResponse, synchronous_response
-from carom.studies.critical_speeds import Critical
-from carom.studies.standards import ASSUMPTIONS, vibration_limit
+from carom.rotors import SynchronousResponse, synchronous_response
+from carom.studies.critical_speeds import ASSUMPTIONS, Critical, vibration_limit
 
 RESPONSE = "speeds_si=interval operating_si=operating criticals zone_limits=case.zones.limits words"
 CURVE = "speed_si=speeds amplitude peak_to_peak_si api_617_limit_si=allowed_si"

@@ -1,4 +1,7 @@
-"""What a study has found of a machine, before it is stated in words."""
+"""What a study has found of a machine, before it is stated in words; and what the limits of its magnetic bearings do in its motions.
+
+A limit of force or current acts in the motion (:mod:`carom.models.limits`): which disturbances come to it, and how many of these come back, is counted.
+"""
 
 from __future__ import annotations
 
@@ -9,23 +12,71 @@ from typing import Any
 from carom.attractors import AttractorSet
 from carom.base.results import Result, record
 from carom.basins import Share
-from carom.closed_forms.equilibria import Equilibrium, SteadyMotion
+from carom.closed_forms import Equilibrium
+from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.exact_results import ExactResults, exact_results
-from carom.models import Rotor
+from carom.core.limits import WITHIN
+from carom.models import Rotor, rotor_of
+from carom.motions import simulate
 from carom.motions.budget import Question
-from carom.orbits.orbit import Orbit
-from carom.orbits.single_impact import OrbitSet
-from carom.parameters import DIMENSIONLESS_FIELDS, Case, Required
-from carom.studies.actuator import BearingDemand, bearing_demand
+from carom.orbits import Orbit, OrbitSet
+from carom.parameters import DIMENSIONLESS_FIELDS, Case, ControlLimit, Required
 from carom.studies.advice import Recommendation
 from carom.studies.drops import DropStudy
 from carom.studies.levitating import Levitating
 from carom.studies.questions import Kind
-from carom.studies.ranges import MotionRange, Threshold
-from carom.studies.recovery import Recovery
+from carom.studies.recovery import MotionRange, Recovery
 from carom.studies.survives import FullSize, Survives, unrecovered_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
+
+SHORTEST = 1e-6
+"""Time for which a disturbance is followed whose end is known at once."""
+
+
+@dataclass(frozen=True)
+class BearingDemand:
+    """What the largest control force of the magnetic bearings does in the motions of a study.
+
+    Attributes
+    ----------
+    control : ControlLimit
+        That force.
+    at_limit, came_back_at_limit, total : int
+        Numbers of the disturbances that come to it, of those among them that come back, and of all.
+    """
+
+    control: ControlLimit
+    at_limit: int
+    came_back_at_limit: int
+    total: int
+
+    @property
+    def words(self) -> str:
+        """What the limit does in the motions."""
+        back = f", and {self.came_back_at_limit} of these came back" if self.at_limit else ""
+        return (
+            f"The magnetic bearings are limited to {self.control.words}, which every simulated motion respects. "
+            f"{self.at_limit or 'None'} of {self.total} disturbances reach this limit{back}."
+        )
+
+    def document(self) -> dict[str, object]:
+        """As plain data for JSON."""
+        return {
+            "control": record(self.control, "force_si=force pull_si=pull"),
+            "disturbances": record(self, "at_limit came_back_at_limit"),
+        }
+
+
+def bearing_demand(case: Case, found: AttractorSet) -> BearingDemand | None:
+    """What the limit of the magnetic bearings does in motions; ``None`` if they have none."""
+    control, tried = rotor_of(case).limits, found.disturbances
+    if not isinstance(control, ControlLimit):
+        return None
+    # Until their ends are known.
+    motions = ((each, simulate(each.rotor, each.start.state, max(each.time, SHORTEST))) for each in tried)
+    back = [each.recovered for each, motion in motions if (motion.segment_limits > WITHIN).any()]
+    return BearingDemand(control, len(back), sum(back), len(tried))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -128,7 +179,7 @@ class StudyData(Result):
     def requirement_document(self) -> dict[str, object]:
         """What must be survived, as plain data for JSON."""
         requirement, scales = self.case.requirement, self.rotor.scales
-        document: dict[str, Any] = {"source": requirement.source, "frame": "fixed"}
+        document: dict[str, object] = {"source": requirement.source, "frame": "fixed"}
         document |= record(self.required, "blade_loss_node")
         stated: dict[str, Any] = {"": self.required, **({"_si": requirement.complete(scales)} if scales else {})}
         for unit, required in stated.items():
@@ -145,11 +196,6 @@ class StudyData(Result):
     def unrecovered_kinds(self) -> list[tuple[Kind, Share | None]]:
         """The kinds that must be survived and of which some were lost, with the share of them that came back."""
         return unrecovered_kinds(self.required, self.survives, self.present, self.attractors, self.full_size)
-
-    @property
-    def thresholds(self) -> tuple[Threshold, ...]:
-        """Values of a parameter at which a motion appears or vanishes."""
-        return tuple(threshold for entry in self.ranges for threshold in entry.thresholds)
 
     @property
     def wording(self) -> Wording:

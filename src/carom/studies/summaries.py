@@ -7,22 +7,20 @@ from dataclasses import KW_ONLY, dataclass, replace
 from typing import Literal
 
 from carom.attractors import Attractor, AttractorSet
-from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
+from carom.attractors.naming import LEVITATION, SYNCHRONOUS_RUB
 from carom.base.outcome import STEADY_WORDS
+from carom.base.results import Column
+from carom.closed_forms import Levitation
 from carom.closed_forms.equilibria import SteadyMotion
-from carom.closed_forms.sag import Levitation
-from carom.orbits.orbit import Orbit
-from carom.orbits.single_impact import OrbitSet
+from carom.orbits import LyapunovExponents, Orbit, OrbitSet
 from carom.parameters import Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_impact
 from carom.parameters.numbers import own_numbers
-from carom.studies.endings import motion_words
 from carom.studies.questions import LABELS
-from carom.studies.ranges import Motion
-from carom.studies.recovery import Recovery
+from carom.studies.recovery import Motion, Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.verdict import SURVIVED, condition_of, is_proven, survived_cells
-from carom.studies.wording import Wording, counted, indentation_of_steel, no_rigid_wall
+from carom.studies.wording import Wording, counted, indentation_of_steel, motion_words, no_rigid_wall
 
 State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
 
@@ -212,3 +210,38 @@ def _back_words(say: Wording, found: Recovery) -> str:
     met = [f"; beyond {say.value(along, value)} some end in {motion_words(motion)}" for motion, value in sorted(ends)]
     tried = f"all of {each:,} disturbances at each of {counted(len(found.clear), 'value')}"
     return f"{say.where(along, found.spans)} ({tried}, searched from {low} to {high}{''.join(met)})"
+
+
+Measured = tuple[Attractor, LyapunovExponents | None]
+
+
+def _exponent(value: float, error: float, digits: int) -> str:
+    return f"{value:.{digits}g}" + (f" ± {error:.1g}" if error else "")
+
+
+def _all_exponents(measured: Measured, _: object) -> str:
+    if (found := measured[1]) is None:
+        return "not known"
+    pairs = zip(found.values, found.errors, strict=True)
+    return ", ".join(_exponent(value, error, 4 if error else 6) for value, error in pairs)
+
+
+def _measured(measured: Measured, _: object) -> str:
+    found = measured[1]
+    return "-" if found is None else f"{found.impacts:,}" if found.errors.any() else "exact"
+
+
+def _across(measured: Measured, _: object) -> str:
+    if (found := measured[1]) is None:
+        return "-"
+    value, error = found.across
+    return _exponent(value, error, 3)
+
+
+ACROSS = (Column("", "largest exponent across the motion", _across),)
+MEASURED = (
+    Column("", "motion", lambda measured, _: measured[0].name.words),
+    Column("", "exponents", _all_exponents),
+    Column("", "impacts measured", _measured),
+)
+"""Of each attractor with its exponents, what people see of these."""

@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -22,16 +22,15 @@ from carom.base.outcome import Outcome
 from carom.base.progress import Reporter
 from carom.base.results import Result, record
 from carom.basins import Share, SmallestUnrecovered, smallest_unrecovered
-from carom.basins.families import contact_free_size
+from carom.basins.sizes import contact_free_size
 from carom.basins.unrecovered import GOLDEN
 from carom.closed_forms.contact_free import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.kicks_and_shocks import LONGEST_SHOCK
 from carom.models import Rotor
-from carom.motions import State, Trajectory, drop_loads, simulate
+from carom.motions import DropLoads, State, TouchdownLoads, Trajectory, drop_loads, simulate
 from carom.motions.budget import Budget, present_question
-from carom.motions.loads import DropLoads, TouchdownLoads
 from carom.motions.magnets import MagnetReach
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, LoadLimits, Required, Scales
 from carom.rotors.reduction_errors import ReductionError, reduction_error
@@ -88,7 +87,7 @@ class AtBearing:
     is_compliant: bool
     scales: Scales | None
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         return record(self, BEARING, self.scales)
 
@@ -135,7 +134,7 @@ class FullSize(Result):
         """How near the rotor comes to its magnets along the worst, where their air gaps are known."""
         return drop_loads(self.worst).magnets
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         return record(self, FULL_SIZE) | {"at_largest": record(self, "came_back=back.count lost total=back.total")}
 
@@ -205,7 +204,7 @@ def _affordable() -> Iterator[tuple[float, float]]:
             yield pairs[place]
 
 
-def _followed(rotor: Rotor, start: Any, pair: tuple[float, float]) -> _Followed:
+def _followed(rotor: Rotor, start: State, pair: tuple[float, float]) -> _Followed:
     """Follow a motion until its end is known; one without contact, whose end is known at once, for some turns."""
     motion = simulate(rotor, start, settle=True, max_events=MOST_EVENTS)
     back, loads = motion.outcome is Outcome.LEVITATED, drop_loads(motion)

@@ -18,7 +18,7 @@ from carom.attractors import MotionName
 from carom.attractors.naming import name_endings
 from carom.base.arguments import Count, Seed, checked
 from carom.base.results import Result
-from carom.basins.shares import Population, Share
+from carom.basins import Population, Share
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts
 from carom.disturbances.following import follow
 from carom.disturbances.plans import instants_words

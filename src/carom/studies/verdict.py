@@ -16,15 +16,13 @@ from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.base.results import record
 from carom.basins import Share, SmallestUnrecovered
 from carom.disturbances.plans import ANY_INSTANT
-from carom.orbits.orbit import Orbit
+from carom.orbits import Orbit
 from carom.parameters import Scales
 from carom.parameters.formats import number, rounded_down, shown_in
-from carom.studies.endings import ending_words
-from carom.studies.facts import Evidence, Fact, about
-from carom.studies.questions import LABELS, Kind, required_kinds
+from carom.studies.questions import LABELS, Evidence, Fact, Kind, about, required_kinds
 from carom.studies.study_data import StudyData
 from carom.studies.survives import decides
-from carom.studies.wording import Wording, counted, listed
+from carom.studies.wording import Wording, counted, ending_words, listed
 
 KICKS = (
     "all_up_to:velocity sure_up_to:velocity impacts kicks_up_to=largest:velocity share_proven=share share_refuted=refuted_share "

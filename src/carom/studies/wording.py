@@ -1,4 +1,4 @@
-"""Numbers with units as text: in SI units if the machine is known, otherwise in units of the equations."""
+"""Results as text: numbers with units, in SI units if the machine is known, otherwise in units of the equations; and where motions end."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from operator import attrgetter
 from string import Formatter
 from typing import Any
 
+from carom.attractors import MotionName
 from carom.base.arguments import checked
+from carom.base.outcome import Outcome
 from carom.base.results import KINDS
-from carom.models import Rotor, Span
+from carom.models import Edge, Rotor, Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.fields import RPM
 from carom.parameters.formats import format_entry, format_quantity, number, own_entry
@@ -29,6 +31,22 @@ _LEAST = {"length": 0.1, "time": 0.1, "energy": 1.0, "power": 1.0}
 _MANY_NEWTONS = 1e5
 """Bearing loads are usually given in N; from here on they have a prefix."""
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+EVENTS = {
+    "boundary-equilibrium": "levitation reaches the wall",
+    "rub-fold": "a stable and an unstable rub meet (fold)",
+    "fold": "two orbits meet (fold)",
+    "speed-fold": "two orbits of one period meet (fold)",
+    "grazing": "an orbit grazes the wall between two impacts",
+    "non-smooth-hopf": "an orbit shrinks to levitation at the wall (non-smooth Hopf)",
+    "slip-stop": "friction begins to stop the slip during impacts of an orbit",
+    "contact-onset": "an orbit begins to stay on the wall after an impact",
+    "period-doubling": "an orbit loses its stability (period doubling)",
+    "neimark-sacker": "an orbit loses its stability (Neimark-Sacker)",
+    "vanishing-period": "the period of an orbit shrinks to zero",
+    "rolling-limit": "friction is just enough to keep the rotor rolling at every angle",
+    "simulated": "the rotor can no longer levitate",
+}
+"""What happens at the ends of the ranges of motions."""
 
 
 def counted(count: int, noun: str) -> str:
@@ -49,6 +67,41 @@ def rpm(speed: float) -> str:
 def micrometres(length: float) -> str:
     """A length given in m, in µm: ``134 µm``."""
     return f"{number(1e6 * length, 3 if length < 1e-3 else 4)} µm"
+
+
+def ending_phrase(motion: MotionName) -> str:
+    """Return the words of a motion to follow a verb: (ends) ``in regular bouncing``, (ends) ``unresolved: grazing``."""
+    words = motion.words
+    return f"in {words}" if motion.outcome.settled else words
+
+
+def motion_words(motion: str) -> str:
+    """Words of a motion that stand alone: ``regular bouncing``, ``rolling backward whirl``."""
+    return motion.words if isinstance(motion, MotionName) else str(motion)
+
+
+def ending_words(outcome: Outcome, motions: Iterable[MotionName] = ()) -> str:
+    """Say where a disturbance with an outcome ends: ``it ends in synchronous rub``; undecided outcomes are no ends.
+
+    The motion has its own name if it is the only one of the known motions with this outcome.  Bouncing on no known orbit may
+    have been given up after its last impact that was followed, and is not stated as an end.
+    """
+    if outcome is Outcome.BEYOND_MODEL:
+        return f"it goes {outcome.words}"
+    if not outcome.settled:
+        return f"its end was not found: {outcome.words}"
+    names = [name for name in motions if name.outcome is outcome]
+    known = names[0] if len(names) == 1 else None
+    if outcome in (Outcome.BOUNCING, Outcome.MIXED) and not (known and known.orbit):
+        return f"it was still {outcome.words} at the end of the simulation"
+    return f"it ends {ending_phrase(known) if known else f'in {outcome.words}'}"
+
+
+def edge_words(edge: Edge) -> str:
+    """Say what happens at the end of a range."""
+    if edge.motion is not None:
+        return f"beyond which disturbances ended in {motion_words(edge.motion)}"
+    return f"where {EVENTS.get(edge.kind, f'an orbit ends ({edge.kind})')}"
 
 
 def entry_words(entry: str) -> str:

@@ -98,7 +98,7 @@ class BasinsTask:
 
     def evaluate(self, case: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, object]:
         """Compute the values of one machine by variable name; a variable without a value is left out."""
-        from carom.basins.gains import recovery
+        from carom.basins.maps import recovery
         from carom.disturbances.following import follow
         from carom.models import rotor_of
 

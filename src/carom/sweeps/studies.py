@@ -141,7 +141,7 @@ class StudyTask:
         return found
 
     def _simulated(self, rotor: Rotor, fastest: float, seed: int) -> dict[str, object]:
-        from carom.attractors import find_attractors
+        from carom.attractors import DisturbanceSet, find_attractors
         from carom.basins import share_of_kicks
         from carom.motions.budget import Budget
         from carom.studies.questions import DESCRIBED, events_for
@@ -151,7 +151,7 @@ class StudyTask:
         if not rotor.system.is_planar and not comes_to_rest(rotor):
             return {"attractors": 0, **dict.fromkeys(names, 0.0)}
         with Budget().question(DESCRIBED, events_for(rotor, DESCRIBED)):
-            found = find_attractors(rotor, seed=seed, count=self.disturbances, fastest=fastest, threads=1)
+            found = find_attractors(rotor, DisturbanceSet(self.disturbances, seed, fastest), threads=1)
         smallest, share = found.smallest_unrecovered_kick, share_of_kicks(found)
         back = (share.fraction, share.low, share.high) if share else (0.0, 0.0, 0.0)
         return {

@@ -18,8 +18,8 @@ from carom.motions import simulate
 from carom.parameters import Case, LoadLimits
 from carom.parameters.formats import format_quantity
 from carom.studies import study
-from carom.studies.advice_facts import CHANGES
-from carom.studies.facts import about
+from carom.studies.findings import CHANGES
+from carom.studies.questions import about
 
 SIZES, DIRECTIONS = 6, 24
 FEW = 2, 12

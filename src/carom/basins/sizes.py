@@ -1,17 +1,36 @@
-"""The bracket that a search for the smallest disturbance that does not come back finds."""
+"""Which kinds of disturbances have sizes, up to which size none of them can touch, and the bracket that a search for the smallest unrecovered one finds."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
+from carom.attractors.following import CONFIDENCE
 from carom.base.outcome import Outcome
 from carom.base.results import Result
-from carom.basins.shares import CONFIDENCE
+from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
+from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, KickPlane, VelocityKick
+from carom.models import Rotor
 from carom.parameters import Scales
 
-NEIGHBOURS, BESIDE_LOST = 32, 1e-9
-"""Disturbances beside the smallest unrecovered one that are followed to see whether it does not come back for itself, and how far from it relative to its size."""
+BESIDE_LOST = 1e-9
+"""How far from the smallest unrecovered one, relative to its size, others are followed to see whether it does not come back for itself."""
+
+
+def size_coordinate(model: Disturbance) -> Coordinate | None:
+    """Size of a disturbance that varies by a size from 0 and a direction; of a loss of a blade the change.  ``None`` of others."""
+    if isinstance(model, BladeLoss):
+        return Coordinate("change", "change of the unbalance", 0.0, model.change, "unbalance", over_disc=True)
+    return model.size if type(model) is KickPlane or model.size == model.coordinates[0] else None
+
+
+def contact_free_size(rotor: Rotor, model: Disturbance) -> float:
+    """Size up to which contact is proven to be impossible; nothing is proven of a subclass, which may start anywhere."""
+    if type(model) is VelocityKick:
+        return contact_free_kick(rotor)
+    if isinstance(model, BladeLoss):
+        return contact_free_blade_loss(rotor, model.node)
+    return contact_free_shock(rotor, model.duration) if type(model) is BaseShock else 0.0
 
 
 @dataclass(frozen=True, repr=False)
@@ -82,6 +101,11 @@ class SmallestUnrecovered(Result):
     neighbours_lost: int = 0
     neighbours: int = 0
     complete: bool = True
+
+    @property
+    def bracket(self) -> tuple[float | None, float | None]:
+        """Both ends: up to where all came back, and where one did not."""
+        return self.all_back, self.size
 
     @property
     def words(self) -> str:

@@ -5,7 +5,6 @@ from machines import PAPER
 
 from carom import find_attractors, simulate
 from carom.models import jeffcott
-from carom.studies.endings import hardest_impulse, shown_example, touching
 
 pytestmark = pytest.mark.jit_only
 
@@ -16,7 +15,7 @@ def found():
 
 
 def test_touching_are_those_whose_motion_reaches_the_wall(found):
-    touched = touching(found)
+    touched = found.touched
 
     for ending in found.disturbances:
         motion = simulate(found.rotor, ending.start.state, max(ending.time, 1.0))
@@ -27,14 +26,14 @@ def test_hardest_impulse_is_that_of_its_motion(found):
     hardest = max(found.disturbances, key=lambda ending: ending.hardest_impulse)
     motion = simulate(found.rotor, hardest.start.state, hardest.time)
 
-    assert hardest_impulse(found) == pytest.approx(motion.contacts.normal_impulse.max(), rel=1e-12)
+    assert found.hardest_impulse == pytest.approx(motion.contacts.normal_impulse.max(), rel=1e-12)
 
 
 def test_example_has_contact_where_there_is_one_with_contact(found):
     for member in found:
-        example = shown_example(found, member)
+        example = found.example_of(member)
         assert example.attractor == member.name
         if member.count:
             assert example.start.disturbance
-        touched = [ending for ending in touching(found) if ending.attractor == member.name]
+        touched = [ending for ending in found.touched if ending.attractor == member.name]
         assert not touched or example in touched
