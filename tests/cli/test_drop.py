@@ -19,7 +19,7 @@ def test_a_drop_in_words(carom):
     assert "Release: rotor centre 0.0986 mm from the bearing centre at -91.3°" in words
     assert "Not settled after 20 ms." in words
     assert "peak force 1,320 N, 5.99 ms after the release" in words
-    assert "ball pressure: 2.34 GPa, limit 4.2 GPa: kept" in words
+    assert "ball pressure: 2.34 GPa, limit 4.2 GPa: kept so far (not settled)" in words
     assert "add --out DIR" in words
 
 
@@ -89,6 +89,7 @@ def test_a_map_for_people_and_as_json(carom, tmp_path):
     assert "Drops over phase 60 to 300°, speed 8,000 to 9,000 rpm: 3 x 2." in words
     assert "rest on the touchdown bearing 6 100 %" in words
     assert "Hardest: largest impulse 0.4" in words
+    assert "Backward whirl at the end: none of 6." in words
     assert sorted(path.name for path in (tmp_path / "map").iterdir()) == ["drop-map.json", "drop-map.nc", "figures"]
     _, out, _ = carom(*MAP, "--json")
     document = json.loads(out)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -25,8 +24,8 @@ SAMPLES, FEWER, FEWEST = 201, 21, 5
 """Values of the parameter; the others for rotors of several coordinates, and of many, whose equations take seconds to set up."""
 FEW = 4
 """Coordinates up to which they are several."""
-PEAKS = 12
-"""Values between three of these at which the worst of levitation is looked for."""
+LOOKED, PEAKS = 101, 12
+"""Values at which levitation of a rotor of several coordinates is looked at, and values between three of these at which its worst is looked for, or its best where it is lost."""
 LOSS_RTOL = 1e-9
 """Width at which the search for its loss ends, relative to the step."""
 WHY = ("a vibration grows", "it reaches the wall", "magnetic bearings would exceed a limit")
@@ -99,19 +98,14 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     return points
 
 
-def _count(model: Rotor) -> int:
-    """Number of values at which levitation and rubs are computed."""
-    of_several = FEWER if len(model.system.rest) <= FEW else FEWEST
-    return SAMPLES if model.planar is not None else of_several
-
-
 def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
     """Levitation and both rubs on an evenly spaced grid of the parameter; with weight levitation alone, as no rub is at rest.
 
     Of several stable rubs, or several others, the admissible one with the largest normal force.  A virtual rub counts as
     stable if it would attract sliding, so that a branch continues as the same one where its normal force changes sign.
     """
-    grid = np.linspace(*interval, _count(model))
+    of_several = FEWER if len(model.system.rest) <= FEW else FEWEST
+    grid = np.linspace(*interval, SAMPLES if model.planar is not None else of_several)
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
@@ -134,24 +128,30 @@ def levitation_along(
 ) -> tuple[EquilibriumBranch, list[Bifurcation]]:
     """Levitation of a machine without closed forms, and where it is lost.
 
-    It is looked at on a grid, where between three values of it small vibrations decay least or the rotor comes nearest to the wall, and in the
-    bisection of each step over which it is lost.
+    It is looked at on a grid, where between three values of it small vibrations decay least or the rotor comes nearest to the wall, or where
+    it is lost by the least, and in the bisection of each step over which it is lost.
     """
     seen: dict[float, np.ndarray] = {}
 
     def margins(value: float) -> np.ndarray:
         """It is lost where any of these is not below zero."""
         held = levitation(along.move(model, value))
-        growth = float(held.eigenvalues.real.max())
-        seen[value] = np.array([growth, held.reach - 1.0, 1.0 if growth < 0.0 and not held.stable else -1.0])
+        growth = decay = float(held.eigenvalues.real.max())
+        if (whole := held.rotor.finite_elements) is not None:  # All modes decide.
+            growth = float(whole.machine.slowest.exponents.real.max()) / whole.machine.speed
+        seen[value] = np.array([growth, held.reach - 1.0, 1.0 if decay < 0.0 and not held.stable else -1.0])
         return seen[value]
 
-    grid = np.linspace(*interval, _count(model)).tolist()
-    found = np.array([margins(value) for value in grid])
-    peaks = (found[1:-1] >= np.maximum(found[:-2], found[2:])) & (found[1:-1].max(axis=1) < 0.0)[:, None]
-    for place, which in np.argwhere(peaks[:, :2]).tolist():
-        decay = partial(lambda which, value: -margins(float(value))[which], which)
-        minimize_scalar(decay, bounds=(grid[place], grid[place + 2]), options={"maxiter": PEAKS})
+    def sought(value: float, which: int | slice) -> np.ndarray:
+        """Least where it may be lost between values that hold it, by growth or reach, and where it may be held between others."""
+        return np.append(-(found := margins(float(value)))[:2], found.max())[which]
+
+    grid = np.linspace(*interval, SAMPLES if model.planar is not None else LOOKED).tolist()
+    sides = np.array([sought(value, slice(None)) for value in grid])
+    held = (sides[1:-1, 2] < 0.0)[:, None] == np.array([True, True, False])
+    lower = (sides[1:-1] <= np.minimum(sides[:-2], sides[2:])) & (sides[1:-1] < np.maximum(sides[:-2], sides[2:]))
+    for place, which in np.argwhere(held & lower).tolist():
+        minimize_scalar(sought, args=(which,), bounds=(grid[place], grid[place + 2]), options={"maxiter": PEAKS})
     for low, high in pairwise(sorted(seen)):
         if (seen[low].max() < 0.0) != (seen[high].max() < 0.0):
             bracketed_root(lambda value: float(margins(value).max()), low, high, LOSS_RTOL * (high - low))

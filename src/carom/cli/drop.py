@@ -143,7 +143,7 @@ def _print_map(screen: Console, found: DropMap) -> None:
     screen.print(f"Hardest: {found.worst}.")
     ends = {"Backward whirl at the end": found.backward, "Force still growing at the end": found.still_growing}
     for words, cells in ends.items():
-        where = f"{int(cells.sum())} of {tried}, all at {found.ranges_of(cells)}" if cells.any() else "none"
+        where = f"{int(cells.sum())} of {tried}, all at {found.ranges_of(cells)}" if cells.any() else f"none of {tried}"
         screen.print(f"{words}: {where}.")
     if found.still_growing.any():
         screen.print(

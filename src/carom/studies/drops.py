@@ -71,6 +71,8 @@ class LoadCheck:
         Whether the load goes on growing, because the motion has settled in contact.
     still_growing : bool
         Whether the load grew up to the end of the motion, whose further course it may exceed.
+    settled : bool
+        Whether the motion had settled: otherwise a limit is kept up to its end alone.
     after : float
         Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
     touchdown_bearing : int or None
@@ -82,6 +84,7 @@ class LoadCheck:
     limit: float
     endless: bool
     still_growing: bool
+    settled: bool
     after: float
     touchdown_bearing: int | None = None
 
@@ -99,7 +102,8 @@ class LoadCheck:
         if self.value > self.limit:
             return f"{text}: exceeded{', and still growing' if self.endless else ''}"
         if not self.endless:
-            return f"{text}: kept{', but still growing at the end' if self.still_growing else ''}"
+            unsettled = "" if self.settled else " so far (not settled)"
+            return f"{text}: kept{', but still growing at the end' if self.still_growing else unsettled}"
         when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
         return f"{text}: exceeded{when} if contact continues"
 
@@ -129,13 +133,11 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     for name, limit in limits.given.items():
         grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.goes_on_bouncing}
         endless, value = grows.get(name, False), values[name]
-        after = math.inf
-        if value > limit:
-            after = 0.0
-        elif endless and name == "heat":
+        after = 0.0 if value > limit else math.inf
+        if endless and name == "heat" and value <= limit:
             after = (limit - value) / si["lasting_power"]
         growing = loads.still_growing and name in ("force", "depth", "pressure")
-        found.append(LoadCheck(name, value, limit, endless, growing, after))
+        found.append(LoadCheck(name, value, limit, endless, growing, loads.outcome.settled, after))
     return tuple(found)
 
 
