@@ -53,8 +53,8 @@ ON_A_MACHINE = (
     "regions",
     "basins",
 )
-BESIDE = "sweep", "paper", "explore", "template", "import_rotor"
-for name in ON_A_MACHINE + BESIDE:
+OTHERS = "sweep", "paper", "explore", "template", "import_rotor"
+for name in ON_A_MACHINE + OTHERS:
     command = getattr(import_module(f"carom.cli.{name}"), name)
     # The list of commands shows the first line of each whole, not its beginning.
     short = str(command.__doc__).partition("\n")[0]

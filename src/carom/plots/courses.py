@@ -232,11 +232,11 @@ def _zones(axes: Axes, zones: Zones, wall: float) -> None:
 
 def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
     """Draw the forces of contact, and impulses if the wall is rigid: on an axis of their own beside forces, if there are any."""
-    hit = course.impacts is not None and len(course.impacts) > 0
+    impacted = course.impacts is not None and len(course.impacts) > 0
     lasts = bool((whole.held & (whole.force > 0.0)).any())
-    if lasts or not hit:
+    if lasts or not impacted:
         _forces(axes, course, whole)
-    if course.impacts is not None and hit:
+    if course.impacts is not None and impacted:
         label = axis_label("impulse", "impulse", course.scales)
         axes.plot([], [], **_DOTS, label=f"impulse of an impact{' (right axis)' * lasts}")
         _impulses(axes.twinx() if lasts else axes, course.impacts, label if last or not lasts else "")

@@ -154,7 +154,7 @@ def _history(study: Study, example: Ending) -> Figure:
 
 
 def _until(motion: Trajectory) -> float:
-    """Until when a motion is drawn over time: one that goes on bouncing for contacts that can be told apart."""
+    """Until when a motion is drawn over time: for persistent bouncing only as many contacts as can be distinguished."""
     until = shown_until(motion)
     return min(until, first_contacts(motion, FOLLOWED)) if motion.outcome is Outcome.BOUNCING else until
 
