@@ -83,7 +83,7 @@ def test_irregular_bouncing_at_gamma_0_082_lasts():
     assert irregular.survival is not None
     assert irregular.survival.died == 0
     assert irregular.settled
-    assert "None of 200 died in 20,000 impacts" in irregular.words
+    assert "None of 200 ended within 20,000 impacts" in irregular.words
     assert found.transient is None
 
 

@@ -36,7 +36,7 @@ def test_a_share_says_of_what_it_is_and_how_sure():
     assert document["low"] < document["estimate"] < document["high"]
     cells = Share.over(Grid(drawn.model, (2, 2)), np.array([[1, 1], [0, 0]], bool), np.ones((2, 2), bool), None)
     assert cells.words == (
-        "25 % of kicks up to 1.29 c_r Ω come back (2 of 4 cells of a grid, weighed by area, each represented by its middle: "
+        "25 % of kicks up to 1.29 c_r Ω come back (2 of 4 cells of a grid, weighted by area, each represented by its centre: "
         "no sampling error)"
     )
     assert cells.low == cells.fraction == cells.high == 0.25

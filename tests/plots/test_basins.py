@@ -92,7 +92,7 @@ def test_gain_map(rotor):
     axes, bar = figure.axes
     assert axes.get_xlabel() == "P gain: stiffness of the levitation $k$ (N/m)"
     assert axes.get_ylabel() == "D gain: damping of the levitation $c$ (N s/m)"
-    assert "comes back" in bar.get_ylabel()
+    assert "come back" in bar.get_ylabel()
     figure.draw_without_rendering()
     assert bar.get_yticklabels()[-1].get_text() == "100 %"
     (star,) = [line for line in axes.get_lines() if line.get_gid() == "present"]
