@@ -2643,7 +2643,7 @@ def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None
     given = re.escape(f"{kind.stated} {options[kind.option]}")
     patterns = {
         "recover": rf"Of {given}, the share share_proven of the area returns to levitation with at most so many impacts, among them every {kind.smaller}\.",
-        "all recover": rf"All {given}, return to levitation with at most (\d+) impacts\.",
+        "all recover": rf"All {given}, return to levitation with at most (\d+) impacts?\.",
         "do not recover": rf"Of {given}, the share share_refuted of the area never returns to levitation: after bounces the rotor stays on the wall and "
         r"decays to the synchronous rub of the larger normal force\.",
     }
@@ -2688,8 +2688,8 @@ BOX_KICKS = (
     r"intervals, the share share_proven returns to levitation with at most so many impacts, among them, for all these values, every kick slower than the "
     r"lower end of speed\."
 )
-KICKS_TOLD = r"all kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), return to levitation with at most (\d+) impacts\."
-SLOWER = r"every kick out of levitation, seen in the fixed frame, slower than the lower end of speed returns to levitation with at most (\d+) impacts\."
+KICKS_TOLD = r"all kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), return to levitation with at most (\d+) impacts?\."
+SLOWER = r"every kick out of levitation, seen in the fixed frame, slower than the lower end of speed returns to levitation with at most (\d+) impacts?\."
 
 
 class Box:

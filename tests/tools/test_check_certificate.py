@@ -371,7 +371,7 @@ def test_boxes_of_kicks_that_are_forged_are_refused(box):
     for name in ("share_proven", "share_open", "speed_si"):
         assert refused(changed(box, "kicks", "recover", enclosures={**claim["enclosures"], name: ["0.5", "0.6"]}))
     (all_recover,) = (each for each in box["claims"] if each["kind"] == "all recover")
-    forged = all_recover["statement"].replace("at most 1 impacts", "at most 0 impacts")
+    forged = all_recover["statement"].replace("at most 1 impact", "at most 0 impacts")
     assert forged != all_recover["statement"]
     assert refused({**box, "claims": [*box["claims"], all_recover]})
     others = [each for each in box["claims"] if each is not all_recover]

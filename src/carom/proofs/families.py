@@ -161,3 +161,8 @@ STEPS = DisturbanceFamily(
 )
 FAMILIES = {family.about: family for family in (KICKS, SHOCKS, STEPS)}
 """The families by what they are."""
+
+
+def at_most(impacts: int) -> str:
+    """A bound of a number of impacts in words: ``"at most 1 impact"``."""
+    return f"at most {impacts} impact{'' if impacts == 1 else 's'}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from decimal import ROUND_FLOOR, Context, Decimal
 
 from carom.proofs.claims import Claim, Proof
-from carom.proofs.families import FAMILIES
+from carom.proofs.families import FAMILIES, at_most
 
 CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-single-impact-orbits", "orbits")
 """Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
@@ -63,13 +63,14 @@ def numbers_of(claim: Claim) -> str:
 
 def _sentence(claim: Claim, proof: Proof) -> str:
     below = next((_size(claim, name) for name in _UNITS if name in claim.enclosures), "")
-    limits = " or a magnetic bearing reach a limit" if "nor asks" in claim.statement else ""
     if claim.kind in ("never touch", "asked never touch") and claim.about == "kicks":
+        bounded = proof["levitation clear"].enclosures
+        limits = " or a magnetic bearing reach a limit" if "limit_1" in bounded else ""
         return f"No kick {'up to' if 'asked' in claim.kind else 'below'} {below}, {_NEVER.format(limits=limits)}."
     if claim.kind == "recover" and claim.about in FAMILIES and "box" not in proof.options:
         family, numbers = FAMILIES[claim.about], claim.enclosures
         largest, impacts = proof.options[family.option], int(numbers["impacts"].low)
-        how = f"with at most {impacts} impact{'s' * (impacts > 1)}" if impacts else "without touching"
+        how = f"with {at_most(impacts)}" if impacts else "without touching"
         among = "" if below.startswith("0 ") else f", including all below {below}"
         return (
             f"Of all {family.about} up to {largest}, {_share(numbers['share_proven'].low)} % (by area of the disc of sizes and "

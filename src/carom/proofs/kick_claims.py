@@ -10,7 +10,7 @@ from itertools import groupby
 from carom.core.processors import available_cores
 from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
 from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
-from carom.proofs.families import DisturbanceFamily
+from carom.proofs.families import DisturbanceFamily, at_most
 from carom.proofs.kick_cells import IMPACTS, MOST_PARAMETERS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import KickDisc
 from carom.proofs.kick_search import BITS, show_all
@@ -106,7 +106,7 @@ def claims_of(disc: KickDisc, tree: Tree) -> list[Claim]:
         ),
         claim(
             "all recover",
-            f"{of_all}, return to levitation with at most {most} impacts.",
+            f"{of_all}, return to levitation with {at_most(most)}.",
             -1 if refuted else 0 if rest else 1,
             reason=_reasons_of(known, "area times widths" if disc.along else "area"),
         ),
@@ -148,7 +148,7 @@ def _stretch_claims(disc: KickDisc, proven: list[tuple[Cell, int]], rest: list[C
                 f"kicks, {where}",
                 "recover",
                 f"For all {where}: every kick out of levitation, seen in the fixed frame, slower than the lower end of speed returns to levitation "
-                f"with at most {most} impacts.",
+                f"with {at_most(most)}.",
                 1,
                 enclosures=_sizes(disc, speed),
                 limited=False,

@@ -14,6 +14,7 @@ from carom.base.outcome import CaromError
 from carom.base.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import NotShownError
+from carom.proofs.families import at_most
 from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves
 from carom.proofs.kick_discs import DiscData, DiscResult, KickDisc, disc_of
 from carom.proofs.passages import LeftOpenError
@@ -93,7 +94,7 @@ def _shown(data: DiscData, cells: list[tuple[Cell, str]]) -> str:
                     disc.show(cell, IMPACTS.index(letter))
             except LeftOpenError as problem:
                 sides = ", ".join("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles, *cell.ends))
-                ends = "end in the rub" if letter == REFUTED else f"return with at most {IMPACTS.index(letter)} impacts"
+                ends = "end in the rub" if letter == REFUTED else f"return with {at_most(IMPACTS.index(letter))}"
                 return f"not all {disc.family.about} of the cell {sides} {ends}: {problem}"
     return ""
 

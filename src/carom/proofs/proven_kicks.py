@@ -16,7 +16,7 @@ from carom.closed_forms import contact_free_kick
 from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
 from carom.parameters.formats import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
-from carom.proofs.families import KICKS
+from carom.proofs.families import KICKS, at_most
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import KickDisc
@@ -177,8 +177,7 @@ class ProvenKicks(Result):
         """What is proven, with numbers that say no more than that."""
         factor, unit = shown_in("velocity", self.rotor.scales)
         disc = f"{number(factor * self.largest)} {unit}"
-        most = f"after at most {self.impacts} impact{'' if self.impacts == 1 else 's'}"
-        after = most if self.impacts else "without an impact"
+        after = f"after {at_most(self.impacts)}" if self.impacts else "without an impact"
         if self.whole:
             return f"every kick up to {disc} comes back, {after}"
         lost = f"; {number(rounded_down(100.0 * self.refuted_share))} % end in the rub" if self.refuted_share else ""
