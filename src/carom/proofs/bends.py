@@ -15,7 +15,7 @@ states that are nowhere near the wall at that time.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import combinations_with_replacement
 from math import comb
 from typing import Any
@@ -24,8 +24,9 @@ from flint import arb
 
 from carom.proofs.moments import NOTHING, MeanValueForm, Pair, cross, dot
 from carom.proofs.patches import Held, PatchDeparture
+from carom.proofs.starts import Response
 
-Jet = list[Any]
+Jet = list[Pair]
 """A function of time with its derivatives."""
 Squares = dict[tuple[int, int], MeanValueForm]
 """Second derivatives by pairs of coordinates, the first index the smaller."""
@@ -151,13 +152,13 @@ class _Bends:
         own = (_product(dot, self.p, self.p, order) + _product(dot, self.k, self.k, order) * self.ell) / 2
         return own + _product(dot, self.p, self.q, order)
 
-    def _height_by_both(self, i: int, j: int) -> Jet:
+    def _height_by_both(self, i: int, j: int) -> list[MeanValueForm]:
         """``h_ij`` with one derivative, ``i ≤ j``."""
         if i == self.size - 1:
             return [-_product(dot, self.p, self.q, m) for m in range(2)]
         return [_product(dot, self.moved[i], self._along(j), m) for m in range(2)]
 
-    def _twist_by(self, i: int) -> Jet:
+    def _twist_by(self, i: int) -> list[MeanValueForm]:
         """``Im(z̄ż)`` differentiated by a coordinate, with one derivative."""
         one, other = self._by(i)
         return [cross(one[0], other[m + 1]) + cross(other[0], one[m + 1]) for m in range(2)]
@@ -172,7 +173,7 @@ class _Bends:
     def totals(self) -> tuple[Squares, Squares, Squares]:
         """``F_;ij`` for the three coordinates at the wall."""
         z, coordinates = self.z, range(self.size)
-        h = [arb(0), *(self._height(m) for m in (1, 2, 3))]
+        h = [NOTHING, *(self._height(m) for m in (1, 2, 3))]
         h_i = [[_product(dot, *self._by(i), m) for m in range(3)] for i in coordinates]
         b_i, late = [self._twist_by(i) for i in coordinates], [-x[0] / h[1] for x in h_i]
         b_t, b_tt = cross(z[0], z[2]), cross(z[1], z[2]) + cross(z[0], z[3])
@@ -206,7 +207,7 @@ def _responses(departure: PatchDeparture, time: MeanValueForm, orders: int) -> t
     """``c`` and ``h₁``, or what stands for it, with their derivatives."""
     held = departure.held
 
-    def of(moment: Any) -> tuple[Any, Any]:
+    def of(moment: arb) -> tuple[Response, Response]:
         if departure.from_wall:
             return held.responses(moment)
         return (arb(0),) * 3, held.start.response(held, moment)
@@ -218,7 +219,7 @@ def _responses(departure: PatchDeparture, time: MeanValueForm, orders: int) -> t
     return both[0], both[1]
 
 
-def _freely(held: Held, jet: Iterable[Any], orders: int) -> list[Any]:
+def _freely(held: Held, jet: Response, orders: int) -> list[Any]:
     """More derivatives of a free motion."""
     found, n = list(jet), held.numbers
     while len(found) < orders:
@@ -233,9 +234,9 @@ def _through(time: MeanValueForm, at: arb, every: arb, slope: arb) -> Pair:
     return Pair(time.through(at.real, every.real, slope.real), time.through(at.imag, every.imag, slope.imag))
 
 
-def _product(product: Any, one: Jet, other: Jet, order: int) -> MeanValueForm:
+def _product(product: Callable[[Pair, Pair], MeanValueForm], one: Jet, other: Jet, order: int) -> MeanValueForm:
     """A derivative of a bilinear product."""
-    total: Any = product(one[0], other[order])
+    total = product(one[0], other[order])
     for m in range(1, order + 1):
         total = total + product(one[m], other[order - m]) * comb(order, m)
     return total

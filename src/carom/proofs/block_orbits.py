@@ -29,9 +29,9 @@ from carom.proofs.courses import OrbitCourse, period_condition
 from carom.proofs.flights import NARROWEST, stays_inside
 from carom.proofs.lines import LineNumbers
 from carom.proofs.periods import none_beyond, slowest_decay
-from carom.proofs.series import hull, terms
+from carom.proofs.series import Ball, hull, terms
 
-Along = Callable[[Callable[[OrbitCourse], Any]], Any]
+Along = Callable[[Callable[[OrbitCourse[Any]], Any]], arb]
 Cell = tuple[float, float]
 _ORDER = 4
 """Order of Taylor's formula on a cell of periods."""
@@ -97,7 +97,7 @@ def first_cells(block: Block) -> list[Cell]:
     return list(itertools.pairwise(edges))
 
 
-def _longest(n: LineNumbers) -> float:
+def _longest(n: LineNumbers[arb]) -> float:
     """Period beyond which ``F₁ > 0``."""
     rate = arb(slowest_decay(n).lower())
     if not rate > 0:
@@ -110,7 +110,7 @@ def _longest(n: LineNumbers) -> float:
     return end
 
 
-def _start(n: LineNumbers) -> tuple[float, int]:
+def _start(n: LineNumbers[arb]) -> tuple[float, int]:
     """Period up to which ``F₁`` keeps the sign that it has next to zero, and this sign.
 
     ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + …``, and by the series of :func:`~carom.proofs.series.short_return` the terms from
@@ -265,7 +265,9 @@ def why_virtual(orbit: BlockOrbitBranch) -> str | None:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def inside(plain: OrbitCourse, along: Along, touch: Any = None, narrowest: float = NARROWEST) -> bool | None:
+def inside(
+    plain: OrbitCourse[arb], along: Along, touch: arb | None = None, narrowest: float = NARROWEST
+) -> bool | None:
     """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
 
     ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.  The function
@@ -276,7 +278,7 @@ def inside(plain: OrbitCourse, along: Along, touch: Any = None, narrowest: float
     def narrow(time: arb, backward: bool) -> arb:
         return along(lambda course: course.height(arb_series([time]), backward)[0])
 
-    def height(time: arb | arb_series, backward: bool) -> Any:
+    def height(time: Ball, backward: bool) -> Any:
         return plain.height(time, backward)[0]
 
     return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch, narrowest)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 from flint import arb, arb_series
 
@@ -18,6 +18,8 @@ from carom.base.outcome import CaromError
 from carom.proofs.courses import OrbitCourse, Return, period_condition
 from carom.proofs.lines import Line, LineNumbers
 from carom.proofs.series import hull, narrower, terms
+
+_Known = TypeVar("_Known")
 
 
 class OpenError(CaromError):
@@ -55,16 +57,16 @@ class Block:
         return self.ball - self.middle
 
     @cached_property
-    def whole(self) -> LineNumbers:
+    def whole(self) -> LineNumbers[arb]:
         """Numbers on all of it."""
         return self.line.at(self.ball)
 
     @cached_property
-    def centre(self) -> LineNumbers:
+    def centre(self) -> LineNumbers[arb]:
         """Numbers in its middle."""
         return self.line.at(self.middle)
 
-    def moving(self, about: arb) -> LineNumbers:
+    def moving(self, about: arb) -> LineNumbers[arb_series]:
         """Numbers as power series of the parameter about a ball."""
         return self.line.at(arb_series([about, 1]))
 
@@ -119,7 +121,7 @@ def _rates(block: Block, period: arb) -> tuple[arb, arb, tuple[arb, arb, arb]]:
     )
 
 
-def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) -> tuple[arb, arb, arb]:
+def enclosed(block: Block, near: _Known, far: _Known, function: Callable[[_Known], arb_series]) -> tuple[arb, arb, arb]:
     """Value, slope and half of the second derivative of a function on a block.
 
     It is one of something known as series of two terms in the middle, and of three on the block.
@@ -179,7 +181,7 @@ class BlockBranch:
             self.near = Return(block.moving(block.middle), arb_series([central, at_centre.slope]))
         self.plain = Return(block.whole, period)
 
-    def along(self, function: Callable[[Return], Any]) -> arb:
+    def along(self, function: Callable[[Return[arb_series]], arb_series]) -> arb:
         """Enclosure of a function of the returns on the block."""
         return enclosed(self.block, self.near, self.far, function)[0]
 
@@ -261,6 +263,6 @@ class BlockOrbitBranch:
             self.far = OrbitCourse(branch.far, arb_series(list(found)))
         self.plain = OrbitCourse(branch.plain, self.speed)
 
-    def along(self, function: Callable[[OrbitCourse], Any]) -> arb:
+    def along(self, function: Callable[[OrbitCourse[arb_series]], arb_series]) -> arb:
         """Enclosure of a function of the orbit on the block."""
         return enclosed(self.branch.block, self.near, self.far, function)[0]

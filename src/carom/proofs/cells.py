@@ -12,12 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from flint import arb
 
 from carom.proofs.balls import decided, interval
-from carom.proofs.claims import NotShownError, rational_of
+from carom.proofs.claims import Document, NotShownError, rational_of
 
 ORDER = 10
 """Order of the Taylor formula: with fewer the cells are more, with more each costs more than it saves."""
@@ -40,12 +39,12 @@ class CellTree:
     cuts: tuple[Fraction, ...]
     kinds: str
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         return {"cuts": [str(cut) for cut in self.cuts], "kinds": self.kinds}
 
     @classmethod
-    def from_document(cls, document: dict[str, Any]) -> CellTree:
+    def from_document(cls, document: Document) -> CellTree:
         """Read what :meth:`document` gives."""
         cells = cls(tuple(rational_of(text) for text in document["cuts"]), str(document["kinds"]))
         if len(cells.cuts) != len(cells.kinds) + 1 or any(
@@ -97,9 +96,9 @@ class Analytic:
         return decided(about[order]) if _leads(about, order, interval(width, width)) else 0
 
 
-def _leads(terms: list[Any], order: int, width: arb) -> bool:
+def _leads(terms: list[arb], order: int, width: arb) -> bool:
     """Whether the term of an order exceeds the sum of all higher ones within a width."""
-    total = 0
+    total = arb(0)
     for term in reversed(terms[order + 1 :]):
         total = (total + abs(term)) * width
     return bool(abs(terms[order]) > total)

@@ -8,13 +8,12 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from carom.base.arguments import checked
 from carom.base.outcome import CaromError, InputError, printable, shown
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import Enclosure
-from carom.proofs.claims import FORMAT, Claim, Evidence, NotShownError, Proof
+from carom.proofs.claims import FORMAT, Claim, Document, Evidence, NotShownError, Proof
 from carom.proofs.hypotheses import Hypotheses, StatedEquations
 from carom.proofs.proving import MOST_BITS, THEOREMS, proof_at
 
@@ -27,7 +26,7 @@ _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_cl
 
 @checked
 @shows_progress
-def check(source: str | os.PathLike[str] | Mapping[str, Any], *, progress: ShowProgress = None) -> Proof:
+def check(source: str | os.PathLike[str] | Document, *, progress: ShowProgress = None) -> Proof:
     """Verify a certificate by itself.
 
     All inequalities are evaluated again in ball arithmetic, from the numbers of the machine in the certificate and from its
@@ -51,7 +50,7 @@ def check(source: str | os.PathLike[str] | Mapping[str, Any], *, progress: ShowP
     return proof
 
 
-def _proof_of(document: Mapping[str, Any], tell: Reporter) -> Proof:
+def _proof_of(document: Document, tell: Reporter) -> Proof:
     if sorted(document) != sorted(_KEYS) or document["format"] != FORMAT:
         raise NotShownError(f"it must have the format {FORMAT!r} and the keys {', '.join(_KEYS)}")
     theorem, bits = document["theorem"], document["bits"]
@@ -74,7 +73,7 @@ def _proof_of(document: Mapping[str, Any], tell: Reporter) -> Proof:
     return replace(proof, claims=_confirmed(proof.claims, document["claims"]))
 
 
-def _confirmed(found: Sequence[Claim], given: Sequence[Mapping[str, Any]]) -> tuple[Claim, ...]:
+def _confirmed(found: Sequence[Claim], given: Sequence[Document]) -> tuple[Claim, ...]:
     """Claims of a certificate whose words are those found and whose numbers enclose those found."""
     if len(found) != len(given):
         raise NotShownError("its claims are not those that the evidence shows")
@@ -118,7 +117,7 @@ def _read(path: str | os.PathLike[str]) -> dict[str, object]:
     return document
 
 
-def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, object]:
+def _each_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
     """An object of JSON; a duplicate key is refused, as a reader may take the other value."""
     found = dict(pairs)
     if len(found) != len(pairs):

@@ -25,6 +25,8 @@ from carom.base.results import WIDEST, Members
 from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure
 
+Document = Mapping[str, Any]
+"""Plain data, as in JSON: what is under a name depends on it."""
 _Found = TypeVar("_Found")
 _RATIONAL = re.compile(r"-?[0-9]{1,2000}(?:/[0-9]{1,2000})?")
 
@@ -50,7 +52,7 @@ class Evidence:
     """
 
     def __init__(
-        self, recorded: Mapping[str, Any] | None = None, tell: Reporter | None = None, seconds: float = math.inf
+        self, recorded: Document | None = None, tell: Reporter | None = None, seconds: float = math.inf
     ) -> None:
         self.tell = tell or Reporter(step="proving")
         self._end = time.monotonic() + seconds
@@ -76,7 +78,7 @@ class Evidence:
         self._used[name] = found
         return found
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """All that was taken, as plain data for JSON."""
         return dict(self._used)
 
@@ -135,7 +137,7 @@ class Claim:
         """The subject and what is stated: ``"B1,d stable"``."""
         return f"{self.about} {self.kind}"
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         ends = {name: [entry.low, entry.high] for name, entry in self.enclosures.items()}
         words = {"about": self.about, "kind": self.kind, "statement": self.statement, "status": self.status}
@@ -189,11 +191,11 @@ class Proof(Members[Claim]):
     theorem: str
     # Not narrower: who reads the numbers of a planar rotor knows by the theorem that they are there.
     hypotheses: Any
-    options: Mapping[str, Any]
+    options: Document
     claims: tuple[Claim, ...]
     bits: int
     not_claimed: tuple[str, ...]
-    evidence: Mapping[str, Any]
+    evidence: Document
 
     @property
     def members(self) -> tuple[Claim, ...]:  # type: ignore[override]  # a field would be in the certificate twice
@@ -235,7 +237,7 @@ class Proof(Members[Claim]):
             *([("", f"and {rest} more; rows() has all")] if rest > 0 else []),
         ]
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The certificate: plain data for JSON, which :func:`~carom.proofs.check` verifies."""
         return {
             "format": FORMAT,

@@ -8,19 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, Generic
 
-from flint import acb, arb, arb_series
+from flint import acb, arb
 
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import Ball, ComplexBall, I, first, imaginary, real, short_return, squared
+from carom.proofs.series import Ball, ComplexBall, I, N, first, imaginary, real, short_return, squared
 
 _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
 
 
-def period_condition(whole: LineNumbers, period: arb) -> Callable[[LineNumbers, Any], Any]:
+def period_condition(whole: LineNumbers[arb], period: arb) -> Callable[..., Any]:
     """A function of numbers and period that has the zeros of ``F₁`` and its signs, suited to a range of periods.
 
     At short periods it is ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
@@ -29,26 +29,26 @@ def period_condition(whole: LineNumbers, period: arb) -> Callable[[LineNumbers, 
     return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else entire_condition
 
 
-def _short_condition(n: LineNumbers, period: Ball) -> Ball:
+def _short_condition(n: LineNumbers[N], period: Ball) -> Ball:
     found = short_return(n.half, n.split, period)
     return period * arb.nan() if found is None else 1 + real(n.q * found[1])
 
 
-def entire_condition(n: LineNumbers, period: arb | arb_series) -> Any:
+def entire_condition(n: LineNumbers[N], period: Ball) -> Any:
     """``|det(1 − e^{MT})|²F₁``."""
     numerator, gap = numerator_and_gap(n, period)
     other = gap + n.q * numerator
     return real(other) * real(gap) + imaginary(other) * imaginary(gap)
 
 
-def numerator_and_gap(n: LineNumbers, period: arb | arb_series) -> tuple[Any, Any]:
+def numerator_and_gap(n: LineNumbers[N], period: Ball) -> tuple[Any, Any]:
     """``a₂₂ det(1 − e^{MT})`` and ``det(1 − e^{MT})``."""
     even, odd, growth = n.flight(period)
     decay = growth * growth
     return even + n.half * odd - decay, 1 - even * 2 + decay
 
 
-class Return:
+class Return(Generic[N]):
     """What a period and the numbers of a machine say of an orbit before its radial speed is known.
 
     Parameters
@@ -68,15 +68,17 @@ class Return:
         ``|U*|²``.
     """
 
-    def __init__(self, numbers: LineNumbers, period: Any) -> None:
-        n = self.numbers = numbers
-        self.period = period
-        self.half, self.split, self.product, self.q = n.half, n.split, n.product, n.q
+    def __init__(self, numbers: LineNumbers[N], period: N) -> None:
+        n = numbers
+        self.numbers: LineNumbers[N] = n
+        self.period: N = period
+        self.split: N = n.split
+        self.half, self.product, self.q = n.half, n.product, n.q
         place, turn = self._levers()
         self.a12, self.a22 = place, turn
         self.lever, self.turn = self.q * place, self.q * turn
-        self.closing = 1 + real(self.turn)
-        self.levitation = n.rho * n.rho / squared(self.product)
+        self.closing: N = 1 + real(self.turn)
+        self.levitation: N = n.rho * n.rho / squared(self.product)
 
     def _levers(self) -> tuple[ComplexBall, ComplexBall]:
         short = short_return(self.half, self.split, self.period)
@@ -91,33 +93,33 @@ class Return:
         return self.over[1] / gap, numerator / gap
 
     @cached_property
-    def over(self) -> tuple[Any, Any, Any]:
+    def over(self) -> tuple[ComplexBall, ComplexBall, ComplexBall]:
         """The flight over the period."""
         return self.numbers.flight(self.period)
 
     @cached_property
-    def closing_rate(self) -> Any:
+    def closing_rate(self) -> N:
         """``∂F₁/∂T``, from ``∂a₂₂/∂T = S a₂₂(1 + a₂₂) − P a₁₂(1 + 2a₂₂)``."""
         rate = self.half * 2 * self.a22 * (1 + self.a22) - self.product * self.a12 * (1 + self.a22 * 2)
         return real(self.q * rate)
 
     @cached_property
-    def lever_squared(self) -> Any:
+    def lever_squared(self) -> N:
         """``|q a₁₂|²``."""
         return squared(self.lever)
 
     @cached_property
-    def discriminant(self) -> Any:
+    def discriminant(self) -> N:
         """A quarter of the discriminant of ``|q a₁₂|²ṙ² + 2 Re(q a₁₂)ṙ + 1 − |U*|² = 0``."""
         half = real(self.lever)
         return half * half - self.lever_squared * (1 - self.levitation)
 
     @cached_property
-    def determinant(self) -> Any:
+    def determinant(self) -> N:
         """Product of the multipliers, ``d²e^{−2γT}``."""
         return self.numbers.d * self.numbers.d * (self.numbers.gamma * self.period * -2).exp()
 
-    def speeds(self) -> tuple[Any, Any]:
+    def speeds(self) -> tuple[N, N]:
         """Both radial speeds, the lower first, in forms without cancellation; the discriminant must be positive."""
         half, rest, root = real(self.lever), 1 - self.levitation, self.discriminant.sqrt()
         if first(half) > 0:
@@ -129,7 +131,7 @@ class Return:
         return -(half + root) / self.lever_squared, (root - half) / self.lever_squared
 
 
-class OrbitCourse:
+class OrbitCourse(Generic[N]):
     """A single-impact orbit.
 
     Parameters
@@ -140,34 +142,35 @@ class OrbitCourse:
         ``ṙ`` before the impact.
     """
 
-    def __init__(self, back: Return, speed: Any) -> None:
-        self.back, self.speed = back, speed
+    def __init__(self, back: Return[N], speed: N) -> None:
+        self.back: Return[N] = back
+        self.speed: N = speed
         # Velocities before and after the impact, over the radial speed.
         self.approach = 1 - imaginary(back.turn) * I
         self.leaving = self.approach - back.q
 
     @property
-    def balance(self) -> Any:
+    def balance(self) -> N:
         """``|1 + q a₁₂ṙ|² − |U*|²``: zero on an orbit."""
         back, speed = self.back, self.speed
         return 1 + real(back.lever) * speed * 2 + back.lever_squared * speed * speed - back.levitation
 
     @property
-    def speed_fold(self) -> Ball:
+    def speed_fold(self) -> N:
         """Half of the derivative of ``balance`` by ``ṙ``."""
         return real(self.back.lever) + self.back.lever_squared * self.speed
 
     @property
-    def angular_speed(self) -> Any:
+    def angular_speed(self) -> N:
         """``θ̇`` before the impact."""
         return -imaginary(self.back.turn) * self.speed
 
     @property
-    def slip_after(self) -> Any:
+    def slip_after(self) -> N:
         """Slip velocity just after the impact."""
         return self.back.numbers.radius_ratio + 1 + imaginary(self.leaving) * self.speed
 
-    def height(self, time: arb | arb_series, backward: bool = False) -> tuple[Any, Any]:
+    def height(self, time: Ball, backward: bool = False) -> tuple[Any, Any]:
         """``(|U|² − 1)/ṙ`` and half of its rate, which are regular where the orbit shrinks to a point.
 
         The time is that after the impact, or with ``backward`` the negative time before the next one.  Then it starts from the
@@ -184,7 +187,7 @@ class OrbitCourse:
         height = across * 2 + squared(place) * self.speed
         return height, real(rate) + (across * real(rate) + imaginary(place) * imaginary(rate)) * self.speed
 
-    def jacobian(self) -> list[list[Any]]:
+    def jacobian(self) -> list[list[N]]:
         """Derivative of the impact map over ``(θ, ṙ, θ̇)``, by rows; regular for ``ṙ = 0``."""
         back, speed = self.back, self.speed
         even, odd, _ = back.over
@@ -201,6 +204,6 @@ class OrbitCourse:
         return [[column[row] for column in columns] for row in range(3)]
 
     @cached_property
-    def invariants(self) -> Invariants:
+    def invariants(self) -> Invariants[N]:
         """Invariants of the derivative of the impact map."""
         return Invariants.of(self.jacobian(), self.back.determinant)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
 
 from flint import arb
 
@@ -60,8 +59,8 @@ class Scale:
     """
 
     largest: ExactNumber
-    one: Callable[[], Any]
-    gain: Callable[[LineNumbers], arb]
+    one: Callable[[], arb]
+    gain: Callable[[LineNumbers[arb]], arb]
     start: Callable[[], DisturbedStart]
 
 

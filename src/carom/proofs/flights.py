@@ -23,7 +23,12 @@ _SAMPLES = 16
 
 
 def stays_inside(
-    height: Height, narrow: Height, period: Any, falls: tuple[Any, Any], touch: Any = None, narrowest: float = NARROWEST
+    height: Height,
+    narrow: Height,
+    period: arb,
+    falls: tuple[arb, arb],
+    touch: arb | None = None,
+    narrowest: float = NARROWEST,
 ) -> bool | None:
     """Whether a height that vanishes at both impacts is negative in between; ``None`` if this is open.
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from flint import arb
@@ -37,12 +37,12 @@ class Candidates:
         How many times finer than usual the grid of forms is.
     """
 
-    def __init__(self, wall: Surface, finer: int = 1) -> None:
+    def __init__(self, wall: Surface[arb], finer: int = 1) -> None:
         self.wall = wall.plain()
         self.centred = _forms(self.wall, finer)
         self.forms, self.levels = self._best_shifts()
 
-    def _best_shifts(self) -> tuple[Form, np.ndarray]:
+    def _best_shifts(self) -> tuple[Form[np.ndarray], np.ndarray]:
         """Of each form the share of levitation about which its trap holds the fastest states, of those from which motions return."""
         step = float(STEP)
         shifts = np.arange(0.0, 1.0 + step / 2, step)
@@ -60,12 +60,14 @@ class Candidates:
             fastest[better], best[better] = speed[better], place
         levels = np.array([bound for _, bound, _ in entries])[best, np.arange(good.size)]
         kept = np.argsort(-fastest)[:_MOST_FORMS]
-        forms = self.centred._replace(shift=shifts[best])
+        forms = replace(self.centred, shift=shifts[best])
         return Form(*(values[kept] for values in forms)), levels[kept]
 
-    def _at(self, shift: float, turns: tuple[np.ndarray, np.ndarray]) -> tuple[Form, np.ndarray, np.ndarray]:
+    def _at(
+        self, shift: float, turns: tuple[np.ndarray, np.ndarray]
+    ) -> tuple[Form[np.ndarray], np.ndarray, np.ndarray]:
         """Forms about a share of levitation, their levels, and the speed up to which each holds all states."""
-        forms = self.centred._replace(shift=np.full(self.centred.alpha.size, shift))
+        forms = replace(self.centred, shift=np.full(self.centred.alpha.size, shift))
         radial, along = _spread(forms).centre(self.wall, *turns)
         away = _spread(forms).away(self.wall, turns[1])
         bound = (away + self.wall.hold * np.maximum(-radial, 0) ** 2).min(axis=1)
@@ -92,7 +94,7 @@ class Candidates:
     def _impact_states(self, speed: float) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray], list[int]]:
         """Velocities at the wall, sines and cosines of the angles of levitation, and the forms that bound them most."""
         turns = _turns(_TURNS + 1)
-        forms = _joined(self.forms, Form(0.0, 0.0, self.wall.omega_squared, 1.0, np.inf))
+        forms = _joined(self.forms, (0.0, 0.0, self.wall.omega_squared, 1.0, np.inf))
         radial, along = _spread(forms).centre(self.wall, *turns)
         away = _spread(forms).away(self.wall, turns[1])
         bounds = ((speed + np.hypot(radial, along)) ** 2 + away).max(axis=1)
@@ -116,7 +118,7 @@ def _turns(count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.sin(angle), np.cos(angle)
 
 
-def _forms(wall: Surface, finer: int) -> Form:
+def _forms(wall: Surface[np.ndarray], finer: int) -> Form[np.ndarray]:
     """Forms about levitation that fall in flight, each at its largest rate."""
     alpha = np.array([*np.linspace(0.03, 0.97, finer * _SHARES), 0.99, 0.997])[:, None] * wall.gamma
     direction = np.linspace(0, 2 * np.pi, finer * _DIRECTIONS, endpoint=False)
@@ -130,25 +132,25 @@ def _forms(wall: Surface, finer: int) -> Form:
     low, high = forms.rate, np.full(forms.rate.size, wall.gamma / 2)
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        falls = np.all([slack > 0 for slack in forms._replace(rate=middle).slacks(wall)], axis=0)
+        falls = np.all([slack > 0 for slack in replace(forms, rate=middle).slacks(wall)], axis=0)
         low, high = np.where(falls, middle, low), np.where(falls, high, middle)
-    return forms._replace(rate=_SLOWER * low)
+    return replace(forms, rate=_SLOWER * low)
 
 
-def _spread(forms: Form) -> Form:
+def _spread(forms: Form[np.ndarray]) -> Form[np.ndarray]:
     """Forms along a first axis, for states along others."""
     return Form(*(np.asarray(values)[:, None] for values in forms))
 
 
-def _joined(forms: Form, last: Form) -> Form:
+def _joined(forms: Form[np.ndarray], last: Iterable[np.ndarray | float]) -> Form[np.ndarray]:
     return Form(*(np.append(values, value) for values, value in zip(forms, last, strict=True)))
 
 
-def _listed(forms: Form, chosen: Sequence[int]) -> Listed:
+def _listed(forms: Form[np.ndarray], chosen: Sequence[int]) -> Listed:
     return [[str(Fraction(round(float(values[place]) * _FINE), _FINE)) for values in forms] for place in chosen]
 
 
-def search(wall: Surface, speed: arb) -> list[Any] | None:
+def search(wall: Surface[arb], speed: arb) -> list[str | Listed] | None:
     """A share of a speed up to which all states return, the traps, and the forms that bound what arrives; ``None`` if none is found.
 
     Parameters are balls.
@@ -176,7 +178,7 @@ def _largest_share(candidates: Candidates, largest: float) -> Fraction:
     return low
 
 
-def shown(wall: Surface, speed: arb, traps: Any, limits: Any) -> bool:
+def shown(wall: Surface[arb], speed: arb, traps: Listed, limits: Listed) -> bool:
     """Whether forms, as in evidence, show that all states up to a speed return."""
     trapping = traps_of(wall, read_forms(traps))
     arriving = limits_of(wall, speed, read_forms(limits))

@@ -32,10 +32,10 @@ The formulas of forms serve balls as well as arrays of doubles.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, Generic, TypeVar, cast
 
 import numpy as np
 from flint import arb
@@ -50,10 +50,12 @@ STEP = Fraction(1, 20)
 """Of the share of levitation, from one trap to the next."""
 _SLIPPERY = 1e-3
 """Friction that a bound for less of it assumes: without any, ``K`` would be infinite."""
+_Number = TypeVar("_Number", arb, np.ndarray)
 _BELOW = 1 - 2.0**-20
 
 
-class Surface(NamedTuple):
+@dataclass(frozen=True)
+class Surface(Generic[_Number]):
     """The numbers of a rotor at its wall, as balls or as doubles.
 
     Attributes
@@ -68,17 +70,17 @@ class Surface(NamedTuple):
         ``K``.
     """
 
-    gamma: Any
-    omega_squared: Any
-    rho: Any
-    d: Any
-    ratio: Any
-    radius: Any
-    grip: Any
-    hold: Any
+    gamma: _Number
+    omega_squared: _Number
+    rho: _Number
+    d: _Number
+    ratio: _Number
+    radius: _Number
+    grip: _Number
+    hold: _Number
 
     @classmethod
-    def of(cls, n: LineNumbers) -> Surface:
+    def of(cls, n: LineNumbers[arb]) -> Surface[arb]:
         """The wall of a rotor whose numbers are balls."""
         friction = n.mu.max(arb(_SLIPPERY))
         e = 1 - (1 + n.d) * (1 + n.mu * n.mu) / 2
@@ -87,34 +89,39 @@ class Surface(NamedTuple):
         else:
             e = e.min(arb(0))
             hold = (1 - e) * (1 - e) / (e * e + friction * friction)
-        return cls(n.gamma, n.omega_squared, n.rho, n.d, n.radius_ratio, n.levitation, n.mu * (1 + n.d), hold)
+        return Surface(n.gamma, n.omega_squared, n.rho, n.d, n.radius_ratio, n.levitation, n.mu * (1 + n.d), hold)
 
-    def plain(self) -> Surface:
+    def plain(self: Surface[arb]) -> Surface[np.ndarray]:
         """The same in doubles."""
-        return Surface(*(float(number.mid()) for number in self))
+        return cast("Surface[np.ndarray]", Surface(*(float(number.mid()) for number in vars(self).values())))
 
-    def after(self, a: Any, b: Any) -> tuple[Any, Any]:
+    def after(self, a: _Number, b: _Number) -> tuple[_Number, _Number]:
         """Velocity after an impact, in all cases of slip."""
-        slip, most = self.ratio + b, self.grip * a
+        slip: Any = self.ratio + b
+        most: Any = self.grip * a
         taken = slip.min(most).max(-most) if isinstance(slip, arb) else np.clip(slip, -most, most)
         return -self.d * a, b - taken
 
 
-class Form(NamedTuple):
+@dataclass(frozen=True)
+class Form(Generic[_Number]):
     """A form by ``α``, ``β``, ``k``, ``σ`` and ``δ``: balls, or arrays of doubles for many forms at once."""
 
-    alpha: Any
-    beta: Any
-    stiffness: Any
-    shift: Any
-    rate: Any
+    alpha: _Number
+    beta: _Number
+    stiffness: _Number
+    shift: _Number
+    rate: _Number
+
+    def __iter__(self) -> Iterator[_Number]:
+        return iter(vars(self).values())
 
     @property
-    def rest(self) -> Any:
+    def rest(self) -> _Number:
         """``k − |g|²``."""
         return self.stiffness - self.alpha * self.alpha - self.beta * self.beta
 
-    def slacks(self, wall: Surface) -> tuple[Any, Any, Any]:
+    def slacks(self, wall: Surface[_Number]) -> tuple[_Number, _Number, _Number]:
         """Three numbers that are positive if ``Q`` falls in flight at the rate ``δ``."""
         drag = wall.gamma - self.alpha - self.rate
         hold = self.alpha * wall.omega_squared - self.rate * self.stiffness
@@ -122,20 +129,20 @@ class Form(NamedTuple):
         real, turning = self.stiffness - wall.omega_squared - left * self.alpha, left * self.beta
         return drag, hold, 4 * drag * hold - real * real - turning * turning
 
-    def falls(self, wall: Surface) -> bool:
+    def falls(self: Form[arb], wall: Surface[arb]) -> bool:
         """Whether it falls in flight, of balls."""
         return bool(self.rate > 0 and self.rest > 0 and all(slack > 0 for slack in self.slacks(wall)))
 
-    def core(self, wall: Surface) -> Any:
+    def core(self, wall: Surface[_Number]) -> _Number:
         """Root of what it falls to, ``(1 − σ)ρ/δ``."""
         return (1 - self.shift) * wall.rho / self.rate
 
-    def step(self, wall: Surface) -> Any:
+    def step(self, wall: Surface[_Number]) -> _Number:
         """By how much its root may grow over a whole ``σ``."""
         ahead = 1 + self.beta
         return wall.radius * (self.alpha * self.alpha + ahead * ahead + self.rest) ** 0.5
 
-    def centre(self, wall: Surface, sine: Any, cosine: Any) -> tuple[Any, Any]:
+    def centre(self, wall: Surface[_Number], sine: _Number, cosine: _Number) -> tuple[_Number, _Number]:
         """``a₀`` and ``b₀`` at an angle ``ψ``."""
         ahead, radius = 1 + self.beta, wall.radius * self.shift
         return (
@@ -143,19 +150,19 @@ class Form(NamedTuple):
             radius * (self.alpha * sine + ahead * cosine) - self.beta,
         )
 
-    def away(self, wall: Surface, cosine: Any) -> Any:
+    def away(self, wall: Surface[_Number], cosine: _Number) -> _Number:
         """``(k − |g|²)|1 − σΛ|²``."""
         radius = wall.radius * self.shift
         return self.rest * (1 + radius * radius - 2 * radius * cosine)
 
-    def size(self, wall: Surface, turn: tuple[Any, Any], a: Any, b: Any) -> Any:
+    def size(self, wall: Surface[_Number], turn: tuple[_Number, _Number], a: _Number, b: _Number) -> _Number:
         """``Q`` at the wall; ``turn`` holds sine and cosine of ``ψ``."""
         radial, along = self.centre(wall, *turn)
         x, y = a - radial, b - along
         return x * x + y * y + self.away(wall, turn[1])
 
 
-def energy(wall: Surface) -> Form:
+def energy(wall: Surface[arb]) -> Form[arb]:
     """The form ``|u̇|² + ω²|u|²`` about levitation, which never rises in flight; of balls."""
     return Form(arb(0), arb(0), wall.omega_squared, arb(1), arb(0))
 
@@ -166,7 +173,7 @@ def angles(parts: int = PARTS) -> list[tuple[arb, arb]]:
     return [(width * (2 * k + arb(0, 1))).sin_cos() for k in range(parts)]
 
 
-def level(form: Form, wall: Surface, turns: list[tuple[arb, arb]]) -> arb:
+def level(form: Form[arb], wall: Surface[arb], turns: list[tuple[arb, arb]]) -> arb:
     """A level ``C`` that contact does not let a form leave, as a ball without radius."""
     bounds = []
     for sine, cosine in turns:
@@ -175,12 +182,12 @@ def level(form: Form, wall: Surface, turns: list[tuple[arb, arb]]) -> arb:
     return (min(bounds) * _BELOW).lower()
 
 
-def returns(form: Form, wall: Surface) -> bool:
+def returns(form: Form[arb], wall: Surface[arb]) -> bool:
     """Whether motions that reach the core of a form return to levitation, by traps of larger and larger ``σ``."""
     turns, growth = angles(FEW), form.step(wall)
     while form.shift < 1:
         ahead = form.shift + arb(STEP.numerator) / STEP.denominator
-        later = form._replace(shift=ahead if ahead < 1 else arb(1))
+        later = replace(form, shift=ahead if ahead < 1 else arb(1))
         root = form.core(wall) + (later.shift - form.shift) * growth
         bound = level(later, wall, turns)
         if not (bound > 0 and root.max(later.core(wall)) < bound.sqrt()):
@@ -189,7 +196,7 @@ def returns(form: Form, wall: Surface) -> bool:
     return bool(form.shift == 1)
 
 
-def highest(form: Form, wall: Surface, speed: arb, turns: list[tuple[arb, arb]]) -> arb:
+def highest(form: Form[arb], wall: Surface[arb], speed: arb, turns: list[tuple[arb, arb]]) -> arb:
     """A bound of a form over all states ``|z| ≤ 1``, ``|ż| ≤ speed``.
 
     The form is convex in ``(z, ż)``, so its largest value is at ``|z| = 1`` and ``|ż| = speed``, at most ``(speed + |v₀|)² + (k − |g|²)|1 − σΛ|²``.
@@ -211,16 +218,16 @@ _TURNS = 8
 class Bounded:
     """A form with a number: a trap ``Q ≤ bound``, or a bound of what arrives."""
 
-    form: Form
+    form: Form[arb]
     bound: arb
 
 
-def read_forms(listed: Any) -> list[Form]:
+def read_forms(listed: Iterable[Iterable[str]]) -> list[Form[arb]]:
     """Forms of evidence, as balls."""
     return [Form(*(rational(rational_of(text)) for text in texts)) for texts in listed]
 
 
-def traps_of(wall: Surface, forms: Sequence[Form]) -> list[Bounded] | None:
+def traps_of(wall: Surface[arb], forms: Sequence[Form[arb]]) -> list[Bounded] | None:
     """The traps of forms; ``None`` if there are none, or motions in one of them need not return."""
     turns, traps = angles(), []
     for form in forms:
@@ -233,7 +240,7 @@ def traps_of(wall: Surface, forms: Sequence[Form]) -> list[Bounded] | None:
     return traps or None
 
 
-def limits_of(wall: Surface, speed: arb, forms: Sequence[Form]) -> list[Bounded] | None:
+def limits_of(wall: Surface[arb], speed: arb, forms: Sequence[Form[arb]]) -> list[Bounded] | None:
     """Bounds of what arrives, that of energy first; ``None`` if a form may rise in flight beyond its core."""
     turns, first = angles(), energy(wall)
     if not all(0 <= form.shift <= 1 and form.falls(wall) for form in forms):
@@ -245,7 +252,7 @@ def limits_of(wall: Surface, speed: arb, forms: Sequence[Form]) -> list[Bounded]
     return limits
 
 
-def _fastest(wall: Surface, energy: Bounded) -> arb:
+def _fastest(wall: Surface[arb], energy: Bounded) -> arb:
     """Largest speed at the wall by energy: ``|v − iΛ|² ≤ sup Q − ω²(1 − ℓ)²``."""
     room = 1 - wall.radius
     return (wall.radius + (energy.bound - wall.omega_squared * room * room).max(arb(0)).sqrt()).upper()
@@ -254,13 +261,13 @@ def _fastest(wall: Surface, energy: Bounded) -> arb:
 class _Plain:
     """Forms and their numbers in doubles, to choose by which form a box is looked at."""
 
-    def __init__(self, wall: Surface, entries: Sequence[Bounded]) -> None:
+    def __init__(self, wall: Surface[arb], entries: Sequence[Bounded]) -> None:
         self.wall = wall.plain()
         columns = ([float(number.mid()) for number in entry.form] for entry in entries)
         self.forms = Form(*np.array(list(columns)).T)
         self.bounds = np.array([float(entry.bound) for entry in entries])
 
-    def relative(self, turn: tuple[float, float], a: float, b: float) -> np.ndarray:
+    def relative(self, turn: tuple[float, float], a: np.ndarray | float, b: np.ndarray | float) -> np.ndarray:
         """``Q`` of a state over the number, for each form."""
         ratios: np.ndarray = self.forms.size(self.wall, turn, a, b) / self.bounds
         return ratios
@@ -270,7 +277,7 @@ Box = tuple[float, float, float, float, float, float]
 """Beginning and width of ``ψ/π``, and of ``a`` and ``b`` as shares of the largest speed: doubles that are halved without rounding."""
 
 
-def all_trapped(wall: Surface, limits: Sequence[Bounded], traps: Sequence[Bounded]) -> bool:
+def all_trapped(wall: Surface[arb], limits: Sequence[Bounded], traps: Sequence[Bounded]) -> bool:
     """Whether all states that arrive are in a trap after their impact."""
     cover = _Cover(wall, _fastest(wall, limits[0]), limits, traps)
     ahead: list[Box] = [(2.0 * k / _TURNS, 2.0 / _TURNS, 0.0, 1.0, -1.0, 2.0) for k in range(_TURNS)]
@@ -288,7 +295,7 @@ def all_trapped(wall: Surface, limits: Sequence[Bounded], traps: Sequence[Bounde
 class _Cover:
     """What decides boxes of states that arrive."""
 
-    def __init__(self, wall: Surface, fastest: arb, limits: Sequence[Bounded], traps: Sequence[Bounded]) -> None:
+    def __init__(self, wall: Surface[arb], fastest: arb, limits: Sequence[Bounded], traps: Sequence[Bounded]) -> None:
         self._wall, self._fastest, self._speed = wall, fastest, float(fastest)
         self._limits, self._traps = limits, traps
         self._arriving, self._trapping = _Plain(wall, limits), _Plain(wall, traps)
@@ -306,7 +313,7 @@ class _Cover:
         limit = self._limits[int(np.argmax(excess))]
         if excess.max() > 1 and limit.form.size(self._wall, sides, *balls) > limit.bound:
             return True
-        fits = self._trapping.relative(turn, *plain.after(a, b))
+        fits = self._trapping.relative(turn, *plain.after(np.asarray(a), np.asarray(b)))
         if excess.max() <= 1 <= fits.min():
             return None
         trap = self._traps[int(np.argmin(fits))]

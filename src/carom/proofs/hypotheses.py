@@ -15,10 +15,10 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar, Literal, cast
+from typing import Any, ClassVar, Literal, TypeVar, cast
 
 import numpy as np
-from flint import acb, acb_mat, arb
+from flint import acb, acb_mat, arb, arb_series
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
@@ -29,10 +29,11 @@ from carom.parameters.fields import name_errors, unknown_name
 from carom.parameters.machine_file import split_settings
 from carom.parameters.quantities import ExactNumber, Written, read_exact
 from carom.parameters.terms import DEFAULTS, check_names
-from carom.proofs.claims import NotShownError
+from carom.proofs.claims import Document, NotShownError
 
 Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
 """A number as it may be given: a float stands for itself, a tuple for an interval."""
+_Number = TypeVar("_Number", ExactNumber, arb | arb_series)
 NUMBERS = ("gamma", "omega_squared", "rho", "mu", "d", "radius_ratio")
 """The numbers that the equations hold.  The phase ``φ`` of the unbalance only turns motions."""
 
@@ -110,7 +111,7 @@ class Hypotheses:
         rest = {name: text for name, text in written.items() if name not in self.values}
         return Hypotheses(self.table, values, {**self.settings, **rest}, self.helpers)
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON; ``exact`` holds what follows, for the reader."""
         exact = {name: str(self.numbers[name]) for name in (*NUMBERS, "phi")}
         stated = {"helpers": dict(self.helpers)} if self.helpers else {}
@@ -123,7 +124,7 @@ class Hypotheses:
         }
 
     @classmethod
-    def from_document(cls, document: Mapping[str, Any]) -> Hypotheses:
+    def from_document(cls, document: Document) -> Hypotheses:
         """Read what :meth:`document` gives.
 
         Raises
@@ -147,7 +148,7 @@ class Hypotheses:
         return read
 
 
-def dimensionless_of(machine: Mapping[str, Any]) -> dict[str, Any]:
+def dimensionless_of(machine: Mapping[str, _Number]) -> dict[str, _Number]:
     """The numbers of :data:`NUMBERS` that follow from those of a machine: exact numbers, balls or power series."""
     speed = machine["speed"]
     return {
@@ -249,7 +250,7 @@ class StatedEquations:
         What is assumed, in words.
     """
 
-    numbers: Mapping[str, Any]
+    numbers: Document
     values: Mapping[str, str]
     settings: Mapping[str, str] = field(default_factory=dict)
     helpers: Mapping[str, str] = field(default_factory=dict)
@@ -300,12 +301,12 @@ class StatedEquations:
         """An array in doubles."""
         return array_of(self.numbers[name])
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As plain data for JSON."""
         return {"table": self.table, "numbers": dict(self.numbers), "values": dict(self.values)}
 
     @classmethod
-    def from_document(cls, document: Mapping[str, Any]) -> StatedEquations:
+    def from_document(cls, document: Document) -> StatedEquations:
         """Read what :meth:`document` gives."""
         if sorted(document) != ["numbers", "table", "values"] or document["table"] != cls.table:
             raise NotShownError("its hypotheses are no equations of a rotor")
@@ -321,7 +322,7 @@ def text_of(array: np.ndarray) -> dict[str, object]:
     }
 
 
-def array_of(text: Any) -> np.ndarray:
+def array_of(text: Document) -> np.ndarray:
     """The array of such a text."""
     pairs = np.array([float.fromhex(each) for each in text["doubles"].split()]).reshape(-1, 2)
     if not np.isfinite(pairs).all():

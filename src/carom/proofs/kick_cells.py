@@ -13,9 +13,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from flint import arb_series
+from flint import arb, arb_series
 
 from carom.base.outcome import InputError
 from carom.parameters.terms import conflicts
@@ -24,7 +24,7 @@ from carom.proofs.claims import NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Line, Machines, line_of
 from carom.proofs.passages import REASONS
-from carom.proofs.series import terms
+from carom.proofs.series import Ball, terms
 from carom.proofs.sides import Side
 
 Part = tuple[int, int]
@@ -179,17 +179,17 @@ class Box:
         place, halvings = part
         return tuple(low + (high - low) * Fraction(place + side, 2**halvings) for side in (0, 1))  # type: ignore[return-value]
 
-    def values(self, parts: Sequence[Part]) -> dict[str, Any]:
+    def values(self, parts: Sequence[Part]) -> dict[str, arb]:
         """Ball of each parameter on a part of the box."""
         return {line.name: interval(*self.ends(j, parts[j])) for j, line in enumerate(self.lines)}
 
-    def middles(self, parts: Sequence[Part]) -> dict[str, object]:
+    def middles(self, parts: Sequence[Part]) -> dict[str, arb]:
         """Ball of the middle of each parameter on a part of the box."""
         return {line.name: rational(sum(self.ends(j, parts[j]), Fraction(0)) / 2) for j, line in enumerate(self.lines)}
 
-    def series(self, parts: Sequence[Part]) -> list[dict[str, Any]]:
+    def series(self, parts: Sequence[Part]) -> list[dict[str, Ball]]:
         """The parameters as power series in each of them, by half its width, on all of a part of the box."""
-        balls, found = self.values(parts), []
+        balls, found = self.values(parts), list[dict[str, Ball]]()
         for j, line in enumerate(self.lines):
             low, high = self.ends(j, parts[j])
             found.append({**balls, line.name: arb_series([balls[line.name], rational((high - low) / 2)])})

@@ -133,7 +133,7 @@ class KickDisc:
     def _known(self) -> dict[tuple[Part, ...], BoxPart]:
         return {}
 
-    def reach(self, numbers: LineNumbers, moved: Mapping[str, arb | arb_series]) -> Any:
+    def reach(self, numbers: LineNumbers[arb], moved: Mapping[str, arb | arb_series]) -> Any:
         """``v`` of the largest size, for numbers of a rotor at values of the parameters: a ball or a power series."""
         size = rational(self.exact[0]) * arb.pi() ** self.exact[1]
         if not self.along:

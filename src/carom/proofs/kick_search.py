@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import contextmanager
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from carom.base.outcome import CaromError
 from carom.base.progress import Reporter
@@ -30,6 +30,7 @@ _LAST = 2.0**-50
 _LOST_COUNTS = 1 / 4
 """How much the area of a cell whose middle does not return counts beside others."""
 
+_Batch = TypeVar("_Batch")
 _Result = TypeVar("_Result")
 
 
@@ -101,10 +102,10 @@ def _shown(data: DiscData, cells: list[tuple[Cell, str]]) -> str:
 
 def _each(
     disc: KickDisc,
-    function: Callable[[Any, Any], _Result],
-    batches: Callable[[], Iterator[Any]],
+    function: Callable[[DiscData, _Batch], _Result],
+    batches: Callable[[], Iterator[_Batch]],
     workers: int,
-) -> Iterator[tuple[Any, _Result]]:
+) -> Iterator[tuple[_Batch, _Result]]:
     """Apply a function to batches of cells, as they are asked for: here at first, then in several processes."""
     data, ahead, began = disc.data(), batches(), time.monotonic()
     for batch in ahead:
@@ -114,12 +115,12 @@ def _each(
     else:
         return
     with _processes(workers) as pool:
-        waiting: dict[Future[_Result], Any] = {}
+        waiting: dict[Future[_Result], _Batch] = {}
         while True:
             # Results make further cells: ask anew whenever some have come.
             ahead = batches()
-            while len(waiting) < 2 * workers and (batch := next(ahead, None)) is not None:
-                waiting[pool.submit(function, data, batch)] = batch
+            while len(waiting) < 2 * workers and (more := next(ahead, None)) is not None:
+                waiting[pool.submit(function, data, more)] = more
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 from flint import arb, arb_mat, arb_series, ctx
 
 from carom.proofs.balls import exact_ends, rational
-from carom.proofs.claims import rational_of
+from carom.proofs.claims import Document, rational_of
 from carom.proofs.series import terms
 
 System = Callable[..., Sequence[arb | arb_series]]
@@ -96,7 +95,7 @@ def box_around(centre: Sequence[arb], width: int) -> list[arb]:
     return [c + arb(0, (arb(2) ** -width * (abs(c) + 2**-10)).upper()) for c in centre]
 
 
-def box_of(evidence: Mapping[str, Any]) -> list[arb]:
+def box_of(evidence: Document) -> list[arb]:
     """The box in which the zero of such evidence is unique."""
     centre = [rational(rational_of(text)).mid() for text in evidence["centre"]]
     return box_around(centre, int(evidence["width"]))
@@ -111,7 +110,7 @@ def found_zero(system: System, guess: Sequence[arb | float]) -> tuple[dict[str, 
     return {"centre": [str(exact_ends(x)[0]) for x in centre], "width": found[1]}, found[0]
 
 
-def shown_zero(system: System, evidence: Mapping[str, Any]) -> list[arb] | None:
+def shown_zero(system: System, evidence: Document) -> list[arb] | None:
     """Balls that contain the zero of such evidence; ``None`` if it shows none."""
     centre = [rational(rational_of(text)).mid() for text in evidence["centre"]]
     found = enclosed_zero(system, centre, int(evidence["width"]))

@@ -18,13 +18,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from flint import acb, acb_mat, arb
 
 from carom.proofs.balls import Enclosure, decided, enclosures_of, rational
-from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
+from carom.proofs.claims import Claim, Document, Evidence, NotShownError, claim_of
 from carom.proofs.hypotheses import StatedEquations, array_of, balls, text_of
 
 THEOREM = "levitation"
@@ -70,7 +70,7 @@ def levitation_claims(stated: StatedEquations, evidence: Evidence, options: Mapp
         held = _linear(stated)
     except ZeroDivisionError:
         return [_stable(0, "the equations of its steady motion could not be solved in balls")]
-    recorded: Any = evidence.take("forms", lambda: [text_of(each) for each in _forms(held)])
+    recorded: object = evidence.take("forms", lambda: [text_of(each) for each in _forms(held)])
     if not (isinstance(recorded, list) and len(recorded) == len(held.rows)):
         raise NotShownError("the forms of the certificate are not complete")
     clear = [decided(room) for room in held.rooms]
@@ -109,7 +109,7 @@ def _clear(held: _Linear, clear: list[int]) -> Claim:
     )
 
 
-def _sizes(kicks: list[arb], steps: list[arb], options: Mapping[str, Any], held: _Linear) -> list[Claim]:
+def _sizes(kicks: list[arb], steps: list[arb], options: Document, held: _Linear) -> list[Claim]:
     """Claims about kicks and steps that never touch."""
     speed, change, asked = _least(kicks), _least(steps), options["kicks_up_to"]
     below = " nor asks its magnetic bearings for more than a limit" if len(held.rows) > held.bearings else ""

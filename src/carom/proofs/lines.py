@@ -11,9 +11,9 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import groupby
 from math import ceil, floor
-from typing import Any, NamedTuple
+from typing import Any, Generic
 
-from flint import acb, acb_series, arb, arb_series
+from flint import arb, arb_series
 
 from carom.base.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERM_FIELDS, TERMS, Field
@@ -23,10 +23,11 @@ from carom.parameters.terms import ENTRIES
 from carom.proofs.balls import Enclosure, ball_of, exact_ends, interval
 from carom.proofs.claims import Claim, Status
 from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
-from carom.proofs.series import I, hyperbolic
+from carom.proofs.series import Ball, ComplexBall, I, N, hyperbolic
 
 
-class LineNumbers(NamedTuple):
+@dataclass(frozen=True)
+class LineNumbers(Generic[N]):
     """The numbers of the equations; balls or power series of balls.
 
     With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real ``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity
@@ -35,12 +36,12 @@ class LineNumbers(NamedTuple):
         [[e − S/2 o, o], [−P o, e + S/2 o]],      e = e^{St/2} cosh(√D t),      o = e^{St/2} sinh(√D t)/√D .
     """
 
-    gamma: Any
-    omega_squared: Any
-    rho: Any
-    mu: Any
-    d: Any
-    radius_ratio: Any
+    gamma: N
+    omega_squared: N | arb
+    rho: N | arb
+    mu: N | arb
+    d: N | arb
+    radius_ratio: N | arb
 
     @property
     def half(self) -> Any:
@@ -48,7 +49,7 @@ class LineNumbers(NamedTuple):
         return self.gamma * -0.5 - I
 
     @property
-    def split(self) -> Any:
+    def split(self) -> N:
         """``D``, negative below critical damping."""
         return self.gamma * self.gamma * 0.25 - self.omega_squared
 
@@ -63,17 +64,17 @@ class LineNumbers(NamedTuple):
         return (1 + self.d) * (1 + self.mu * I)
 
     @property
-    def levitation(self) -> arb:
-        """``|U*|``, for balls."""
+    def levitation(self: LineNumbers[arb]) -> arb:
+        """``|U*|``, of balls."""
         return self.rho / abs(self.product)
 
-    def flight(self, time: arb | arb_series) -> tuple[Any, Any, Any]:
+    def flight(self, time: Ball) -> tuple[ComplexBall, ComplexBall, ComplexBall]:
         """``e``, ``o`` and ``e^{St/2}`` at a time."""
         even, odd = hyperbolic(self.split, time)
         growth = (self.half * time).exp()
         return even * growth, odd * growth, growth
 
-    def fly(self, away: acb | acb_series, velocity: acb | acb_series, time: arb | arb_series) -> tuple[Any, Any]:
+    def fly(self, away: ComplexBall, velocity: ComplexBall, time: Ball) -> tuple[ComplexBall, ComplexBall]:
         """Distance from the contact-free equilibrium, and velocity, after a time."""
         even, odd, _ = self.flight(time)
         share = odd * self.half
@@ -91,9 +92,9 @@ class Machines:
     def __init__(self, hypotheses: Hypotheses) -> None:
         self.hypotheses = hypotheses
 
-    def at(self, moved: Mapping[str, Any]) -> LineNumbers:
+    def at(self, moved: Mapping[str, Any]) -> LineNumbers[Any]:
         """Numbers at values of some parameters, by their names: balls or power series."""
-        found = dict(self._balls)
+        found: dict[str, Any] = dict(self._balls)
         machine = {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
         if machine:
             found |= {**dimensionless_of(self.table(machine)), **self._set}
@@ -108,7 +109,7 @@ class Machines:
 
     def table(self, moved: Mapping[str, Any]) -> dict[str, Any]:
         """The machine's table in SI units with other values of some entries: fields, or terms that set them."""
-        found = {**self._machine, **{name: value for name, value in moved.items() if name not in TERMS}}
+        found: dict[str, Any] = {**self._machine, **{name: value for name, value in moved.items() if name not in TERMS}}
         terms = [name for name in moved if name in TERMS]
         # What sets the mass or the stiffness comes before what needs them.
         for name in sorted(terms, key=lambda name: TERMS[name].sets == "damping"):
@@ -117,11 +118,11 @@ class Machines:
         return found
 
     @cached_property
-    def _balls(self) -> dict[str, Any]:
+    def _balls(self) -> dict[str, arb]:
         return {name: ball_of(self.hypotheses.numbers[name]) for name in NUMBERS}
 
     @cached_property
-    def _set(self) -> dict[str, Any]:
+    def _set(self) -> dict[str, arb]:
         """Numbers that do not follow from the machine's table."""
         names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
         return {name: ball for name, ball in self._balls.items() if name in names}
@@ -172,11 +173,11 @@ class Line:
         """The interval in words."""
         return f"{self.start} <= {self.name} <= {self.stop}"
 
-    def at(self, value: arb | arb_series) -> LineNumbers:
+    def at(self, value: N) -> LineNumbers[N]:
         """Numbers at a value of the parameter: a ball or a power series."""
         return self._machines.at({self.name: value})
 
-    def table(self, value: arb) -> dict[str, Any]:
+    def table(self, value: arb) -> dict[str, arb]:
         """The machine's table in SI units at a value of the parameter; that of the file for a dimensionless one."""
         return self._machines.table({} if self.name in DIMENSIONLESS_FIELDS else {self.name: value})
 
@@ -218,7 +219,7 @@ _HALVINGS = 12
 """How often a part is halved before it is left open."""
 
 
-def runs_along(line: Line, holds: Callable[[LineNumbers], bool | None]) -> Runs:
+def runs_along(line: Line, holds: Callable[[LineNumbers[arb]], bool | None]) -> Runs:
     """Parts of a line by what holds on them, neighbours put together: it is halved until that is decided for all values of a part."""
     runs: dict[bool | None, list[tuple[Fraction, Fraction]]] = {True: [], False: [], None: []}
     for value, group in groupby(_parts(line, holds, *line.ends, _HALVINGS), key=lambda part: part[0]):
@@ -228,7 +229,7 @@ def runs_along(line: Line, holds: Callable[[LineNumbers], bool | None]) -> Runs:
 
 
 def _parts(
-    line: Line, holds: Callable[[LineNumbers], bool | None], low: Fraction, high: Fraction, halvings: int
+    line: Line, holds: Callable[[LineNumbers[arb]], bool | None], low: Fraction, high: Fraction, halvings: int
 ) -> Iterator[tuple[bool | None, Fraction, Fraction]]:
     value = holds(line.at(interval(low, high)))
     if value is not None or not halvings or low == high:

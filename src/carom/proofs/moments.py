@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar, cast
 
 from flint import acb, arb
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from carom.proofs.patches import PatchDeparture
 
 
-NOTHING = 0
+NOTHING = cast("MeanValueForm", 0)
 """Exactly zero: what is multiplied by it costs nothing."""
 _UNIT = arb(0, 1)
 
@@ -46,7 +46,7 @@ class MeanValueForm:
         near = at + size * _UNIT
         self.every = near if every is None or not near.overlaps(every) else near.intersection(every)
 
-    def __add__(self, other: Any) -> MeanValueForm:
+    def __add__(self, other: MeanValueForm | arb | int) -> MeanValueForm:
         if other is NOTHING:
             return self
         if isinstance(other, MeanValueForm):
@@ -57,13 +57,13 @@ class MeanValueForm:
     def __neg__(self) -> MeanValueForm:
         return MeanValueForm(-self.at, [-slope for slope in self.by], -self.every)
 
-    def __sub__(self, other: Any) -> MeanValueForm:
+    def __sub__(self, other: MeanValueForm | arb | int) -> MeanValueForm:
         return self + (-other)
 
-    def __rsub__(self, other: Any) -> MeanValueForm:
+    def __rsub__(self, other: arb | int) -> MeanValueForm:
         return -self + other
 
-    def __mul__(self, other: Any) -> Any:
+    def __mul__(self, other: MeanValueForm | arb | int) -> MeanValueForm:
         if other is NOTHING:
             return NOTHING
         if isinstance(other, MeanValueForm):
@@ -72,7 +72,7 @@ class MeanValueForm:
             return MeanValueForm(self.at * other.at, by, one * two)
         return MeanValueForm(self.at * other, [slope * other for slope in self.by], self.every * other)
 
-    def __truediv__(self, other: Any) -> MeanValueForm:
+    def __truediv__(self, other: MeanValueForm | arb | int) -> MeanValueForm:
         if isinstance(other, MeanValueForm):
             return self * other.through(1 / other.at, 1 / other.every, -1 / (other.every * other.every))
         return self * (1 / arb(other))
@@ -89,7 +89,7 @@ class Pair:
 
     __slots__ = ("imag", "real")
 
-    def __init__(self, real: Any, imag: Any) -> None:
+    def __init__(self, real: MeanValueForm, imag: MeanValueForm) -> None:
         self.real, self.imag = real, imag
 
     def __add__(self, other: Pair) -> Pair:
@@ -101,7 +101,7 @@ class Pair:
     def __sub__(self, other: Pair) -> Pair:
         return Pair(self.real - other.real, self.imag - other.imag)
 
-    def __mul__(self, other: Any) -> Pair:
+    def __mul__(self, other: Pair | MeanValueForm | arb) -> Pair:
         if isinstance(other, Pair):
             return Pair(
                 self.real * other.real - self.imag * other.imag, self.real * other.imag + self.imag * other.real

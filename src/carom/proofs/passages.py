@@ -22,7 +22,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 from flint import arb
 
@@ -325,7 +324,13 @@ def _rises(departure: PatchDeparture, low: float, high: float) -> bool:
     return bool(departure.at(arb(middle)).rise + late > 0)
 
 
-def _holds(departure: PatchDeparture, low: float, high: float, shown: Any, depth: int = 6) -> bool:
+def _holds(
+    departure: PatchDeparture,
+    low: float,
+    high: float,
+    shown: Callable[[PatchDeparture, float, float], bool],
+    depth: int = 6,
+) -> bool:
     """Whether something is shown on all parts of an interval of times."""
     if low >= high or shown(departure, low, high):
         return True

@@ -109,9 +109,9 @@ class Held:
 
     def __init__(
         self,
-        numbers: LineNumbers,
+        numbers: LineNumbers[arb],
         start: DisturbedStart = KICK_START,
-        middle: LineNumbers | None = None,
+        middle: LineNumbers[arb] | None = None,
         sides: Sequence[Side] = (),
     ) -> None:
         self.numbers, self.start, self.sides = numbers, start, sides

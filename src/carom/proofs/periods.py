@@ -141,7 +141,7 @@ def _text(number: Fraction | None) -> str | None:
 # ------------------------------------------------------------------------------------------------ beyond
 
 
-def slowest_decay(n: LineNumbers) -> arb:
+def slowest_decay(n: LineNumbers[arb]) -> arb:
     """Rate at which the slower mode of free motion decays."""
     split, half = n.split, n.gamma / 2
     root = split.nonnegative_part().sqrt()
@@ -149,7 +149,7 @@ def slowest_decay(n: LineNumbers) -> arb:
     return half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
 
 
-def none_beyond(n: LineNumbers, time: arb) -> bool:
+def none_beyond(n: LineNumbers[arb], time: arb) -> bool:
     """Whether the decay keeps ``F₁`` above zero from a period on."""
     split, rate = n.split, slowest_decay(n)
     if not (n.gamma > 0 and rate * time >= 1):
@@ -163,7 +163,7 @@ def none_beyond(n: LineNumbers, time: arb) -> bool:
     return any(abs(n.q) * (slow * swing + slow * slow) < (1 - slow) * (1 - slow) for swing in swings)
 
 
-def _longest_period(n: LineNumbers) -> Fraction | None:
+def _longest_period(n: LineNumbers[arb]) -> Fraction | None:
     """A period beyond which there is no root; ``None`` if none is shown."""
     if not (n.gamma > 0 and slowest_decay(n) > 0):
         return None

@@ -18,13 +18,13 @@ from flint import arb, arb_series
 
 from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.block_orbits import inside
-from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
+from carom.proofs.claims import Claim, Document, Evidence, NotShownError, claim_of
 from carom.proofs.courses import OrbitCourse, Return
 from carom.proofs.krawczyk import System, box_of, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import point_seeds
-from carom.proofs.series import first, real, terms
+from carom.proofs.series import Ball, first, real, terms
 from carom.proofs.steady import rub_balance, rub_discriminant, wall_condition
 
 
@@ -43,7 +43,7 @@ class PointKind(NamedTuple):
 
     unknowns: tuple[str, ...]
     words: str
-    vanishes: Callable[[Any], Any]
+    vanishes: Callable[..., Any]
 
 
 _STEADY, _PERIOD, _ORBIT = ("value",), ("period", "value"), ("period", "radial_speed", "value")
@@ -126,8 +126,8 @@ def point_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, f
     return claims
 
 
-def _all_searched(line: Line) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = []
+def _all_searched(line: Line) -> list[Document]:
+    found: list[Document] = []
     shown: dict[tuple[str, str], list[ProofPoint]] = {}
     for kind, label, at in point_seeds(line):
         if kind not in KINDS:
@@ -142,7 +142,7 @@ def _all_searched(line: Line) -> list[dict[str, Any]]:
     return found
 
 
-def _searched(line: Line, kind: str, label: str, guess: list[float]) -> dict[str, Any]:
+def _searched(line: Line, kind: str, label: str, guess: list[float]) -> Document:
     """Centre and width of a box with exactly one zero; no centre if none is found."""
     entry, found = {"kind": kind, "label": label, "near": guess}, found_zero(_system(line, kind), guess)
     if found is None or not _in_range(line, dict(zip(KINDS[kind].unknowns, found[1], strict=True))):
@@ -158,7 +158,7 @@ def _statement(line: Line, kind: str) -> str:
     return f"Along {line.name}, {KINDS[kind].words}, at exactly one point of the box that is given, and there at these values."
 
 
-def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> ProofPoint:
+def _shown(line: Line, label: str, entry: Document) -> ProofPoint:
     """The point of an entry, if it shows one."""
     found = shown_zero(_system(line, entry["kind"]), entry)
     if found is None:
@@ -169,7 +169,7 @@ def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> ProofPoint:
     return point
 
 
-def _claims_of(point: ProofPoint, entry: Mapping[str, Any]) -> list[Claim]:
+def _claims_of(point: ProofPoint, entry: Document) -> list[Claim]:
     boxes = {f"{name} box": ball for name, ball in zip(point.at, box_of(entry), strict=True)}
     claims = [point.claim("", _statement(point.line, point.kind), 1, "", **point.at, **boxes)]
     try:
@@ -219,13 +219,13 @@ class ProofPoint:
         """Whether both may be one zero: nothing tells them apart."""
         return all(ball.overlaps(other.at[name]) for name, ball in self.at.items())
 
-    def moved(self, period_rate: arb | int = 0, by: int = 1) -> Return:
+    def moved(self, period_rate: arb | int = 0, by: int = 1) -> Return[arb_series]:
         """The return of the orbit as a power series of the parameter; with ``by`` zero of its period alone."""
         value = arb_series([self.at["value"], by])
         return Return(self.line.at(value), arb_series([self.at["period"], period_rate]))
 
     @cached_property
-    def course(self) -> OrbitCourse:
+    def course(self) -> OrbitCourse[arb]:
         """The orbit there."""
         back = Return(self.line.at(self.at["value"]), self.at["period"])
         if self.kind == "non-smooth-hopf":
@@ -239,7 +239,7 @@ class ProofPoint:
     def rates(self) -> tuple[arb, arb]:
         """``T'`` and ``ṙ'`` along the branch; not finite at a fold."""
 
-        def closing(period: Any, speed: Any, value: Any) -> tuple[Any, Any]:
+        def closing(period: Any, speed: Any, value: Any) -> tuple[Ball, Ball]:
             moved = OrbitCourse(Return(self.line.at(value), period), speed)
             return moved.back.closing, moved.balance
 

@@ -23,7 +23,7 @@ from carom.parameters import Field, own_size, read_quantity
 from carom.parameters.quantities import read_exact
 from carom.proofs import levitation_claims, state_claims
 from carom.proofs.balls import at_precision
-from carom.proofs.claims import Claim, Evidence, NotShownError, Proof, claim_of, rational_of
+from carom.proofs.claims import Claim, Document, Evidence, NotShownError, Proof, claim_of, rational_of
 from carom.proofs.families import FAMILIES, KICKS
 from carom.proofs.hypotheses import Given, Hypotheses, StatedEquations, hypotheses_of, written_exactly
 from carom.proofs.kick_claims import BOX_NOT_CLAIMED, BOX_THEOREM, NOT_CLAIMED, kick_claims, options_of
@@ -38,7 +38,7 @@ from carom.proofs.steady import steady_claims
 from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
 
-Options = Mapping[str, Any]
+Options = Document
 MOST_PLACES = 4
 """Periods that a reason names."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from carom.base.arguments import Count, checked, whole
 from carom.base.outcome import InputError, shown
@@ -126,7 +126,7 @@ def prove_disc(
         tree = search(disc, seconds, limits.workers or available_cores(), tell)
         claims = claims_of(disc, tree)
     tell(1.0)
-    options: dict[str, Any] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
+    options: dict[str, object] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
     if box:
         options["box"] = [list(entry) for entry in box]
     theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (family.about, NOT_CLAIMED)

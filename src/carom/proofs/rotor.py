@@ -16,55 +16,55 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple
 
-from flint import arb, arb_series, ctx
+from flint import arb, ctx
 
 from carom.proofs.balls import ball_of, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import LineNumbers
+from carom.proofs.series import N
 
 TOO_LARGE = "the product of its multipliers is 1 or more in modulus"
 
 
-class Invariants(NamedTuple):
+class Invariants(NamedTuple, Generic[N]):
     """Trace, sum of the principal minors and determinant of the derivative of the impact map on an orbit."""
 
-    trace: Any
-    minors: Any
-    determinant: Any
+    trace: N
+    minors: N
+    determinant: N
 
     @classmethod
-    def of(cls, rows: list[list[Any]], determinant: Any) -> Invariants:
+    def of(cls, rows: list[list[N]], determinant: N) -> Invariants[N]:
         """Invariants of a matrix of balls whose determinant is known in closed form."""
-        minors = arb(0)
-        for a, b in ((0, 1), (0, 2), (1, 2)):
-            minors += rows[a][a] * rows[b][b] - rows[a][b] * rows[b][a]
-        return cls(rows[0][0] + rows[1][1] + rows[2][2], minors, determinant)
+        a, b, c = rows
+        minors = (a[0] * b[1] - a[1] * b[0]) + (a[0] * c[2] - a[2] * c[0]) + (b[1] * c[2] - b[2] * c[1])
+        return cls(a[0] + b[1] + c[2], minors, determinant)
 
     @property
-    def at_one(self) -> arb:
+    def at_one(self) -> N:
         """Characteristic polynomial at 1: zero at a fold."""
         return 1 - self.trace + self.minors - self.determinant
 
     @property
-    def slope_at_one(self) -> arb_series:
+    def slope_at_one(self) -> N:
         """``3 − 2τ + m``, the derivative of that polynomial at 1: positive if all multipliers are inside the unit circle."""
         return 3 - self.trace * 2 + self.minors
 
     @property
-    def at_minus_one(self) -> Any:
+    def at_minus_one(self) -> N:
         """``det(J + 1)``: zero at a period doubling."""
         return 1 + self.trace + self.minors + self.determinant
 
     @property
-    def of_pairs(self) -> Any:
+    def of_pairs(self) -> N:
         """Product of ``1 − λⱼλₖ`` over the pairs of multipliers: zero at a Neimark–Sacker bifurcation."""
         return 1 - self.minors + self.determinant * (self.trace - self.determinant)
 
     @property
-    def conditions(self) -> dict[str, Any]:
+    def conditions(self) -> dict[str, N]:
         """Conditions of Schur and Cohn: the orbit is stable if all are positive, unstable for this reason if one is negative."""
         return {
             TOO_LARGE: 1 - self.determinant,

@@ -37,9 +37,9 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
     return numbers.replace(**changes)
 
 
-def doubles_at(numbers: LineNumbers, phase: float) -> Parameters:
+def doubles_at(numbers: LineNumbers[arb], phase: float) -> Parameters:
     """Parameters next to numbers of the equations."""
-    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in numbers._asdict().items()}
+    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in vars(numbers).items()}
     return Parameters(omega=math.sqrt(values.pop("omega_squared")), phi=phase, **values)
 
 

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 from flint import acb, acb_series, arb, arb_series, ctx, fmpq
 
 I = acb(0, 1)  # noqa: E741  (the imaginary unit)
 Ball = arb | arb_series
 ComplexBall = acb | acb_series
+N = TypeVar("N", arb, arb_series)
 _SERIES = (arb_series, acb_series)
 _REACH = 4
 """Largest ``|D t²|`` at which the functions of :func:`hyperbolic` are summed as power series."""
@@ -35,29 +36,29 @@ def terms(number: int) -> Iterator[None]:
         ctx.cap = before
 
 
-def first(x: Any) -> Any:
+def first(x: Ball | ComplexBall) -> Any:
     """The ball itself, or the constant term of a series."""
     return x[0] if isinstance(x, _SERIES) else x
 
 
-def real(x: Any) -> Any:
+def real(x: Ball | ComplexBall) -> Any:
     """Real part."""
     if isinstance(x, acb):
         return x.real
     return arb_series([c.real for c in x.coeffs()]) if isinstance(x, acb_series) else x
 
 
-def imaginary(x: acb | acb_series) -> Any:
+def imaginary(x: ComplexBall) -> Any:
     """Imaginary part of a complex number."""
     return x.imag if isinstance(x, acb) else arb_series([c.imag for c in x.coeffs()])
 
 
-def conjugate(x: Any) -> Any:
+def conjugate(x: ComplexBall) -> ComplexBall:
     """Conjugate of a complex number."""
     return x.conjugate() if isinstance(x, acb) else acb_series([c.conjugate() for c in x.coeffs()])
 
 
-def squared(x: acb | acb_series) -> Any:
+def squared(x: ComplexBall) -> Any:
     """``|z|²``."""
     a, b = real(x), imaginary(x)
     return a * a + b * b
@@ -76,7 +77,7 @@ def narrower(one: arb, other: arb) -> arb:
 # ------------------------------------------------------------------------------------------------ flight
 
 
-def hyperbolic(split: arb | arb_series, time: arb | arb_series) -> tuple[Any, Any]:
+def hyperbolic(split: Ball, time: Ball) -> tuple[Any, Any]:
     """``cosh(√D t)`` and ``sinh(√D t)/√D`` for real ``D``; both are entire functions of ``D``.
 
     The result is not finite where ``D`` may vanish and ``D t²`` is large.
@@ -115,7 +116,7 @@ def _hyperbolic_sums(square: arb | arb_series, time: Ball) -> tuple[Ball, Ball]:
     left_out: Ball = rest
     if isinstance(square, arb_series):
         step: Ball = square - square[0]
-        power: Any = arb(1)
+        power: Ball = arb(1)
         for _ in range(1, ctx.cap):
             power = power * step
             left_out = left_out + power * rest
@@ -125,7 +126,7 @@ def _hyperbolic_sums(square: arb | arb_series, time: Ball) -> tuple[Ball, Ball]:
 # ------------------------------------------------------------------------------------------------ return of the flight
 
 
-def short_return(half: Any, split: Any, period: Any) -> tuple[Any, Any] | None:
+def short_return(half: ComplexBall, split: Ball, period: Ball) -> tuple[ComplexBall, ComplexBall] | None:
     """``a₁₂`` and ``a₂₂`` of a short period by the series of Bernoulli numbers; ``None`` where it does not serve.
 
     With ``1/(e^{−z} − 1) = −1/z − 1/2 − Σ B₂ₖ z^{2k−1}/(2k)!``, the complete symmetric polynomials ``hₙ`` of the exponents,
@@ -155,8 +156,10 @@ def short_return(half: Any, split: Any, period: Any) -> tuple[Any, Any] | None:
         return None
     count = int(ctx.prec / -float(ratio.log() / arb(2).log())) + 2
     rest = 8 * count * ratio**count / (1 - ratio) ** 2 / longest / time
-    square, power, even, odd = period * period, period, acb(1), total
-    place = turn = acb(0)
+    square, power, odd = period * period, period, total
+    even: ComplexBall = acb(1)
+    place: ComplexBall = acb(0)
+    turn: ComplexBall = acb(0)
     for k in range(1, count):
         factor = _bernoulli(k) * power
         place, turn = place + factor * even, turn + factor * odd

@@ -18,19 +18,19 @@ from typing import Any
 from flint import acb, arb, arb_mat
 
 from carom.proofs.balls import decided, enclosure_of
-from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of
+from carom.proofs.claims import Claim, Document, Evidence, NotShownError, claim_of
 from carom.proofs.flights import stays_inside
 from carom.proofs.krawczyk import found_zero, shown_zero
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants, ProvenRotor
 from carom.proofs.seeds import shooting_seeds
-from carom.proofs.series import Ball, I, conjugate, imaginary, real, squared
+from carom.proofs.series import Ball, ComplexBall, I, conjugate, imaginary, real, squared
 
 UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
 """Unknowns of each impact, in their order."""
 
 
-def equations_of(n: LineNumbers, *unknowns: Ball) -> list[Ball]:
+def equations_of(n: LineNumbers[arb], *unknowns: Ball) -> list[Ball]:
     """Differences between the end of each flight and the state before the next impact."""
     impacts = [unknowns[k : k + 4] for k in range(0, len(unknowns), 4)]
     found = []
@@ -42,7 +42,7 @@ def equations_of(n: LineNumbers, *unknowns: Ball) -> list[Ball]:
     return found
 
 
-def _leaving(n: LineNumbers, impact: Sequence[Any]) -> tuple[Any, Any]:
+def _leaving(n: LineNumbers[arb], impact: Sequence[Ball]) -> tuple[ComplexBall, ComplexBall]:
     """Distance from the contact-free equilibrium, and velocity, just after an impact."""
     place = (impact[0] * I).exp()
     return place - n.levitation, (impact[1] + impact[2] * I - impact[1] * n.q) * place
@@ -60,8 +60,8 @@ class ShootingOrbit:
         Enclosures of :data:`UNKNOWNS`.
     """
 
-    numbers: LineNumbers
-    impacts: tuple[tuple[Any, ...], ...]
+    numbers: LineNumbers[arb]
+    impacts: tuple[tuple[arb, ...], ...]
 
     @property
     def period(self) -> arb:
@@ -86,11 +86,11 @@ class ShootingOrbit:
             found.append(self._flight_inside(here, there))
         return False if False in found else None if None in found else True
 
-    def _flight_inside(self, here: Sequence[Any], there: Sequence[Any]) -> bool | None:
+    def _flight_inside(self, here: Sequence[arb], there: Sequence[arb]) -> bool | None:
         n, target = self.numbers, (there[0] * I).exp()
         starts = _leaving(n, here), (target - n.levitation, (there[1] + there[2] * I) * target)
 
-        def height(time: Any, backward: bool) -> Any:
+        def height(time: Ball, backward: bool) -> Any:
             return squared(n.fly(*starts[backward], time)[0] + n.levitation) - 1
 
         return stays_inside(height, height, here[3], (2 * n.d * here[1], 2 * there[1]))
@@ -102,7 +102,7 @@ class ShootingOrbit:
             product = self._step(here, there) * product
         return product
 
-    def _step(self, here: tuple[arb, arb, arb, arb], there: tuple[arb, arb, arb, arb]) -> arb_mat:
+    def _step(self, here: Sequence[arb], there: Sequence[arb]) -> arb_mat:
         """Derivative of the impact map, with the change of the time of impact."""
         n, place, target = self.numbers, (here[0] * I).exp(), (there[0] * I).exp()
         local = there[1] + there[2] * I
@@ -117,7 +117,7 @@ class ShootingOrbit:
             columns.append((turned, real(change), imaginary(change)))
         return arb_mat([[column[row] for column in columns] for row in range(3)])
 
-    def margins(self) -> dict[str, Any]:
+    def margins(self) -> dict[str, arb]:
         """Conditions of stability (:attr:`~carom.proofs.rotor.Invariants.conditions`)."""
         n = self.numbers
         determinant = n.d ** (2 * len(self.impacts)) * (-2 * n.gamma * self.period).exp()
@@ -153,7 +153,7 @@ def several_impact_claims(rotor: ProvenRotor, evidence: Evidence, options: Mappi
     return claims
 
 
-def _searched(rotor: ProvenRotor, impacts: int) -> Iterator[dict[str, Any]]:
+def _searched(rotor: ProvenRotor, impacts: int) -> Iterator[Document]:
     """Centres and widths of boxes with exactly one solution, each orbit once."""
     known: list[ShootingOrbit] = []
     system = partial(equations_of, rotor.numbers)
@@ -168,7 +168,7 @@ def _searched(rotor: ProvenRotor, impacts: int) -> Iterator[dict[str, Any]]:
         yield found[0]
 
 
-def _orbit_of(numbers: LineNumbers, balls: Sequence[arb]) -> ShootingOrbit:
+def _orbit_of(numbers: LineNumbers[arb], balls: Sequence[arb]) -> ShootingOrbit:
     return ShootingOrbit(numbers, tuple(tuple(balls[k : k + 4]) for k in range(0, len(balls), 4)))
 
 
@@ -188,7 +188,7 @@ def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
     return False
 
 
-def _shown(numbers: LineNumbers, name: str, entry: Mapping[str, Any]) -> ShootingOrbit:
+def _shown(numbers: LineNumbers[arb], name: str, entry: Document) -> ShootingOrbit:
     """Enclosure of the orbit of an entry of the evidence."""
     if set(entry) != {"centre", "width"}:
         raise NotShownError(f"the certificate must give a centre and a width of {name}")

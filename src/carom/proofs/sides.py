@@ -42,7 +42,7 @@ class Side(NamedTuple):
     rim: arb
 
     @classmethod
-    def of(cls, numbers: LineNumbers) -> Side:
+    def of(cls, numbers: LineNumbers[arb_series]) -> Side:
         """From numbers that are power series of two terms, the second one by half the width of the parameter."""
         n = numbers
         apart = ((n.omega_squared - 1) * (n.omega_squared - 1) + n.gamma * n.gamma).sqrt()
@@ -59,7 +59,7 @@ class Responses(NamedTuple):
     push_rate: arb
 
 
-def responses_by(numbers: LineNumbers, sides: Sequence[Side], time: arb) -> list[Responses]:
+def responses_by(numbers: LineNumbers[arb], sides: Sequence[Side], time: arb) -> list[Responses]:
     """The derivatives by each parameter at a time, or on an interval of times."""
     half, split, gamma, stiff = numbers.gamma / 2, numbers.split, numbers.gamma, numbers.omega_squared
     even, odd = hyperbolic(split, time)

@@ -50,7 +50,7 @@ STATEMENT = (
 )
 
 
-def slip_claim(n: LineNumbers, statement: str = STATEMENT) -> Claim:
+def slip_claim(n: LineNumbers[arb], statement: str = STATEMENT) -> Claim:
     """Claim that no orbit with one impact a period stops its slip or slips backward; of one machine, or all that balls hold."""
     if n.mu.is_zero():
         return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
@@ -61,7 +61,7 @@ def slip_claim(n: LineNumbers, statement: str = STATEMENT) -> Claim:
     return claim_of("machine", "slip", statement, int(shown), reason=reason, limited=False)
 
 
-def out_of_clearance(n: LineNumbers, time: Fraction) -> bool:
+def out_of_clearance(n: LineNumbers[arb], time: Fraction) -> bool:
     """Whether ``b > 1`` at a time of at most half a turn."""
     moment = rational(time)
     if not (time > 0 and moment <= arb.pi() and n.gamma >= 0):
@@ -72,7 +72,7 @@ def out_of_clearance(n: LineNumbers, time: Fraction) -> bool:
     return bool(n.radius_ratio * way - (n.omega_squared + n.rho) * moment * moment / 2 > 1)
 
 
-def candidates(rotor: ProvenRotor, periods: PeriodProof) -> Iterator[tuple[str, dict[str, OrbitCourse] | None]]:
+def candidates(rotor: ProvenRotor, periods: PeriodProof) -> Iterator[tuple[str, dict[str, OrbitCourse[arb]] | None]]:
     """Both solutions of the closing conditions at each root, or none, or ``None`` where this is undecided, with the names they would have."""
     for root in periods.roots:
         back = Return(rotor.numbers, root.ball)
@@ -84,7 +84,7 @@ def candidates(rotor: ProvenRotor, periods: PeriodProof) -> Iterator[tuple[str, 
         yield f"B{root.pair},{'/'.join(letters)}", found
 
 
-def _radial_speeds(rotor: ProvenRotor, back: Return) -> list[arb] | None:
+def _radial_speeds(rotor: ProvenRotor, back: Return[arb]) -> list[arb] | None:
     """Both radial speeds, the lower first; empty if there is none, ``None`` if that is undecided."""
     if back.discriminant < 0:
         return []
@@ -96,7 +96,7 @@ def _radial_speeds(rotor: ProvenRotor, back: Return) -> list[arb] | None:
     return list(back.speeds())
 
 
-def orbit_claims(rotor: ProvenRotor, name: str, course: OrbitCourse) -> tuple[list[Claim], Status]:
+def orbit_claims(rotor: ProvenRotor, name: str, course: OrbitCourse[arb]) -> tuple[list[Claim], Status]:
     """Claims about one orbit, and whether it is a motion of the machine."""
     solution = rotor.claim(
         name,
@@ -134,7 +134,7 @@ def orbit_claims(rotor: ProvenRotor, name: str, course: OrbitCourse) -> tuple[li
     return [*claims, _stability_claim(rotor, name, course)], status
 
 
-def _slip_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
+def _slip_claim(rotor: ProvenRotor, name: str, course: OrbitCourse[arb]) -> Claim:
     """Claim that the slip stays forward throughout the impact."""
     after = course.slip_after
     free = rotor.hypotheses.rational("mu") == (Fraction(0),)
@@ -152,7 +152,7 @@ def _slip_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def _inside_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
+def _inside_claim(rotor: ProvenRotor, name: str, course: OrbitCourse[arb]) -> Claim:
     """Claim that the orbit stays inside the wall strictly between its impacts."""
     claim = partial(rotor.claim, name, "inside", "It stays inside the wall, |U| < 1, strictly between its impacts.")
     if rotor.hypotheses.rational("d") == (Fraction(0),):
@@ -171,7 +171,7 @@ def _inside_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
 # ------------------------------------------------------------------------------------------------ stability
 
 
-def _stability_claim(rotor: ProvenRotor, name: str, course: OrbitCourse) -> Claim:
+def _stability_claim(rotor: ProvenRotor, name: str, course: OrbitCourse[arb]) -> Claim:
     """Claim that all multipliers lie inside the unit circle."""
     found = course.invariants
     conserved = rotor.hypotheses.rational("d", "gamma") == (Fraction(1), Fraction(0))

@@ -5,15 +5,15 @@ Motions that never return to levitation, such as rubs, whirl and orbits with one
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import arb
 
 from carom.parameters import Field
 from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of, rational
-from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of, rational_of
+from carom.proofs.claims import Claim, Document, Evidence, NotShownError, claim_of, rational_of
 from carom.proofs.families import read_size, unit_of
 from carom.proofs.form_search import search, shown
 from carom.proofs.forms import Surface
@@ -121,7 +121,7 @@ class LargestSpeed:
         return unit_of(self._hypotheses, "clearance", "speed")
 
 
-def state_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
+def state_claims(rotor: ProvenRotor, evidence: Evidence, options: Document) -> list[Claim]:
     """Claims from forms that are searched for or read."""
     limit = LargestSpeed(rotor.hypotheses, options["states_up_to"], SPEED)
     share = _share(rotor, evidence, limit)
@@ -139,7 +139,7 @@ def _share(rotor: ProvenRotor, evidence: Evidence, limit: LargestSpeed) -> Fract
     if not (n.gamma > 0 and n.omega_squared > 0 and n.levitation < 1):
         return None
     wall = Surface.of(n)
-    found: Any = evidence.take("forms", lambda: search(wall, limit.share(Fraction(1))))
+    found: object = evidence.take("forms", lambda: search(wall, limit.share(Fraction(1))))
     if found is None:
         return None
     if not (isinstance(found, list) and len(found) == len(("share", "traps", "limits"))):

@@ -105,25 +105,25 @@ def _claims_of_rub(rotor: ProvenRotor, name: str, side: int) -> list[Claim]:
     return [exists, pressed, attracts]
 
 
-def wall_condition(n: LineNumbers) -> arb:
+def wall_condition(n: LineNumbers[arb]) -> arb:
     """``(ω² − 1)² + γ² − ρ²``: zero where ``|U*| = 1``."""
     return squared(n.product) - n.rho * n.rho
 
 
-def rub_force(n: LineNumbers, side: int) -> arb:
+def rub_force(n: LineNumbers[arb], side: int) -> arb:
     """Normal force of a rub, the larger (1) or the smaller (−1) root, where the discriminant is positive."""
     root, half = rub_discriminant(n).sqrt(), rub_balance(n)
     # The form without cancellation where there would be some.
     return wall_condition(n) / (half - side * root) if half * side < 0 else (half + side * root) / (1 + n.mu * n.mu)
 
 
-def rub_discriminant(n: LineNumbers) -> arb:
+def rub_discriminant(n: LineNumbers[arb]) -> arb:
     """``ρ²(1 + μ²) − (γ + μκ)²``: a quarter of the discriminant of both rubs."""
     pull = n.gamma + n.mu * (1 - n.omega_squared)
     return n.rho * n.rho * (1 + n.mu * n.mu) - pull * pull
 
 
-def rub_balance(n: LineNumbers) -> arb:
+def rub_balance(n: LineNumbers[arb]) -> arb:
     """``κ − μγ``, which decides what becomes of levitation where it meets the wall."""
     return 1 - n.omega_squared - n.mu * n.gamma
 
@@ -154,7 +154,7 @@ def _kick_claim(rotor: ProvenRotor) -> Claim:
     return claim(1, speed=speed)
 
 
-def contact_free_speed(n: LineNumbers) -> arb | None:
+def contact_free_speed(n: LineNumbers[arb]) -> arb | None:
     """Speed below which kicks are harmless; ``None`` where none is shown."""
     room = 1 - n.levitation
     if not (room > 0 and n.gamma >= 0):
@@ -163,7 +163,7 @@ def contact_free_speed(n: LineNumbers) -> arb | None:
     return speed if speed.is_finite() and speed > 0 else None
 
 
-def _largest_response(n: LineNumbers) -> arb:
+def _largest_response(n: LineNumbers[arb]) -> arb:
     """``h(τ)``, the largest value of the response."""
     half, split = n.gamma / 2, n.split
     if split < 0:
@@ -181,12 +181,12 @@ def _largest_response(n: LineNumbers) -> arb:
 class Rub:
     """The stable rub: numbers of the machine, its normal force ``N*`` and its stiffness ``K`` along the wall."""
 
-    numbers: LineNumbers
+    numbers: LineNumbers[arb]
     force: arb
     stiffness: arb
 
     @classmethod
-    def of(cls, n: LineNumbers) -> Rub:
+    def of(cls, n: LineNumbers[arb]) -> Rub:
         """That of the larger normal force."""
         root = rub_discriminant(n).sqrt()
         return cls(n, (rub_balance(n) + root) / (1 + n.mu * n.mu), root)

@@ -47,32 +47,32 @@ def _holds(sign: int | None) -> bool | None:
     return sign > 0 if sign else None
 
 
-def _levitates(n: LineNumbers) -> bool | None:
+def _levitates(n: LineNumbers[arb]) -> bool | None:
     return _holds(decided(wall_condition(n)))
 
 
-def _is_pressed(n: LineNumbers, side: int) -> bool | None:
+def _is_pressed(n: LineNumbers[arb], side: int) -> bool | None:
     exists = _holds(decided(rub_discriminant(n)))
     return _holds(decided(rub_force(n, side))) if exists else exists
 
 
-def _attracts(n: LineNumbers) -> bool | None:
+def _attracts(n: LineNumbers[arb]) -> bool | None:
     pressed, damped = _is_pressed(n, 1), decided(n.gamma + 2 * n.mu)
     if pressed is False or damped < 0:
         return False
     return True if pressed and damped else None
 
 
-def _rolls(n: LineNumbers) -> bool | None:
+def _rolls(n: LineNumbers[arb]) -> bool | None:
     return _holds(rolling_sign(n))
 
 
-def _whirl_is_absent(n: LineNumbers) -> bool | None:
+def _whirl_is_absent(n: LineNumbers[arb]) -> bool | None:
     return True if drag_sign(n) == 1 else False if rolling_sign(n) == 1 else None
 
 
 _RUB = "there is a synchronous rub, with two normal forces in balance, and the wall pushes the rotor at the {} of them"
-_KINDS: tuple[tuple[str, str, str, Callable[[LineNumbers], bool | None]], ...] = (
+_KINDS: tuple[tuple[str, str, str, Callable[[LineNumbers[arb]], bool | None]], ...] = (
     ("whirl", "rolls", "the rotor can roll on the wall without slip, backward, for ever", _rolls),
     ("whirl", "absent", BACKWARD, _whirl_is_absent),
     ("levitation", "inside", "the contact-free equilibrium lies inside the wall, |U*| < 1", _levitates),

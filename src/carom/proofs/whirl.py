@@ -20,6 +20,7 @@ repeats after a turn.  At ``ν`` times the speed of the shaft ``γ`` is ``γ/ν`
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any, cast
 
 from flint import arb
 
@@ -46,13 +47,13 @@ def whirl_claims(rotor: ProvenRotor) -> list[Claim]:
     ]
 
 
-def exact_numbers(rotor: ProvenRotor) -> LineNumbers:
+def exact_numbers(rotor: ProvenRotor) -> LineNumbers[arb]:
     """The numbers as fractions, if all that count here are rational; else as balls."""
     given = rotor.hypotheses.rational(*_NAMES)
     if given is None:
         return rotor.numbers
     gamma, stiffness, rho, mu, ratio = given
-    return LineNumbers(gamma, stiffness, rho, mu, Fraction(0), ratio)
+    return cast("LineNumbers[arb]", LineNumbers(gamma, stiffness, rho, mu, Fraction(0), ratio))
 
 
 def sign_of(value: arb | Fraction) -> int | None:
@@ -62,30 +63,30 @@ def sign_of(value: arb | Fraction) -> int | None:
     return 0 if value.is_zero() else decided(value) or None
 
 
-def rolling_force(n: LineNumbers) -> arb:
+def rolling_force(n: LineNumbers[arb]) -> arb:
     """``A = s² − ω²``, the mean normal force of rolling."""
     return n.radius_ratio * n.radius_ratio - n.omega_squared
 
 
-def excitation_of(n: LineNumbers) -> arb:
+def excitation_of(n: LineNumbers[arb]) -> arb:
     """``p = ρ√(1 + μ²)`` as a ball."""
     return n.rho * (1 + n.mu * n.mu).sqrt()
 
 
-def _against_pull(value: arb | Fraction, n: LineNumbers) -> int | None:
+def _against_pull(value: arb | Fraction, n: Any) -> int | None:
     """Sign of a value less ``p``, exactly for fractions."""
     if isinstance(value, Fraction):
         return -1 if value < 0 else sign_of(value * value - n.rho * n.rho * (1 + n.mu * n.mu))
     return sign_of(value - excitation_of(n))
 
 
-def rolling_signs(n: LineNumbers) -> tuple[int | None, int | None]:
+def rolling_signs(n: LineNumbers[arb]) -> tuple[int | None, int | None]:
     """Signs of ``A − ρ`` and of ``μA − |γ|s − p``: rolling is pressed, and held."""
     force = rolling_force(n)
     return sign_of(force - n.rho), _against_pull(n.mu * force - abs(n.gamma) * n.radius_ratio, n)
 
 
-def rolling_sign(n: LineNumbers) -> int | None:
+def rolling_sign(n: LineNumbers[arb]) -> int | None:
     """1 if rolling lasts, −1 if it does not."""
     pressed, held = rolling_signs(n)
     if pressed in (0, -1) or held == -1:
@@ -93,7 +94,7 @@ def rolling_sign(n: LineNumbers) -> int | None:
     return 1 if pressed == 1 and held in (0, 1) else None
 
 
-def drag_sign(n: LineNumbers) -> int | None:
+def drag_sign(n: LineNumbers[arb]) -> int | None:
     """1 if ``γ ≥ 0`` and ``γs > μA``: no backward whirl on the wall repeats; else −1."""
     damping, excess = sign_of(n.gamma), sign_of(n.gamma * n.radius_ratio - n.mu * rolling_force(n))
     if damping == -1 or excess in (0, -1):
@@ -110,7 +111,7 @@ def _claim(rotor: ProvenRotor, kind: str, statement: str, sign: int | None, reas
     return claim_of("whirl", kind, statement, sign or 0, reason=shown, enclosures=numbers, limited=limited)
 
 
-def _rolling_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
+def _rolling_claim(rotor: ProvenRotor, exact: LineNumbers[arb]) -> Claim:
     n, sign = rotor.numbers, rolling_sign(exact)
     pressed, _ = rolling_signs(exact)
     reason = "the wall would have to pull" if pressed in (0, -1) else "friction is too weak"
@@ -127,7 +128,7 @@ def _rolling_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     )
 
 
-def _attraction_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
+def _attraction_claim(rotor: ProvenRotor, exact: LineNumbers[arb]) -> Claim:
     """Faster than ``w_c`` slides gain speed; faster than rolling they lose it, at a rate that rolling bounds."""
     n, (_, held), rolls = rotor.numbers, rolling_signs(exact), rolling_sign(exact)
     speed = attracting_speed(n)
@@ -143,19 +144,19 @@ def _attraction_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     )
 
 
-def attracting_speed(n: LineNumbers) -> arb:
+def attracting_speed(n: LineNumbers[arb]) -> arb:
     """Speed of backward whirl from which on slides gain speed and contact is kept, as a ball."""
     speed = sustaining_speed(n, excitation_of(n))
     # With damping that is not negative contact asks for no more.
     return speed if n.gamma >= 0 else speed.max((n.omega_squared + n.rho).sqrt())
 
 
-def sustaining_speed(n: LineNumbers, excitation: arb | int) -> arb:
+def sustaining_speed(n: LineNumbers[arb], excitation: arb | int) -> arb:
     """Larger root ``w`` of ``μ(w² − ω²) − γw = excitation``, as a ball."""
     return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + excitation)).sqrt()) / (2 * n.mu)
 
 
-def _absence_claim(rotor: ProvenRotor, exact: LineNumbers, rolls: bool) -> Claim:
+def _absence_claim(rotor: ProvenRotor, exact: LineNumbers[arb], rolls: bool) -> Claim:
     statement = f"Dry-friction whirl in lasting contact is absent: {BACKWARD}."
     if rolls:
         return _claim(rotor, "absent", statement, -1, "the rotor can roll")
@@ -164,7 +165,7 @@ def _absence_claim(rotor: ProvenRotor, exact: LineNumbers, rolls: bool) -> Claim
     return _claim(rotor, "absent", statement, 0 if sign == -1 else sign, reason)
 
 
-def _below_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
+def _below_claim(rotor: ProvenRotor, exact: LineNumbers[arb]) -> Claim:
     """Claim for all speeds of the shaft below a share of the present one; for all speeds without friction."""
     n, damping, friction = rotor.numbers, sign_of(exact.gamma), sign_of(exact.mu)
     words = "With its damping and stiffness, at every speed of the shaft"
@@ -180,4 +181,4 @@ def _below_claim(rotor: ProvenRotor, exact: LineNumbers) -> Claim:
     if given.table == "machine":
         numbers["speed_si"] = share * ball_of(read_exact(MACHINE_FIELDS["speed"], given.values["speed"]))
     shown = n.gamma >= 0 and share.is_finite() and share > 0
-    return _claim(rotor, "absent below", below, 1 if shown else None, **numbers)
+    return _claim(rotor, "absent below", below, 1 if shown else None, "", **numbers)
