@@ -9,12 +9,11 @@ from machines import random_parameters
 from carom.bifurcations.conditions import conditions_at, jacobian_at, profile_at
 from carom.orbits import find_orbits
 from carom.parameters import Numbers as Doubles
-from carom.proofs.balls import at_precision
+from carom.proofs.balls import at_precision, hyperbolic, short_return, squared, terms
 from carom.proofs.courses import OrbitCourse, Return, period_condition
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.series import hyperbolic, short_return, squared, terms
 
 
 def balls(parameters) -> LineNumbers:

@@ -17,11 +17,11 @@ from carom.parameters import Numbers as Doubles
 from carom.proofs import check, hypotheses_of, prove
 from carom.proofs.balls import at_precision, exact_ends
 from carom.proofs.claims import Evidence, NotShownError
-from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import line_of
 from carom.proofs.points import _searched, _system, point_claims
 from carom.proofs.proving import proof_of
 from carom.proofs.rotor import ProvenRotor
+from carom.proofs.zeros import enclosed_zero, newton
 
 KNOWN = {
     "boundary-equilibrium of contact-free": "0.07246867866709798125333961",

@@ -16,9 +16,9 @@ from carom.orbits import Section, impact_map
 from carom.proofs import check, hypotheses_of, prove
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Evidence, NotShownError
-from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.several_impacts import ShootingOrbit, equations_of, several_impact_claims
+from carom.proofs.zeros import enclosed_zero, newton
 
 NEAR_DOUBLING = PAPER.replace(gamma=0.0832)
 """Just below the period doubling of B1,d, which is supercritical."""

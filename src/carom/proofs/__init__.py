@@ -2,22 +2,19 @@
 
 =====================  ==================================================================================================
 ``hypotheses``         the numbers of a machine exactly as they are given, or the equations of any rotor
-``balls``              exact numbers to balls, balls to decimal enclosures
+``balls``              exact numbers to balls, balls to decimal enclosures; functions of balls and of power series of balls
 ``rotor``              a rotor whose numbers are balls, and the conditions of stability
-``cells``              signs of an analytic function on intervals
 ``periods``            all roots of ``F₁``
 ``single_impact``      orbits with one impact a period: existence, course, slip, stability
 ``steady``             levitation, harmless kicks, rubs and what acts along the wall next to one
 ``whirl``              rolling in backward whirl, what leads to it, and where there is none
-``series``             functions of balls and of power series of balls
-``courses``            orbits with one impact a period with their derivatives
-``krawczyk``           zeros of systems, enclosed and unique
+``courses``            orbits with one impact a period with their derivatives; whether a flight stays inside the wall
+``zeros``              zeros of a function on intervals, and of systems, enclosed and unique
 ``lines``              numbers of the equations; machines that differ in one, and where something holds
 ``blocks``             an orbit on an interval of a parameter, by mean value forms
 ``block_orbits``       all orbits on such an interval
 ``ranges``             claims about an interval of a parameter
 ``points``             bifurcation points along a parameter
-``flights``            whether a flight stays inside the wall
 ``several_impacts``    motions with several impacts a period, by shooting
 ``seeds``              what is looked at, found in double precision
 ``claims``             claims, proofs and evidence, which a search found, so that a check need not

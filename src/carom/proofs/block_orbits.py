@@ -23,13 +23,11 @@ from typing import Any
 
 from flint import arb, arb_series
 
-from carom.proofs.balls import decided
+from carom.proofs.balls import Ball, decided, hull, terms
 from carom.proofs.blocks import Block, BlockBranch, BlockOrbitBranch, OpenError, slopes_on
-from carom.proofs.courses import OrbitCourse, period_condition
-from carom.proofs.flights import NARROWEST, stays_inside
+from carom.proofs.courses import NARROWEST, OrbitCourse, period_condition, stays_inside
 from carom.proofs.lines import LineNumbers
 from carom.proofs.periods import none_beyond, slowest_decay
-from carom.proofs.series import Ball, hull, terms
 
 Along = Callable[[Callable[[OrbitCourse[Any]], Any]], arb]
 Cell = tuple[float, float]
@@ -113,7 +111,7 @@ def _longest(n: LineNumbers[arb]) -> float:
 def _start(n: LineNumbers[arb]) -> tuple[float, int]:
     """Period up to which ``F₁`` keeps the sign that it has next to zero, and this sign.
 
-    ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + …``, and by the series of :func:`~carom.proofs.series.short_return` the terms from
+    ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + …``, and by the series of :func:`~carom.proofs.balls.short_return` the terms from
     the ``k``-th on are at most ``8k x^k/((1 − x)²LT)`` times ``|q|``, ``x = (LT/6)²``.
     """
     base, slope = (1 - n.d) / 2, (1 + n.d) * (n.gamma - 2 * n.mu) / 12

@@ -15,9 +15,9 @@ from typing import NamedTuple, TypeVar
 from flint import arb, arb_series
 
 from carom.base.outcome import CaromError
+from carom.proofs.balls import hull, narrower, terms
 from carom.proofs.courses import OrbitCourse, Return, period_condition
 from carom.proofs.lines import Line, LineNumbers
-from carom.proofs.series import hull, narrower, terms
 
 _Known = TypeVar("_Known")
 

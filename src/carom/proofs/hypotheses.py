@@ -206,9 +206,8 @@ def _from_file(path: str | os.PathLike[str], settings: list[str], needs: list[st
     problems.raise_all()
     terms = [name for name in texts if name not in PARAMETERS]
     case = load(path, [f"{name}={text}" for name, text in texts.items()] + pull if terms else pull)
-    exact_rotor_of(
-        case
-    )  # what is proven is of planar rotors without weight and limits, in a rigid wall that stands still, at a constant speed
+    # What is proven is of planar rotors without weight and limits, in a rigid wall that stands still, at a constant speed.
+    exact_rotor_of(case)
     values = {name: written_exactly(value) for name, value in case.written.items()}
     given = {name: text for name, text in texts.items() if name not in terms}
     if not case.given:

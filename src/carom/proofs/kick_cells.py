@@ -19,12 +19,11 @@ from flint import arb, arb_series
 
 from carom.base.outcome import InputError
 from carom.parameters.terms import conflicts
-from carom.proofs.balls import interval, rational
+from carom.proofs.balls import Ball, interval, rational, terms
 from carom.proofs.claims import NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Line, Machines, line_of
 from carom.proofs.passages import REASONS
-from carom.proofs.series import Ball, terms
 from carom.proofs.sides import Side
 
 Part = tuple[int, int]

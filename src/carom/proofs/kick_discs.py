@@ -17,7 +17,7 @@ from carom.models import Rotor, jeffcott
 from carom.motions import settle
 from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
-from carom.proofs.balls import ball_of, rational
+from carom.proofs.balls import ball_of, rational, terms
 from carom.proofs.families import FAMILIES, KICKS, DisturbanceFamily, Scale
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Box, Cell, Part, box_of, whole
@@ -26,7 +26,6 @@ from carom.proofs.passages import GRAZE, OUTSIDE, LeftOpenError
 from carom.proofs.patches import Held, Patch
 from carom.proofs.recoveries import disturbed, disturbed_in_box, impacts_of, show_in_rub
 from carom.proofs.seeds import doubles_at
-from carom.proofs.series import terms
 
 DiscData = tuple[str, str, str, int, tuple[tuple[str, ...], ...]]
 _KEPT = 4096

@@ -20,10 +20,9 @@ from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERM_FIELDS, 
 from carom.parameters.fields import unknown_name
 from carom.parameters.quantities import read_exact
 from carom.parameters.terms import ENTRIES
-from carom.proofs.balls import Enclosure, ball_of, exact_ends, interval
+from carom.proofs.balls import Ball, ComplexBall, Enclosure, I, N, ball_of, exact_ends, hyperbolic, interval
 from carom.proofs.claims import Claim, Status
 from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
-from carom.proofs.series import Ball, ComplexBall, I, N, hyperbolic
 
 
 @dataclass(frozen=True)
@@ -97,7 +96,8 @@ class Machines:
         found: dict[str, Any] = dict(self._balls)
         machine = {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
         if machine:
-            found |= {**dimensionless_of(self.table(machine)), **self._set}
+            set_ = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings} & set(NUMBERS)
+            found |= {**dimensionless_of(self.table(machine)), **{name: found[name] for name in set_}}
         found |= {name: value for name, value in moved.items() if name in DIMENSIONLESS_FIELDS and name != "omega"}
         if "omega" in moved:
             found["omega_squared"] = moved["omega"] * moved["omega"]
@@ -120,12 +120,6 @@ class Machines:
     @cached_property
     def _balls(self) -> dict[str, arb]:
         return {name: ball_of(self.hypotheses.numbers[name]) for name in NUMBERS}
-
-    @cached_property
-    def _set(self) -> dict[str, arb]:
-        """Numbers that do not follow from the machine's table."""
-        names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
-        return {name: ball for name, ball in self._balls.items() if name in names}
 
     @cached_property
     def _machine(self) -> dict[str, arb]:

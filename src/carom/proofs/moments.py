@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 NOTHING = cast("MeanValueForm", 0)
 """Exactly zero: what is multiplied by it costs nothing."""
-_UNIT = arb(0, 1)
+UNIT = arb(0, 1)
+"""All numbers from −1 to 1."""
 
 
 class MeanValueForm:
@@ -43,7 +44,7 @@ class MeanValueForm:
         size = arb(0)
         for slope in by:
             size = size + abs(slope)
-        near = at + size * _UNIT
+        near = at + size * UNIT
         self.every = near if every is None or not near.overlaps(every) else near.intersection(every)
 
     def __add__(self, other: MeanValueForm | arb | int) -> MeanValueForm:
@@ -121,8 +122,6 @@ class Pair:
         return Pair(self.real, -self.imag)
 
 
-UNIT = arb(0, 1)
-"""All numbers from −1 to 1."""
 FORM = 5
 """Spans by where in the cell a kick is, those of first and second order; then come those of the parameters of a box of rotors."""
 Wave = tuple[arb | acb, arb | acb, acb]

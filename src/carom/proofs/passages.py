@@ -26,9 +26,9 @@ from itertools import pairwise
 from flint import arb
 
 from carom.base.outcome import CaromError
+from carom.proofs.balls import hull
 from carom.proofs.moments import UNIT, dot
 from carom.proofs.patches import PatchDeparture
-from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64
 """Steps of time to begin with, and at which the wall is looked for, in ``1/Ω``."""

@@ -27,9 +27,9 @@ from functools import cached_property
 
 from flint import acb, arb
 
+from carom.proofs.balls import I, hyperbolic
 from carom.proofs.lines import LineNumbers
 from carom.proofs.moments import FORM, UNIT, Moment, Wave, Waves
-from carom.proofs.series import I, hyperbolic
 from carom.proofs.sides import Side, responses_by
 from carom.proofs.starts import DisturbedStart, KickStart, Plain, Response
 from carom.proofs.steady import Rub

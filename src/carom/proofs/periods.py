@@ -8,35 +8,25 @@ damping ``f' = (λ₊e^{λ₊T} − λ₋e^{λ₋T})/√Δ`` gives ``|f'| ≤ e^
 **Next to zero** ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + O(T³)`` and ``P = |χ|²T⁴(1 + O(T))F₁``: the first coefficient that
 is not zero decides.
 
-**In between** the cells of :mod:`carom.proofs.cells` tile the interval.  On each, ``P`` keeps its sign or is monotone, and
+**In between** the cells of :mod:`carom.proofs.zeros` tile the interval.  On each, ``P`` keeps its sign or is monotone, and
 then its signs at the ends count its zeros.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, floor
 
 from flint import acb, arb, arb_series
 
-from carom.proofs.balls import exact_ends, interval
-from carom.proofs.cells import (
-    NEGATIVE,
-    OPEN,
-    POSITIVE,
-    Analytic,
-    CellTree,
-    cells_of,
-    power_of_two_below,
-    show,
-)
+from carom.proofs.balls import I, exact_ends, interval, terms
 from carom.proofs.claims import Evidence, NotShownError, rational_of
 from carom.proofs.courses import entire_condition, numerator_and_gap
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.series import I, terms
+from carom.proofs.zeros import OPEN, Analytic, CellTree, cells_of, power_of_two_below, runs_of, show
 
 SHORTEST_CELL = 200
 """Binary digits of the length of the cell next to zero at which the search there ends."""
@@ -207,7 +197,7 @@ def _roots_on(rotor: ProvenRotor, condition: Analytic, cells: CellTree, start: i
     unclear: list[tuple[Fraction, Fraction]] = []
     # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
     count, zeros = 0 if start > 0 else 1, 0
-    for low, high, kind, before, after in _runs(condition, cells):
+    for low, high, kind, before, after in runs_of(condition, cells):
         if kind == OPEN or not before or not after:
             unclear.append((low, high))
             # An open interval hides a pair of roots, or none; it counts as a pair.
@@ -228,22 +218,6 @@ def _roots_on(rotor: ProvenRotor, condition: Analytic, cells: CellTree, start: i
             roots.append(Root(near, far, count // 2 + 1, bool(count % 2)))
         count += 1
     return PeriodProof(tuple(roots), cells.cuts[-1], False, tuple(unclear))
-
-
-def _runs(condition: Analytic, cells: CellTree) -> Iterator[tuple[Fraction, Fraction, str, int, int]]:
-    """Both ends, kind and signs at the ends of runs of monotone cells, and of open ones."""
-    shown = {POSITIVE: 1, NEGATIVE: -1}
-    first = 0
-    while first < len(cells.kinds):
-        kind, last = cells.kinds[first], first
-        while last + 1 < len(cells.kinds) and cells.kinds[last + 1] == kind:
-            last += 1
-        if kind not in shown:
-            low, high = cells.cuts[first], cells.cuts[last + 1]
-            before = shown.get(cells.kinds[first - 1], 0) if first else 0
-            after = shown.get(cells.kinds[last + 1], 0) if last + 1 < len(cells.kinds) else 0
-            yield low, high, kind, before or condition.sign(low), after or condition.sign(high)
-        first = last + 1
 
 
 def _refined(condition: Analytic, low: Fraction, high: Fraction) -> Callable[[], list[str]]:

@@ -16,16 +16,15 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_series
 
-from carom.proofs.balls import decided, enclosure_of, exact_ends
+from carom.proofs.balls import Ball, decided, enclosure_of, exact_ends, first, real, terms
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, Document, Evidence, NotShownError, claim_of
 from carom.proofs.courses import OrbitCourse, Return
-from carom.proofs.krawczyk import System, box_of, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import ProvenRotor
 from carom.proofs.seeds import point_seeds
-from carom.proofs.series import Ball, first, real, terms
 from carom.proofs.steady import rub_balance, rub_discriminant, wall_condition
+from carom.proofs.zeros import System, box_of, derivatives, found_zero, shown_zero
 
 
 class PointKind(NamedTuple):

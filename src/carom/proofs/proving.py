@@ -38,7 +38,6 @@ from carom.proofs.steady import steady_claims
 from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
 
-Options = Document
 MOST_PLACES = 4
 """Periods that a reason names."""
 
@@ -56,12 +55,12 @@ class Theorem:
         Names of its options.
     """
 
-    claims: Callable[[Any, Evidence, Options], list[Claim]]
+    claims: Callable[[Any, Evidence, Document], list[Claim]]
     not_claimed: tuple[str, ...]
     options: tuple[str, ...]
 
 
-def _single_impact(rotor: ProvenRotor, evidence: Evidence, options: Options) -> list[Claim]:
+def _single_impact(rotor: ProvenRotor, evidence: Evidence, options: Document) -> list[Claim]:
     """Equilibria, and all orbits with one impact a period."""
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
@@ -295,7 +294,7 @@ def prove_levitation(model: Rotor, kicks_up_to: float | str | None = None, *, pr
 def proof_of(
     theorem: str,
     hypotheses: Hypotheses | StatedEquations,
-    options: Options,
+    options: Document,
     tell: Reporter | None = None,
     seconds: float = math.inf,
 ) -> Proof:
@@ -320,7 +319,7 @@ def proof_of(
 
 
 def proof_at(
-    bits: int, theorem: str, hypotheses: Hypotheses | StatedEquations, options: Options, evidence: Evidence
+    bits: int, theorem: str, hypotheses: Hypotheses | StatedEquations, options: Document, evidence: Evidence
 ) -> Proof:
     """Claims of a theorem at one precision, from evidence that is searched for or read."""
     with at_precision(bits):

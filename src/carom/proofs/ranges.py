@@ -15,13 +15,12 @@ from itertools import groupby, pairwise
 from math import floor, log2
 
 from carom.base.progress import Reporter
-from carom.proofs.balls import at_precision, enclosure_of, interval
+from carom.proofs.balls import at_precision, enclosure_of, hull, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
 from carom.proofs.claims import Claim, Evidence, NotShownError, claim_of, rational_of
 from carom.proofs.lines import Line, claim_of_runs, in_brackets, line_of, written
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.series import hull
 from carom.proofs.single_impact import slip_claim
 
 DECIDED, OPEN, ENDED = "", "open", "ended"
@@ -60,10 +59,6 @@ class Stretch:
     def ends(self) -> str:
         """The interval between these."""
         return in_brackets(self.inner)
-
-    def fact(self, name: str) -> OrbitFact | None:
-        """What holds for an orbit of a name."""
-        return next((fact for fact in self.facts or () if fact.name == name), None)
 
 
 def range_claims(rotor: ProvenRotor, evidence: Evidence, options: Mapping[str, float | str]) -> list[Claim]:
@@ -236,7 +231,7 @@ def _orbit_claims(line: Line, name: str, stretches: Sequence[Stretch]) -> list[C
 
 def _shown(name: str, holds: Callable[[OrbitFact], bool | None], stretch: Stretch) -> bool | None:
     """Whether something holds for an orbit on a stretch; ``None`` if this is open."""
-    fact = stretch.fact(name)
+    fact = next((fact for fact in stretch.facts or () if fact.name == name), None)
     return holds(fact) if fact else None if stretch.facts is None else False
 
 

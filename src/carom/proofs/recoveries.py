@@ -20,6 +20,7 @@ from dataclasses import replace
 
 from flint import arb
 
+from carom.proofs.balls import hull
 from carom.proofs.bends import bent, remainder, second_derivatives
 from carom.proofs.moments import FORM, UNIT, Moment, cross, dot, spread
 from carom.proofs.passages import (
@@ -39,7 +40,6 @@ from carom.proofs.passages import (
 )
 from carom.proofs.patches import Held, Patch, PatchDeparture
 from carom.proofs.rub_traps import ends_in_rub
-from carom.proofs.series import hull
 
 Columns = list[list[arb]]
 MOST_SPANS = 14

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 from carom.base.arguments import Count, checked, whole
 from carom.base.outcome import InputError, shown
@@ -90,43 +90,36 @@ def prove_kicks(
     >>> proof["kicks all recover"].status
     'proven'
     """
-    limits = Limits(most_impacts, time_limit, workers)
     if (model := without_closed_forms(machine, settings)) is not None and not along:
         return prove_levitation(
             model, kicks_up_to if isinstance(kicks_up_to, int | float) else str(kicks_up_to), progress=progress
         )
     hypotheses, tell = hypotheses_of(machine, settings, list(along or ())), Reporter.of(progress, "proving")
-    return prove_disc(KICKS, hypotheses, kicks_up_to, limits, tell, along or {})
-
-
-class Limits(NamedTuple):
-    """How far a search goes: what :func:`prove_kicks` takes."""
-
-    most_impacts: int
-    time_limit: str | float | None
-    workers: int | None
+    return prove_disc(KICKS, hypotheses, kicks_up_to, most_impacts, time_limit, workers, tell, along or {})
 
 
 def prove_disc(
     family: DisturbanceFamily,
     hypotheses: Hypotheses,
     largest: Given,
-    limits: Limits,
+    most_impacts: int,
+    time_limit: str | float | None,
+    workers: int | None,
     tell: Reporter,
     along: Mapping[str, tuple[Given, Given]] | None = None,
 ) -> Proof:
     """Prove which disturbances of a family return, as :func:`prove_kicks` does for kicks."""
     box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
-    disc = KickDisc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts, box)
-    seconds = math.inf if limits.time_limit is None else read_quantity(TIME, limits.time_limit)
+    disc = KickDisc(family, hypotheses, written_exactly(largest).removeprefix("double "), most_impacts, box)
+    seconds = math.inf if time_limit is None else read_quantity(TIME, time_limit)
     with at_precision(BITS):
         if not disc.levitates:
             advice = "the rotor must levitate inside the wall, with damping above 0, for it to come back"
             raise InputError("machine", shown(hypotheses.values), advice)
-        tree = search(disc, seconds, limits.workers or available_cores(), tell)
+        tree = search(disc, seconds, workers or available_cores(), tell)
         claims = claims_of(disc, tree)
     tell(1.0)
-    options: dict[str, object] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
+    options: dict[str, object] = dict(zip(options_of(family), (disc.largest, most_impacts), strict=True))
     if box:
         options["box"] = [list(entry) for entry in box]
     theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (family.about, NOT_CLAIMED)
@@ -175,8 +168,8 @@ def prove_shocks(
     >>> proof["shocks all recover"].status
     'proven'
     """
-    limits = Limits(most_impacts, time_limit, workers)
-    return prove_disc(SHOCKS, hypotheses_of(machine, settings), shocks_up_to, limits, Reporter.of(progress, "proving"))
+    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
+    return prove_disc(SHOCKS, hypotheses, shocks_up_to, most_impacts, time_limit, workers, tell)
 
 
 @checked
@@ -221,9 +214,8 @@ def prove_unbalance_steps(
     >>> proof["unbalance steps all recover"].status
     'proven'
     """
-    limits = Limits(most_impacts, time_limit, workers)
     hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
-    return prove_disc(STEPS, hypotheses, unbalance_up_to, limits, tell)
+    return prove_disc(STEPS, hypotheses, unbalance_up_to, most_impacts, time_limit, workers, tell)
 
 
 @checked

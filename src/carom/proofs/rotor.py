@@ -20,11 +20,10 @@ from typing import Generic, NamedTuple
 
 from flint import arb, ctx
 
-from carom.proofs.balls import ball_of, enclosures_of
+from carom.proofs.balls import N, ball_of, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import LineNumbers
-from carom.proofs.series import N
 
 TOO_LARGE = "the product of its multipliers is 1 or more in modulus"
 

@@ -23,10 +23,9 @@ from typing import NamedTuple
 
 from flint import acb, arb
 
-from carom.proofs.balls import rational
+from carom.proofs.balls import hull, rational
 from carom.proofs.moments import UNIT
 from carom.proofs.patches import Held, Patch
-from carom.proofs.series import hull
 from carom.proofs.steady import Rub
 
 REACHES = tuple(Fraction(k, 20) for k in (2, 3, 4, 6, 8, 11, 14, 18))

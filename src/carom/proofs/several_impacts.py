@@ -17,14 +17,13 @@ from typing import Any
 
 from flint import acb, arb, arb_mat
 
-from carom.proofs.balls import decided, enclosure_of
+from carom.proofs.balls import Ball, ComplexBall, I, conjugate, decided, enclosure_of, imaginary, real, squared
 from carom.proofs.claims import Claim, Document, Evidence, NotShownError, claim_of
-from carom.proofs.flights import stays_inside
-from carom.proofs.krawczyk import found_zero, shown_zero
+from carom.proofs.courses import stays_inside
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import Invariants, ProvenRotor
 from carom.proofs.seeds import shooting_seeds
-from carom.proofs.series import Ball, ComplexBall, I, conjugate, imaginary, real, squared
+from carom.proofs.zeros import found_zero, shown_zero
 
 UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
 """Unknowns of each impact, in their order."""

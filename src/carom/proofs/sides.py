@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 from flint import arb, arb_series
 
+from carom.proofs.balls import hyperbolic
 from carom.proofs.lines import LineNumbers
-from carom.proofs.series import hyperbolic
 
 _NEAR = 0.25
 """``|D t²|`` below which ``t e − o`` would cancel."""

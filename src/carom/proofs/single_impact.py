@@ -4,7 +4,7 @@ At a root ``T`` of ``F₁`` the radial speed solves ``|q a₁₂|²ṙ² + 2 Re(
 gives two simple solutions, so by the implicit function theorem each orbit is the only one near it.
 
 *Between the impacts* ``R(t) = |U|² − 1`` is analytic with ``R(0) = R(T) = 0``, ``Ṙ(0) = −2dṙ`` and ``Ṙ(T) = 2ṙ``
-(:mod:`carom.proofs.flights`).
+(:mod:`carom.proofs.courses`).
 
 *Stability.*  With trace ``τ``, sum of principal minors ``m`` and determinant ``D = d²e^{−2γT}`` of the derivative of the impact
 map, all multipliers lie inside the unit circle exactly if (Schur, Cohn)
@@ -32,15 +32,13 @@ from functools import partial
 
 from flint import arb, arb_series
 
-from carom.proofs.balls import decided, exact_ends, rational
+from carom.proofs.balls import decided, exact_ends, first, rational, terms
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, Status, claim_of
-from carom.proofs.courses import OrbitCourse, Return
-from carom.proofs.flights import FINEST
+from carom.proofs.courses import FINEST, OrbitCourse, Return
 from carom.proofs.lines import LineNumbers
 from carom.proofs.periods import PeriodProof
 from carom.proofs.rotor import TOO_LARGE, ProvenRotor
-from carom.proofs.series import first, terms
 
 STEPS = 64
 """Times of half a turn at which it is looked."""

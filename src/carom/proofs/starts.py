@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
-from carom.proofs.series import I, hull
+from carom.proofs.balls import I, hull
 
 if TYPE_CHECKING:
     from carom.proofs.patches import Held

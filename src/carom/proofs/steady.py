@@ -26,11 +26,10 @@ from functools import partial
 
 from flint import arb
 
-from carom.proofs.balls import decided
+from carom.proofs.balls import decided, hyperbolic, squared
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.lines import LineNumbers
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.series import hyperbolic, squared
 
 
 def steady_claims(rotor: ProvenRotor) -> list[Claim]:

@@ -15,11 +15,10 @@ from typing import NamedTuple
 from flint import arb
 
 from carom.parameters.terms import set_by
-from carom.proofs.balls import Enclosure, decided, enclosure_of, interval
+from carom.proofs.balls import Enclosure, decided, enclosure_of, hull, interval
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.lines import Line, LineNumbers, claim_of_runs, in_brackets, line_of, runs_along, written
 from carom.proofs.rotor import ProvenRotor
-from carom.proofs.series import hull
 from carom.proofs.steady import contact_free_speed, rub_discriminant, rub_force, wall_condition
 from carom.proofs.whirl import BACKWARD, drag_sign, rolling_sign
 

@@ -3,7 +3,7 @@
 from flint import arb
 
 from carom.proofs.balls import at_precision
-from carom.proofs.krawczyk import derivatives, enclosed_zero, newton
+from carom.proofs.zeros import derivatives, enclosed_zero, newton
 
 
 def circle_and_line(x, y):
