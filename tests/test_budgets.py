@@ -24,7 +24,7 @@ LIMITS = {
     "studies": 3210,
     "cli plots report": 5284,
     "rotors": 3260,
-    "proofs": 5925,
+    "proofs": 5900,
     "explorer": 2300,
     "sweeps": 1400,
     "reproductions": 1322,
