@@ -27,7 +27,7 @@ from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
 
 @dataclass(frozen=True)
 class LineNumbers(Generic[N]):
-    """The numbers of the equations; balls or power series of balls.
+    """The numbers of the equations: balls or power series of balls, among which what does not depend on the parameter may be a ball.
 
     With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real ``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity
     relative to the contact-free equilibrium by
