@@ -276,7 +276,7 @@ def inside(
     def narrow(time: arb, backward: bool) -> arb:
         return along(lambda course: course.height(arb_series([time]), backward)[0])
 
-    def height(time: Ball, backward: bool) -> Any:
+    def height(time: Ball, backward: bool) -> Ball:
         return plain.height(time, backward)[0]
 
     return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch, narrowest)

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 from flint import acb, arb, arb_mat
 
@@ -89,7 +88,7 @@ class ShootingOrbit:
         n, target = self.numbers, (there[0] * I).exp()
         starts = _leaving(n, here), (target - n.levitation, (there[1] + there[2] * I) * target)
 
-        def height(time: Ball, backward: bool) -> Any:
+        def height(time: Ball, backward: bool) -> Ball:
             return squared(n.fly(*starts[backward], time)[0] + n.levitation) - 1
 
         return stays_inside(height, height, here[3], (2 * n.d * here[1], 2 * there[1]))
