@@ -197,6 +197,6 @@ def test_terms_mean_what_they_do_in_a_file(tmp_path, settings):
         numbers = box.machines.at(box.values([(0, 0)] * len(settings)))
     wanted = carom.load(path, [f"{name}={text}" for name, text in settings.items()]).parameters.as_dict()
     wanted["omega_squared"] = wanted["omega"] ** 2
-    for name, ball in numbers._asdict().items():
+    for name, ball in vars(numbers).items():
         # The file's values are rounded once or twice.
         assert float(ball.mid()) == pytest.approx(wanted[name], rel=1e-14)

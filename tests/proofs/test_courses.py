@@ -1,5 +1,7 @@
 """Orbits in ball arithmetic with derivatives, beside the closed forms in balls, the kernels and differences."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from compilation import sized
@@ -187,7 +189,7 @@ def test_series_are_derivatives():
                 continue
 
             def value(late, numbers=numbers, period=period):
-                moved = numbers._replace(gamma=numbers.gamma + late, d=numbers.d + late)
+                moved = replace(numbers, gamma=numbers.gamma + late, d=numbers.d + late)
                 course = OrbitCourse(Return(moved, period + late), arb(1) / 2 + late)
                 return [
                     course.invariants.at_minus_one,
