@@ -17,12 +17,7 @@ _UNITS = {"speed": ("1e3", "mm/s", "c_r Ω"), "peak": ("1", "m/s²", "c_r Ω²")
 """Of each size: what one SI unit counts, in which unit people read it, and its unit where scales are not known."""
 _SHAFT_SPEED = ("1", "rad/s", "Ω")
 """The same of a claim about the speed of the shaft."""
-_NAMES = {
-    "spare friction": "least friction margin",
-    "share proven": "proven share",
-    "share refuted": "refuted share",
-    "share open": "open share",
-}
+_NAMES = {"spare_friction": "least friction margin"}
 """What people read for the names of numbers in certificates, where that differs."""
 _PERCENT, _BELOW, _ASKED = Decimal(100), Context(prec=4, rounding=ROUND_FLOOR), Context(prec=12)
 _NEVER = "in any direction and at any instant of the turn, makes the rotor touch{limits}: it returns to levitation"
@@ -50,12 +45,11 @@ def numbers_of(claim: Claim) -> str:
     named = [(name, name.removesuffix("_si")) for name in claim.enclosures if f"{name}_si" not in claim.enclosures]
     shown = []
     for name, plain in named:
-        entry, words = claim.enclosures[name], plain.replace("_", " ")
-        words = _NAMES.get(words, words)
+        entry, words = claim.enclosures[name], _NAMES.get(plain, plain.replace("_", " "))
         if plain in _UNITS:
             shown.append(f"{words} {_size(claim, plain)}")
         elif plain.startswith("share_"):
-            shown.append(f"{words} {_share(entry.low)} %")
+            shown.append(f"{plain.removeprefix('share_')} share {_share(entry.low)} %")
         else:
             shown.append(f"{words} {entry.short}")
     return ", ".join(shown)
