@@ -28,6 +28,6 @@ def test_cells_have_the_colour_of_their_part():
     colours = [tuple(cells.get_facecolor()[0, :3]) for cells in drawn]
     assert len(set(colours)) == len(colours)
     assert all(colour != to_rgb(look.colour) for colour in colours for look in plots.OUTCOMES.values())
-    assert "proven, never touches: 25 %" in legend_words(figure)
-    assert "none touches below 109.8 mm/s" in legend_words(figure)
+    assert "proven, no contact: 25 %" in legend_words(figure)
+    assert "no contact below 109.8 mm/s" in legend_words(figure)
     assert fits(figure)
