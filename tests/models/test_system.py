@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from machines import random_parameters
+from linear_rotors import tilting
+from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
-from carom.models import System, jeffcott, second_order_system
+from carom.models import Force, Rotor, System, jeffcott, second_order_system
 
 
 def modal(random, count):
@@ -83,3 +84,28 @@ def test_amplitudes_of_the_planar_rotor_are_those_of_its_equation():
         change = position - rotor.equilibrium
         expected = [velocity - complex(rotor.system.exponents[1]) * change, change]
         np.testing.assert_array_equal(rotor.system.amplitudes(position, velocity), expected)
+
+
+ROTORS = {
+    "planar": jeffcott(PAPER),
+    "heavy": jeffcott(PAPER).under(Force(-1j, np.array([0.1 - 0.2j]))),
+    "of two coordinates": tilting().model.under(Force(-1j, np.array([0.3, 0.1j]))),
+    "pulled twice": Rotor(tilting().model, (Force(-1j, np.array([0.3, 0.1j])),)).under(
+        Force(-1j, np.array([0.0, 0.2]))
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ROTORS)
+def test_nodes_and_amplitudes_follow_from_each_other(name):
+    system, random = ROTORS[name].system, np.random.default_rng(2)
+    states = random.normal(size=(5, 2 * len(system.rest), 2)) @ [1.0, 1j]
+    for time in (0.0, 2.3):
+        amplitudes = system.amplitudes_of(states, time)
+        nodes = system.nodes.of(amplitudes)
+        assert nodes[:, : states.shape[1]] == pytest.approx(states, abs=1e-12)
+        assert system.nodes.amplitudes(nodes) == pytest.approx(amplitudes, abs=1e-12)
+        if system.forced is None:
+            assert nodes.shape == states.shape
+        else:
+            assert nodes[:, -1] == pytest.approx(np.exp(-1j * time), abs=1e-12)

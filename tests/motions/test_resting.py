@@ -14,7 +14,7 @@ import pytest
 import carom as cm
 from carom.base.outcome import Outcome, Phase
 from carom.core.settling import memory
-from carom.motions.resting import lies
+from carom.motions.settling import lies
 
 pytestmark = pytest.mark.jit_only
 
@@ -116,7 +116,7 @@ def test_steady_whirl_is_known_earlier_and_ends_the_same(monkeypatch):
     positions = np.exp(1j * angles)
     starts = positions, -1j * positions * speeds
     early = cm.settle(HEAVY, *starts)
-    monkeypatch.setattr("carom.motions.resting.STEADY", -1.0)
+    monkeypatch.setattr("carom.motions.settling.STEADY", -1.0)
     late = cm.settle(HEAVY, *starts)
     assert np.array_equal(early.outcomes, late.outcomes)
     assert (early.times <= late.times).all()

@@ -17,8 +17,7 @@ from carom.core.planar_proofs import absorbed
 from carom.core.settling import memory
 from carom.models import from_matrices
 from carom.motions import State, settle, simulate
-from carom.motions.recurrence import least_recurrence
-from carom.motions.settling import fresh_memory, settled
+from carom.motions.settling import fresh_memory, least_recurrence, settled
 
 pytestmark = pytest.mark.jit_only
 

@@ -13,9 +13,9 @@ from carom.base.outcome import Phase
 from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL, POWER
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import State, energy_ledger, simulate
+from carom.motions.contacts import contact_works
 from carom.motions.kinematics import presses, slip_velocity
 from carom.motions.ledger import NODES, WEIGHTS
-from carom.motions.wall_works import contact_works
 
 pytestmark = pytest.mark.jit_only
 SPEED = 0.7

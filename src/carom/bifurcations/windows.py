@@ -26,7 +26,7 @@ from carom.bifurcations.conditions import (
 )
 from carom.bifurcations.points import Bifurcation
 from carom.models import Edge, Rotor, Span, Subject, axis, exact_rotor_of
-from carom.models.spans import paired
+from carom.models.axes import paired
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
 

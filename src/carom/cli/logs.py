@@ -22,7 +22,7 @@ from carom.base.outcome import InputError, Phase
 if TYPE_CHECKING:
     import xarray
 
-    from carom.motions.history import LastingContact
+    from carom.motions.kinematics import LastingContact
     from carom.motions.trajectories import Trajectory
 
 

@@ -11,7 +11,7 @@ from carom.cli.options import option
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
-    from carom.disturbances.echo import Echo
+    from carom.disturbances.single import Echo
     from carom.parameters import Case
     from carom.studies import UnbalanceResponse
 
@@ -45,7 +45,7 @@ def response(
     interval, run = _read(case, start, end, operating)
     check_output(out)
     with progress("unbalance response") as tell:
-        from carom.disturbances.echo import echo_of_unbalance
+        from carom.disturbances.single import echo_of_unbalance
         from carom.models import rotor_of
         from carom.studies.response import unbalance_response
 

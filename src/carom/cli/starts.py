@@ -24,7 +24,7 @@ from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 if TYPE_CHECKING:
     from carom.basins.maps import Over
     from carom.disturbances import Disturbance, Drop
-    from carom.disturbances.echo import Echo
+    from carom.disturbances.single import Echo
     from carom.models import Axis, Rotor
     from carom.motions.loads import DropLoads
     from carom.motions.starts import State

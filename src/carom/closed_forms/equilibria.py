@@ -15,7 +15,7 @@ from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.sag import Levitation, Status, levitation, status_of
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
 from carom.models import Rotor, Subject, rotor_of
-from carom.models.saturation import saturates
+from carom.models.limits import saturates
 from carom.parameters import Scales
 
 Kind = Literal["contact-free", "rub"]

@@ -11,7 +11,7 @@ from carom.base.arguments import Reals, checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.models import Rotor, Subject, rotor_of
-from carom.models.saturation import saturates
+from carom.models.limits import saturates
 
 Status = Literal["admissible", "boundary", "virtual"]
 BOUNDARY = 1e-12

@@ -22,7 +22,8 @@ A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
 (with ``shocks``, which follows a rotor through a pulse), ``states``, ``blade_loss`` and ``drops``, by name in ``kinds``.  ``plans`` has
-grids and samples, ``single`` is one disturbance, read from text, ``following`` follows their starts to where they end, ``measures`` says what is measured of many.  Each says in a sentence what was done (``echo``).
+grids and samples, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where they end, of which
+it says what is measured.
 
 Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
 Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  ``VelocityKick.of(machine, "50 mm/s")`` takes text with
@@ -33,8 +34,7 @@ from carom.disturbances.blade_loss import BladeLoss
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.disturbances.drops import Drop, drop
 from carom.disturbances.kicks_and_shocks import BaseShock, KickPlane, VelocityKick, kick, outward_from
-from carom.disturbances.kinds import MODELS
-from carom.disturbances.model import FASTEST, Disturbance
+from carom.disturbances.model import FASTEST, MODELS, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
 from carom.disturbances.single import Single
 from carom.disturbances.states import AnyState, ContactRelease, GivenState, StateSlice, Whirl, whirl

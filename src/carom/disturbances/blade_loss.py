@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
-from carom.disturbances.echo import Echo, eccentricity_words
 from carom.disturbances.kicks_and_shocks import levitating_at
 from carom.disturbances.model import Disturbance
-from carom.disturbances.single import Part
+from carom.disturbances.single import Echo, Part, eccentricity_words
 from carom.parameters.formats import format_angle, format_quantity
 
 if TYPE_CHECKING:

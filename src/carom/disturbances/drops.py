@@ -11,9 +11,8 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.disturbances.coordinates import Coordinate, Starts
-from carom.disturbances.echo import Echo, moving
 from carom.disturbances.model import Disturbance
-from carom.disturbances.single import Single
+from carom.disturbances.single import Echo, Single, moving
 from carom.parameters import MACHINE_FIELDS, Gravity, own_size, own_time
 from carom.parameters.formats import format_angle, format_quantity, number
 

@@ -11,9 +11,8 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
-from carom.disturbances.echo import Echo, angles_words
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.disturbances.single import Part, Single
+from carom.disturbances.single import Echo, Part, Single, angles_words
 from carom.parameters.formats import format_angle, format_quantity
 from carom.parameters.requirement import SHOCK_DURATION
 

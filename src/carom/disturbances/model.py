@@ -13,8 +13,7 @@ import numpy as np
 from carom.base.arguments import checked, is_number
 from carom.base.outcome import InputError, Outcome, shown
 from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
-from carom.disturbances.echo import Echo, in_both_units
-from carom.disturbances.single import Part, Single, read_single
+from carom.disturbances.single import Echo, Part, Single, in_both_units, read_single
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.formats import format_angle, format_quantity
 

@@ -21,9 +21,8 @@ from carom.disturbances.coordinates import (
     speed_coordinate,
     within,
 )
-from carom.disturbances.echo import Echo, angles_words, moving
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.disturbances.single import Part, Single
+from carom.disturbances.single import Echo, Part, Single, angles_words, moving
 
 if TYPE_CHECKING:
     from carom.models import Rotor, Subject

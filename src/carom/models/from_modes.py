@@ -10,8 +10,8 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
-from carom.models.race import Race
 from carom.models.system import System
+from carom.models.turning import Race
 
 SMALLEST = 2
 """Least number of modes in the arrays; larger numbers are powers of two."""

@@ -13,14 +13,13 @@ import numpy as np
 from carom.base.outcome import InputError, shown
 from carom.base.results import Result
 from carom.models import linear_parameters
-from carom.models.definition import Definition
-from carom.models.forces import complex_numbers
+from carom.models.definition import Definition, Matrices, is_singular
+from carom.models.forcing import complex_numbers
 from carom.models.linear_system import system_of
-from carom.models.matrices import Matrices, is_singular
 from carom.models.rotor import Rotor
-from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
+from carom.models.turning import Shaft
 from carom.parameters import Field, Scales
 
 ROUNDING = 1e-12

@@ -17,17 +17,15 @@ from carom.core.laws.kelvin_voigt import KelvinVoigt
 from carom.core.laws.rigid import Rigid
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
-from carom.models.definition import Definition
+from carom.models.definition import Definition, Matrices
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import second_order_system
 from carom.models.linear import LinearEquations
 from carom.models.linear_parameters import refuse_node
-from carom.models.matrices import Matrices
-from carom.models.race import Race
 from carom.models.rotor import Rotor
-from carom.models.shaft import Shaft
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
+from carom.models.turning import Race, Shaft
 from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX

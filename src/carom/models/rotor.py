@@ -16,10 +16,17 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.base.results import Result
-from carom.models.definition import Definition
+from carom.models.definition import Definition, Matrices
 from carom.models.documents import document_of
-from carom.models.forces import ISOTROPIC_ALONE, WITHOUT_FORCES, checked_forces, gravity_among, in_scales
-from carom.models.forcing import Force, with_forces
+from carom.models.forcing import (
+    ISOTROPIC_ALONE,
+    WITHOUT_FORCES,
+    Force,
+    checked_forces,
+    gravity_among,
+    in_scales,
+    with_forces,
+)
 from carom.models.limits import Limit, checked_limits, limits_by, with_limits
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
@@ -27,10 +34,9 @@ from carom.parameters.machine_file import GRAVITY_NAME
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
-    from carom.models.matrices import Matrices
-    from carom.models.race import Race
     from carom.models.stages import Stage
     from carom.models.system import System
+    from carom.models.turning import Race
 
 PLANAR_ALONE = "the planar rotor, of which alone this result is known; the functions of carom itself take any rotor"
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.base.arguments import Infinity, NotNegative, Positive, checked
 from carom.base.outcome import InputError, shown
-from carom.models.forces import complex_numbers
+from carom.models.forcing import complex_numbers
 from carom.models.rotor import ONE_STAGE, Rotor
 
 

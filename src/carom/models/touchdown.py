@@ -12,7 +12,7 @@ from carom.base.arguments import ArgumentKind, NotNegative, Positive, checked, k
 from carom.base.outcome import InputError, shown
 from carom.core.laws.law import Law
 from carom.core.wall import Wall
-from carom.models.race import Race
+from carom.models.turning import Race
 from carom.parameters import TouchdownBearing
 
 FARTHEST = 2.0

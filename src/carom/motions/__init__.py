@@ -8,14 +8,9 @@
 ``ensembles``         many motions, on all cores; only their endings are kept
 ``portions``          the work of an ensemble, shared by threads
 ``budget``            how many events each question of a study may take
-``settling``          the record by which settling is recognised
-``recurrence``        whether a motion that has recurred repeats or leaves, for rotors of several modes
-``resting``           whether a rotor lies on its touchdown bearing
-``contacts``          the log of contacts, of whatever law
-``impulses``          impulses in events
-``wall_works``        works of lasting contact, segment by segment
-``history``           course at a touchdown bearing: stretches of lasting contact, forces and slip
-``kinematics``        speeds at the touchdown bearings
+``settling``          how it is recognised that a motion has settled, repeats, or lies on its touchdown bearing
+``contacts``          the log of contacts, of whatever law, with impulses in events and works of lasting contact
+``kinematics``        speeds at the touchdown bearings, and the course there with forces and slip
 ``tables``            tables of columns with units
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest
 ``load_sums``         loads, added up piece by piece
@@ -27,7 +22,7 @@
 
 from carom.motions.contacts import ContactLog
 from carom.motions.ensembles import Endings, settle
-from carom.motions.history import ContactHistory, LastingContact
+from carom.motions.kinematics import ContactHistory, LastingContact
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.load_sums import drop_loads, follow_loads
 from carom.motions.loads import Braking, DropLoads, LastWhirl, TouchdownLoads

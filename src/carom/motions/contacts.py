@@ -1,4 +1,4 @@
-"""Contacts of a motion with its touchdown bearings, of whatever law: one log, made by one route.
+"""Contacts of a motion with its touchdown bearings, of whatever law: one log, and the impulses in events and works in segments that it is made of.
 
 An impact on a rigid touchdown bearing is a contact of no duration.
 """
@@ -8,21 +8,33 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from carom.base.outcome import Phase
 from carom.core.friction import rebound
-from carom.core.wall_work import DAMPED, DEPTH, DRIVEN, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL
-from carom.motions.kinematics import PRESSING, is_compliant, polar, shaft_speed, slip_velocity
+from carom.core.wall_work import (
+    COLUMNS,
+    DAMPED,
+    DEPTH,
+    DRIVEN,
+    FORCE,
+    FORCE_TIME,
+    FRICTION,
+    HEAT,
+    NORMAL,
+    contact_works_all,
+    stored_energies_all,
+)
+from carom.motions.kinematics import PRESSING, is_compliant, polar, presses, shaft_speed, slip_velocity
 from carom.motions.tables import NUMBERED, LogTable, column
-from carom.motions.wall_works import ContactWorks, contact_works, lost_on_parting
 
 if TYPE_CHECKING:
-    from carom.motions.impulses import Impulses
+    from carom.models import System
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Scales
+
 
 UNLIKE = 1e-9
 """Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution; impulses
@@ -250,3 +262,116 @@ def _states(motion: Trajectory, planes: np.ndarray, before: np.ndarray, after: n
         "slip_before": slips[0],
         "slip_after": slips[1],
     }
+
+
+AT_WALL = 1e-9
+"""Distance from its wall up to which a plane may have had its impact together with another (:data:`carom.core.joint.ONE_INSTANT`), with
+a margin for the rounding of states: of a plane without impact the equations give none but a rounding error."""
+NONE, ROUNDING = 1e-12, 1e-14
+"""Impulse, relative to the largest in the event and to the terms of velocities, below which a plane at its wall had no impact."""
+
+
+class Impulses(NamedTuple):
+    """Impulses at planes; arrays of shape (k,)."""
+
+    events: np.ndarray
+    """Number of the event."""
+    planes: np.ndarray
+    """Contact plane."""
+    sizes: np.ndarray
+    """Impulse on the rotor per effective mass of the plane, ``−P + iF``: outward, and along growing angle.  Complex."""
+
+    def at(self, plane: int) -> Impulses:
+        """Those at one plane."""
+        here = self.planes == plane
+        return Impulses(*(part[here] for part in self))
+
+
+def impulses_of(motion: Trajectory, events: np.ndarray) -> Impulses:
+    """Impulses that have changed the amplitudes of a rotor in some events, by their numbers, shape (n,).
+
+    Of a plane alone the impulse is the change of its own velocity.  Where others are at their walls too, the impulses
+    follow from the changes of velocity at all of these: ``Δu_p = Σ_q A_pq π_q`` (:mod:`carom.core.joint`), less those by the unbalance of
+    a shaft whose speed jumps.  Of planes that always
+    move alike only the sum of their impulses counts, which is given to them in equal parts.
+    """
+    system, planes = motion.rotor.system, motion.event_planes[events]
+    lasting = motion.segment_phases[events] != Phase.FLIGHT
+    before, after = motion.event_amplitudes[events], motion.segment_amplitudes[events + 1]
+    arrays, places, count = system.arrays, np.arange(len(events)), lasting.shape[1]
+    pushed = (before, _without_jolt(system, before, after))
+    states = [[system.at_planes(each, np.full(len(events), p)) for p in range(count)] for each in pushed]
+    position = np.stack([place for place, _ in states[0]], axis=-1)
+    normal = position / np.abs(position)
+    speeds = [
+        np.stack([radial + 1j * along for _, radial, along in (polar(*at) for at in each)], axis=-1) for each in states
+    ]
+    changes = speeds[1] - speeds[0]
+    at_wall = (lasting | (np.abs(position) >= 1.0 - AT_WALL)) & (arrays.stiffness == 0.0)
+    at_wall[places, planes] = True
+    impulses = np.where(at_wall, changes, 0.0)
+    for event in np.flatnonzero(at_wall.sum(axis=1) > 1):
+        here = np.flatnonzero(at_wall[event])
+        couplings = normal[event, here].conj()[:, None] * arrays.mobility[np.ix_(here, here)] * normal[event, here]
+        impulses[event, here] = np.linalg.lstsq(couplings, changes[event, here])[0]
+    sizes, terms = np.abs(impulses), np.abs(before) @ np.abs(arrays.rate_rows).T
+    has_impact = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True) + ROUNDING * terms
+    has_impact[places, planes] |= ~has_impact.any(axis=1)
+    rows, columns = np.nonzero(has_impact)
+    return Impulses(events[rows], columns, impulses[rows, columns])
+
+
+def _without_jolt(system: System, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Amplitudes after events without the impulse of the unbalance, which moves the rotor as the speed of its shaft jumps."""
+    if system.shaft is None:
+        return after
+    direction = before[:, int(system.arrays.shaft[0]), None]
+    jump = shaft_speed(system, after) - shaft_speed(system, before)
+    freed: np.ndarray = after + 1j * jump[:, None] * direction * system.arrays.unbalance
+    return freed
+
+
+class ContactWorks(NamedTuple):
+    """What contact does in the segments of a motion in which a plane is at its wall, by the columns of :mod:`carom.core.wall_work`."""
+
+    segments: np.ndarray
+    """Numbers of these segments, shape (k,)."""
+    found: np.ndarray
+    """For each of them and each plane, shape (k, P, 9)."""
+
+
+def contact_works(motion: Trajectory) -> ContactWorks:
+    """Add up the contact at all planes over each segment of a motion."""
+    segments = np.flatnonzero((motion.segment_phases != Phase.FLIGHT).any(axis=1))
+    found = np.empty((len(segments), motion.segment_phases.shape[1], COLUMNS))
+    contact_works_all(
+        motion.rotor.system.arrays,
+        segments,
+        motion.segment_amplitudes,
+        motion.segment_phases,
+        motion.segment_limits,
+        np.fmod(motion.begins + motion.segment_starts[segments], 2.0 * np.pi),
+        motion.durations[segments],
+        motion.workspace(),
+        found,
+    )
+    return ContactWorks(segments, found)
+
+
+def stored(motion: Trajectory, amplitudes: np.ndarray, phases: np.ndarray) -> np.ndarray:
+    """Energy that the spring of the plane's wall holds in states (n, N) with phases (n,) there; none where there is no contact."""
+    position, _ = motion.rotor.system.at_plane(amplitudes, motion.plane)
+    held = presses(phases)
+    energy = np.zeros(len(amplitudes))
+    energy[held] = stored_energies_all(motion.rotor.system.arrays, motion.plane, np.abs(position[held]) - 1.0)
+    return energy
+
+
+def lost_on_parting(motion: Trajectory) -> np.ndarray:
+    """Energy of the wall's spring that is lost in each event, (n,): where plane and wall part, less what it holds where they meet again."""
+    phases = motion.segment_phases[:, motion.plane]
+    parted = phases == Phase.SEPARATED
+    lost = stored(motion, motion.event_amplitudes, phases[:-1]) - stored(
+        motion, motion.segment_amplitudes[1:], phases[1:]
+    )
+    return np.where(parted[:-1] | parted[1:], lost, 0.0)

@@ -13,12 +13,12 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, Phase
 from carom.core.wall_work import DAMPED
 from carom.models import Matrices, Rotor
-from carom.models.anisotropic import TURN
-from carom.models.saturation import saturation_accelerations, saturation_of
+from carom.models.limits import saturation_accelerations, saturation_of
+from carom.models.linear_system import TURN
+from carom.motions.contacts import contact_works, lost_on_parting, stored
 from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_speed
 from carom.motions.tables import LogTable, column
 from carom.motions.trajectories import Trajectory
-from carom.motions.wall_works import contact_works, lost_on_parting, stored
 from carom.parameters import Scales
 
 NODES, WEIGHTS = legendre.leggauss(16)

@@ -15,7 +15,7 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.hertz import ball_pressure
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
-from carom.motions.contacts import ContactLog, contacts_of
+from carom.motions.contacts import ContactLog, ContactWorks, contact_works, contacts_of
 from carom.motions.kinematics import presses, race_speed
 from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads
 from carom.motions.magnets import reach_with
@@ -23,7 +23,6 @@ from carom.motions.settling import PATIENCE
 from carom.motions.simulation import Following, stretches
 from carom.motions.starts import Beginning, State, Until
 from carom.motions.trajectories import Trajectory, joined
-from carom.motions.wall_works import ContactWorks, contact_works
 
 RECENT = 10
 """Impacts over which the power of bouncing is averaged, at least."""

@@ -18,10 +18,8 @@ from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Rotor
-from carom.motions.contacts import ContactLog, contacts_of, impacts_of
-from carom.motions.history import ContactHistory, LastingContact
-from carom.motions.impulses import Impulses, impulses_of
-from carom.motions.kinematics import is_compliant, presses
+from carom.motions.contacts import ContactLog, Impulses, contacts_of, impacts_of, impulses_of
+from carom.motions.kinematics import ContactHistory, LastingContact, is_compliant, presses
 from carom.motions.starts import State, state_at
 
 if TYPE_CHECKING:

@@ -44,7 +44,7 @@ from carom.plots.words import (
 
 if TYPE_CHECKING:
     from carom.motions.courses import Course
-    from carom.motions.history import LastingContact
+    from carom.motions.kinematics import LastingContact
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
     from carom.parameters import Scales

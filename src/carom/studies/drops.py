@@ -12,7 +12,7 @@ from carom.base.outcome import InputError, Outcome
 from carom.base.results import Result, record
 from carom.disturbances import Drop, drop
 from carom.disturbances.drops import ASSUMED
-from carom.disturbances.echo import Echo
+from carom.disturbances.single import Echo
 from carom.models import Rotor, rotor_of
 from carom.motions import Braking, DropLoads, LastWhirl, State, TouchdownLoads, Trajectory, drop_loads, simulate
 from carom.motions.loads import MEASURED

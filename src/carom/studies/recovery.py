@@ -26,8 +26,7 @@ from carom.closed_forms import find_equilibria, rolling
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Rotor, Span, Subject, axis, exact_rotor_of, rotor_of
-from carom.models.axes import Ends, read_interval, usual_range
-from carom.models.spans import paired, spans_where
+from carom.models.axes import Ends, paired, read_interval, spans_where, usual_range
 from carom.motions.budget import BudgetSpentError
 from carom.orbits.single_impact import longest_within_reach
 from carom.parameters import PHYSICAL_PARTNER

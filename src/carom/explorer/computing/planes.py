@@ -13,8 +13,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, Starts, VelocityKick
-from carom.disturbances.echo import angles_words
 from carom.disturbances.kicks_and_shocks import LONGEST_SHOCK
+from carom.disturbances.single import angles_words
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Rotor, rotor_of
 from carom.motions import State
