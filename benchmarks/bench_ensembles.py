@@ -16,6 +16,7 @@ from workload import MOST_IMPACTS, UNTIL, source_paper_machine
 
 from carom.core.processors import available_cores
 from carom.motions.ensembles import settle
+from carom.motions.starts import State
 
 GAMMAS = (0.1, 0.15)
 PROGRAMS = {"simd": "C++, AVX-512, by its own clock", "scalar": "C++, scalar, by its own clock"}
@@ -24,7 +25,7 @@ LANE_BLOCKS = ("3", "0.8", "1")
 
 
 def follow(rotor, starts, threads=1, **limits):
-    endings = settle(rotor, starts[:, 0], starts[:, 1], threads=threads, **limits)
+    endings = settle(rotor, State(starts[:, 0], starts[:, 1]), threads=threads, **limits)
     return int(endings.impacts.sum())
 
 

@@ -25,7 +25,7 @@ start = rich.progress.Progress.start
 
 LONG = {
     "simulate": lambda **given: carom.simulate(PAPER, carom.kick(0.35), 20.0, **given),
-    "settle": lambda **given: carom.settle(PAPER, [0.1, 0.2j], [0.3, 0.4j], **given),
+    "settle": lambda **given: carom.settle(PAPER, carom.State([0.1, 0.2j], [0.3, 0.4j]), **given),
     "find_attractors": lambda **given: carom.find_attractors(PAPER, count=4, known=False, **given),
     "find_bifurcations": lambda **given: carom.find_bifurcations(PAPER, "gamma", (0.1, 0.12), **given),
     "map_regions": lambda **given: carom.map_regions(

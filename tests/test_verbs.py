@@ -35,7 +35,7 @@ def settled(machine):
     """Two starts next to levitation, followed."""
     system = cm.models.rotor_of(machine).system
     states = system.kicked(np.array([0.1, 0.2j]))
-    return cm.settle(machine, *(states if len(system.rest) > 1 else (part[:, 0] for part in states)))
+    return cm.settle(machine, cm.State(*(states if len(system.rest) > 1 else (part[:, 0] for part in states))))
 
 
 def stated(call):

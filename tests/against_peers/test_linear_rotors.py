@@ -135,7 +135,7 @@ def test_impacts_that_alternate_in_one_instant_are_no_orbit(inertia, restitution
     )
     start = State(np.array([1.0, 0.0]), np.array([1.0, 0.1]))
     alone = simulate(rotor.model, start, 400.0, settle=True)
-    together = settle(rotor.model, start.position, start.velocity, until=400.0)
+    together = settle(rotor.model, State(start.position, start.velocity), until=400.0)
     assert alone.outcome is Outcome.LEVITATED
     assert together.outcomes == alone.outcome
     assert together.times == pytest.approx(alone.time, rel=1e-12)

@@ -6,7 +6,7 @@ from linear_rotors import bending, single, tilting
 from machines import PAPER
 from scipy.stats import chi2_contingency, chisquare, ks_2samp
 
-from carom import find_orbits, settle
+from carom import State, find_orbits, settle
 from carom.attractors import DisturbanceSet, known_starts
 from carom.attractors.starts import disturbances_of
 from carom.closed_forms import runaway_speed
@@ -81,9 +81,9 @@ def test_ends_do_not_depend_on_the_direction_of_the_real_axis():
     turned = jeffcott(PAPER.replace(phi=PAPER.phi + 2.0))
     chosen, turn = DisturbanceSet(2000, 3, 1.0), np.exp(2.0j)
     starts = chosen.starts(jeffcott(PAPER))
-    ends = settle(jeffcott(PAPER), *starts[:2])
-    again = settle(turned, starts.positions * turn, starts.velocities * turn)
-    alone = settle(turned, *DisturbanceSet(2000, 4, 1.0).starts(turned)[:2])
+    ends = settle(jeffcott(PAPER), State(*starts[:2]))
+    again = settle(turned, State(starts.positions * turn, starts.velocities * turn))
+    alone = settle(turned, State(*DisturbanceSet(2000, 4, 1.0).starts(turned)[:2]))
 
     assert np.count_nonzero(again.outcomes != ends.outcomes) <= 2  # a start at a boundary may go either way
     counts = [[found.count(outcome) for outcome in np.unique(ends.outcomes)] for found in (ends, alone)]

@@ -11,7 +11,7 @@ from carom.attractors import following as module
 from carom.attractors.following import measure_survival, still_irregular
 from carom.base.outcome import Outcome
 from carom.models import jeffcott
-from carom.motions import Endings, settle
+from carom.motions import Endings, State, settle
 
 
 def ensemble(multiplicities, outcomes, impacts=0):
@@ -32,9 +32,9 @@ def mortal(half_life, seed):
     """Stands in for ``settle``: irregular motions that die by chance, each impact with one probability."""
     random = np.random.default_rng(seed)
 
-    def settle(rotor, positions, velocities, *, patience, begins=0.0, threads=None):
-        dies = random.random(len(positions)) > 0.5 ** (patience / half_life)
-        return ensemble(np.zeros(len(positions), int), np.where(dies, Outcome.ROLLING, Outcome.BOUNCING), patience)
+    def settle(rotor, starts, *, patience, threads=None):
+        dies = random.random(len(starts.position)) > 0.5 ** (patience / half_life)
+        return ensemble(np.zeros(len(dies), int), np.where(dies, Outcome.ROLLING, Outcome.BOUNCING), patience)
 
     return settle
 
@@ -73,7 +73,7 @@ def test_motions_of_an_ensemble_are_followed_to_where_they_end():
     rotor = jeffcott(PAPER.replace(gamma=0.08))
     random = np.random.default_rng(0)
     points = np.sqrt(random.random((2, 80))) * np.exp(2j * np.pi * random.random((2, 80)))
-    early = settle(rotor, points[0], 0.5 * points[1], patience=1500)
+    early = settle(rotor, State(points[0], 0.5 * points[1]), patience=1500)
     going = still_irregular(early)
     assert going.sum() > 20
     late, found = follow_until_settled(rotor, early, impacts=20_000)

@@ -61,13 +61,13 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     count = 500 if kind == "shock" else 2000
     sizes = random.uniform(0.0, found.all_back, count)
     positions, velocities, possible = starts_of(kind, rotor, sizes, random.uniform(0.0, 2.0 * math.pi, count))
-    outcomes = carom.settle(rotor, positions[possible], velocities[possible]).outcomes
+    outcomes = carom.settle(rotor, carom.State(positions[possible], velocities[possible])).outcomes
     gone = (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
     # None is lost below what is proven harmless, and no more than the stated share above it.
     assert not gone[sizes[possible] <= found.contact_free].any()
     assert gone.mean() <= found.share_below
     position, velocity, _ = starts_of(kind, rotor, np.array([found.size]), np.array([found.angle]))
-    assert carom.settle(rotor, position, velocity).outcomes[0] == found.outcome
+    assert carom.settle(rotor, carom.State(position, velocity)).outcomes[0] == found.outcome
 
 
 def test_fresh_starts_bring_the_smallest_loss_down():

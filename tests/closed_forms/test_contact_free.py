@@ -75,7 +75,7 @@ def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
         rotor = cm.models.rotor_of(heavy.replace(unbalance_phase=float(phase)))
         for size in touched:
             places, speeds = rotor.system.kicked(size * contact_free * np.exp(1j * np.linspace(0.0, 6.2, 60)))
-            touched[size] += np.count_nonzero(cm.settle(rotor, places[:, 0], speeds[:, 0]).impacts)
+            touched[size] += np.count_nonzero(cm.settle(rotor, cm.State(places[:, 0], speeds[:, 0])).impacts)
     assert touched[0.99] == 0 < touched[1.4]
 
 

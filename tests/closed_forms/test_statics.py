@@ -9,7 +9,7 @@ from compilation import sized
 from linear_rotors import random_rotor
 from scipy.optimize import root
 
-from carom import find_equilibria, settle
+from carom import State, find_equilibria, settle
 from carom.base.outcome import Outcome
 
 
@@ -98,8 +98,7 @@ def test_motions_come_to_rest_in_a_stable_rub_and_in_no_other():
         starts, rates = np.concatenate([starts, (1.0 - 1e-4) * near]), np.concatenate([rates, nudge])
         ends = settle(
             model,
-            np.squeeze(starts, -1) if n == 1 else starts,
-            np.squeeze(rates, -1) if n == 1 else rates,
+            State(np.squeeze(starts, -1) if n == 1 else starts, np.squeeze(rates, -1) if n == 1 else rates),
             until=3000.0,
         )
         resting = np.abs(ends.velocities.reshape(-1, n)).max(axis=1) < 1e-6

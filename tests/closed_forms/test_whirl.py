@@ -59,7 +59,7 @@ def test_without_friction_negative_damping_hastens_whirl_for_ever(parameters, an
     ]
     assert (np.diff(np.abs(whirl_speeds(motion))) > 0.0).all()
     # That it is proven ends it at once.
-    ending = settle(rotor, [start.position], [start.velocity], max_events=2)
+    ending = settle(rotor, State([start.position], [start.velocity]), max_events=2)
     assert ending.outcomes[0] == (Outcome.BACKWARD_WHIRL if backward else Outcome.FORWARD_RUB)
     assert ending.times[0] == 0.0
 
@@ -189,7 +189,7 @@ def test_no_backward_whirl_repeats_beyond_the_bound_of_damping():
         whirl = -random.uniform(0.0, 2.0 * speed, 50)
         for factor in (0.3, 1.001):
             rotor = jeffcott(machine.replace(gamma=max(factor * bound, 0.02)))
-            outcomes = settle(rotor, places, 1j * (whirl - 1.0) * places, until=2e3).outcomes
+            outcomes = settle(rotor, State(places, 1j * (whirl - 1.0) * places), until=2e3).outcomes
             held = np.isin(outcomes, (Outcome.ROLLING, Outcome.BACKWARD_WHIRL)).sum()
             kept += held if factor < 1.0 else 0
             assert factor < 1.0 or held == 0, (case, machine)

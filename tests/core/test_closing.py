@@ -70,7 +70,7 @@ def assert_closes(rotor, position, velocity, impacts):
 def test_an_orbit_with_three_impacts_is_told_so_however_it_is_reached():
     rotor = jeffcott(SPIRALLING)
     positions, velocities = drawn_starts(np.random.default_rng(1), 24)
-    ends = settle(rotor, positions, velocities)
+    ends = settle(rotor, State(positions, velocities))
     bouncing = np.flatnonzero(ends.outcomes == Outcome.BOUNCING)
     assert len(bouncing) > 12
     assert set(ends.multiplicities[bouncing]) == {3}
@@ -89,7 +89,7 @@ def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
     rotor = jeffcott(PAPER.replace(gamma=DOUBLING + away))
     leaving = find_orbits(rotor)["B1,d"].departure
     faster = leaving.velocity * np.array([0.9999, 1.0001])
-    ends = settle(rotor, np.full(2, leaving.position), faster)
+    ends = settle(rotor, State(np.full(2, leaving.position), faster))
     assert ends.multiplicities.tolist() == [1 if away > 0.0 else 2] * 2
     alone = [simulate(rotor, State(leaving.position, complex(speed)), 2e5, settle=True) for speed in faster]
     assert [motion.multiplicity for motion in alone] == [1 if away > 0.0 else 2] * 2
@@ -152,9 +152,9 @@ def test_a_motion_that_only_passes_by_an_orbit_goes_on():
     start = State(-0.9376157591840666 - 0.049885059556011j, 1.1903963754385933 + 0.6414778990507444j)
     orbit = next(orbit for orbit in find_orbits(rotor) if orbit.name == "B1,d")
     assert not orbit.stable
-    together = settle(rotor, np.array([start.position]), np.array([start.velocity]))
+    together = settle(rotor, State(np.array([start.position]), np.array([start.velocity])))
     # In double precision a motion may stay on the orbit itself for ever: that is no end either.
-    on_orbit = settle(rotor, np.array([orbit.departure.position]), np.array([orbit.departure.velocity]))
+    on_orbit = settle(rotor, State(np.array([orbit.departure.position]), np.array([orbit.departure.velocity])))
     alone = simulate(rotor, start, settle=True)
     assert (alone.outcome, alone.multiplicity) == (together.outcomes[0], together.multiplicities[0])
     assert np.abs(alone.contacts.radial_speed - orbit.radial_speed).min() < 1e-7
@@ -173,7 +173,7 @@ def test_no_number_is_named_where_no_orbit_closes():
     )  # fmt: skip
     positions = np.array([-0.9529923594883638 + 0.27279210388634423j, 0.6602592005764265 + 0.1451056352397193j])
     velocities = np.array([1.5912335089848553 - 0.33757891694966446j, -0.8325178172900114 - 0.9984458821653093j])
-    ends = settle(jeffcott(parameters), positions, velocities)
+    ends = settle(jeffcott(parameters), State(positions, velocities))
     assert set(ends.outcomes) <= set(REPEATING)
     assert ends.multiplicities.tolist() == [0, 0]
 
@@ -185,7 +185,7 @@ def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
     parameters = Parameters(0.125, 0.1, 1.7, 3.06, friction, 1.0, 0.98)
     rotor, random = jeffcott(parameters), np.random.default_rng(8)
     positions, velocities = drawn_starts(random, 12)
-    together = settle(rotor, positions, velocities)
+    together = settle(rotor, State(positions, velocities))
     low = 0
     for index, start in enumerate(zip(positions, velocities, strict=True)):
         alone = simulate(rotor, State(*start), settle=True)

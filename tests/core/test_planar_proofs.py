@@ -65,7 +65,7 @@ def test_a_strongly_damped_flight_is_known_to_levitate_as_soon_as_it_does():
     """Its slow mode takes 26,000 of 1/Ω to decay, two million blocks of flight, but it is free of contact within a turn."""
     rotor = jeffcott(PAPER.replace(gamma=482.8, omega=0.135, rho=12.05, mu=0.2, d=0.0))
     angles = 2j * np.pi * np.arange(24) / 24
-    ends = settle(rotor, np.full(24, rotor.equilibrium), 6000.0 * np.exp(angles))
+    ends = settle(rotor, State(np.full(24, rotor.equilibrium), 6000.0 * np.exp(angles)))
     assert ends.recovered.all()
     assert (ends.impacts > 0).all()
     assert ends.times.max() < 100.0
@@ -78,7 +78,7 @@ def test_hardly_damped_motions_settle_alike_both_ways(gamma, omega):
     rotor = jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=0.0857, d=0.7))
     random = np.random.default_rng(1)
     points = np.sqrt(random.random((2, 8))) * np.exp(2j * np.pi * random.random((2, 8)))
-    together = settle(rotor, points[0], 2.0 * points[1])
+    together = settle(rotor, State(points[0], 2.0 * points[1]))
     for place in range(8):
         alone = simulate(rotor, State(points[0, place], 2.0 * points[1, place]), settle=True)
         assert alone.outcome is Outcome.LEVITATED

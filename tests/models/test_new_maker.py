@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.models import Definition, Force, LinearEquations, Rigid, Rotor, Touchdown
+from carom.models import Definition, Force, LinearEquations, Rigid, Rotor, Touchdown, from_matrices
 from carom.parameters import MACHINE_FIELDS
 
 
@@ -21,14 +21,14 @@ class Overhung(Definition):
     @cached_property
     def equations(self) -> LinearEquations:
         """One coordinate, whose gyroscopic matrix is the polar inertia."""
-        return LinearEquations.in_fixed_frame(
+        return from_matrices(
             mass=[[1.0]],
             damping=[[0.2]],
             stiffness=[[1.6]],
             gyroscopic=[[self.polar]],
             forcing=[0.2],
             touchdowns=[Touchdown([1.0], Rigid(0.8), self.friction, 20.0)],
-        )
+        ).equations
 
     @property
     def varied(self):

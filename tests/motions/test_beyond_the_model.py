@@ -55,7 +55,9 @@ def test_a_map_ends_a_start_as_one_motion_does(tmp_path):
     case, random = machine(tmp_path), np.random.default_rng(5)
     speeds = 3.0 * np.sqrt(random.random(12)) * np.exp(2j * np.pi * random.random(12))
     starts = [cm.kick(abs(speed), float(np.angle(speed))).stages(case)[1] for speed in speeds]
-    ends = cm.settle(case, [start.position for start in starts], [start.velocity for start in starts], until=400.0)
+    ends = cm.settle(
+        case, cm.State([start.position for start in starts], [start.velocity for start in starts]), until=400.0
+    )
     alone = [cm.simulate(case, start, 400.0, settle=True) for start in starts]
     assert ends.outcomes.tolist() == [motion.outcome for motion in alone]
     assert {Outcome.BEYOND_MODEL, Outcome.LEVITATED} <= set(ends.outcomes.tolist())

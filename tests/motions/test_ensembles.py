@@ -38,7 +38,7 @@ def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
     """Also those since a lane was last looked at."""
     rotor = carom.models.jeffcott(machine.replace(rho=0.2))
     positions, velocities = starts(100)
-    together = settle(rotor, positions, velocities)
+    together = settle(rotor, carom.State(positions, velocities))
     levitated = np.flatnonzero(together.outcomes == Outcome.LEVITATED)
     assert (together.impacts[levitated] > 1).sum() > 5
     for place in levitated:
@@ -51,24 +51,24 @@ def test_what_levitates_is_known_to_however_short_the_time(machine, until):
     rotor = carom.models.jeffcott(machine)
     at_rest = carom.State(rotor.equilibrium, 0j)
     alone = carom.simulate(rotor, at_rest, until, settle=True)
-    together = settle(rotor, at_rest.position, at_rest.velocity, until=until)
+    together = settle(rotor, carom.State(at_rest.position, at_rest.velocity), until=until)
     assert together.outcomes == alone.outcome == Outcome.LEVITATED
 
 
 def test_speeds_that_overflow_are_refused(machine):
     rotor = carom.models.jeffcott(machine)
     with pytest.raises(carom.base.outcome.InputError, match=r"^start velocity.*1e\+12"):
-        settle(rotor, [0.0, 0.1], [1.0, 1e120j])
+        settle(rotor, carom.State([0.0, 0.1], [1.0, 1e120j]))
     with pytest.raises(carom.base.outcome.InputError, match=r"^start velocity.*1e\+12"):
         carom.simulate(rotor, carom.State(0.0, 1e120), 1.0)
-    assert settle(rotor, 0.1, 1e11).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
+    assert settle(rotor, carom.State(0.1, 1e11)).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
 
 
 @pytest.mark.jit_only
 def test_each_ends_as_it_does_alone(machine):
     rotor = carom.models.jeffcott(machine)
     positions, velocities = starts(24 if COMPILED else 2)
-    together = settle(rotor, positions, velocities)
+    together = settle(rotor, carom.State(positions, velocities))
     for place in range(len(positions)):
         alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 2e5, settle=True)
         assert together.outcomes[place] == alone.outcome
@@ -83,7 +83,7 @@ def test_each_ends_as_it_does_alone(machine):
 def test_each_moves_as_it_does_alone(machine, restitution):
     rotor = carom.models.jeffcott(machine.replace(d=restitution))
     positions, velocities = starts(MANY)
-    together = settle(rotor, positions, velocities, until=20.0, patience=0)
+    together = settle(rotor, carom.State(positions, velocities), until=20.0, patience=0)
     for place in range(len(positions)):
         alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 20.0)
         assert together.outcomes[place] == alone.outcome == Outcome.TIME_REACHED
@@ -95,9 +95,9 @@ def test_each_moves_as_it_does_alone(machine, restitution):
 def test_threads_and_company_change_nothing(machine):
     rotor = carom.models.jeffcott(machine)
     positions, velocities = starts(MANY)
-    one = settle(rotor, positions, velocities, threads=1)
-    assert_same(one, settle(rotor, positions, velocities, threads=3))
-    half = settle(rotor, positions[::2], velocities[::2])
+    one = settle(rotor, carom.State(positions, velocities), threads=1)
+    assert_same(one, settle(rotor, carom.State(positions, velocities), threads=3))
+    half = settle(rotor, carom.State(positions[::2], velocities[::2]))
     for name in SAME:
         np.testing.assert_array_equal(getattr(one, name)[::2], getattr(half, name), err_msg=name)
 
@@ -107,9 +107,9 @@ def test_starts_may_have_machines_of_their_own(machine):
     rotors = [carom.models.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
     positions, velocities = starts(MANY)
     which = np.arange(MANY) % 3
-    mixed = settle(rotors, positions, velocities, which=which)
+    mixed = settle(rotors, carom.State(positions, velocities), which=which)
     for number, rotor in enumerate(rotors):
-        alone = settle(rotor, positions[which == number], velocities[which == number])
+        alone = settle(rotor, carom.State(positions[which == number], velocities[which == number]))
         for name in SAME:
             np.testing.assert_array_equal(getattr(mixed, name)[which == number], getattr(alone, name), err_msg=name)
 
@@ -117,17 +117,20 @@ def test_starts_may_have_machines_of_their_own(machine):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"positions": [0.1, 1.5]}, "start position = .*inside the wall"),
-        ({"positions": [0.1, np.nan]}, "^positions = .*: finite numbers"),
-        ({"velocities": [np.inf, 0.0]}, "^velocities = .*: finite numbers"),
+        ({"position": [0.1, 1.5]}, "start position = .*inside the wall"),
+        ({"position": [0.1, np.nan]}, "^start position = .*: finite numbers"),
+        ({"velocity": [np.inf, 0.0]}, "^start velocity = .*: finite numbers"),
+        ({"time": [0.0, np.inf]}, "^start time = "),
+        ({"shaft": (1.0, 0.0)}, "^start races, shaft = "),
         ({"patience": 0}, "until = nothing given"),
         ({"which": [0, 0]}, "which = "),
     ],
 )
 def test_bad_input_is_named(machine, changes, words):
-    arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
+    given = {"position": [0.1, 0.2], "velocity": [0.0, 0.0], **changes}
+    limits = {name: given.pop(name) for name in ("patience", "which") if name in given}
     with pytest.raises(InputError, match=words):
-        settle(carom.models.jeffcott(machine), **arguments)
+        settle(carom.models.jeffcott(machine), carom.State(**given), **limits)
 
 
 @pytest.mark.jit_only
@@ -147,8 +150,7 @@ def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         settle(
             rotor,
-            carom.models.rotor_of(rotor).equilibrium,
-            np.linspace(0.1, 1.5, 8000),
+            carom.State(carom.models.rotor_of(rotor).equilibrium, np.linspace(0.1, 1.5, 8000)),
             threads=2,
             progress=interrupt,
         )
@@ -159,6 +161,11 @@ def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
 @pytest.mark.jit_only
 def test_progress_counts_the_motions_up_to_all_of_them():
     shown = []
-    settle(PAPER, 0.1, np.linspace(0.1, 0.6, 3000), threads=2, progress=lambda report: shown.append(report.share))
+    settle(
+        PAPER,
+        carom.State(0.1, np.linspace(0.1, 0.6, 3000)),
+        threads=2,
+        progress=lambda report: shown.append(report.share),
+    )
     assert shown == sorted(shown)
     assert shown[-1] == 1.0

@@ -82,7 +82,7 @@ def test_rolling_under_any_weight_is_rolling(gravity, radius):
     start = cm.State(1.0 + 0j, -1j * (case.parameters.radius_ratio + 1.0))
     for machine in (case, case.replace(gravity=0)):
         assert cm.simulate(machine, start).outcome is Outcome.ROLLING
-    ending = cm.settle(case, np.array([start.position]), np.array([start.velocity]))
+    ending = cm.settle(case, cm.State(np.array([start.position]), np.array([start.velocity])))
     assert ending.outcomes.tolist() == [Outcome.ROLLING]
 
 
@@ -105,7 +105,7 @@ def test_a_rub_that_keeps_in_step_with_the_shaft_is_forward_rub():
     last = np.linspace(motion.time - 50.0, motion.time, 300)
     assert np.ptp(np.unwrap(np.angle(motion.position(last)))) < 1.0
     assert np.ptp(np.unwrap(np.angle(motion.position(last, "fixed")))) > 48.0
-    ending = cm.settle(rotor, np.array([start.position]), np.array([start.velocity]))
+    ending = cm.settle(rotor, cm.State(np.array([start.position]), np.array([start.velocity])))
     assert ending.outcomes.tolist() == [Outcome.FORWARD_RUB]
 
 
@@ -115,9 +115,9 @@ def test_steady_whirl_is_known_earlier_and_ends_the_same(monkeypatch):
     angles, speeds = 2.0 * np.pi * random.random(12), random.uniform(1.0, 80.0, 12)
     positions = np.exp(1j * angles)
     starts = positions, -1j * positions * speeds
-    early = cm.settle(HEAVY, *starts)
+    early = cm.settle(HEAVY, cm.State(*starts))
     monkeypatch.setattr("carom.motions.settling.STEADY", -1.0)
-    late = cm.settle(HEAVY, *starts)
+    late = cm.settle(HEAVY, cm.State(*starts))
     assert np.array_equal(early.outcomes, late.outcomes)
     assert (early.times <= late.times).all()
     assert (early.times < late.times).any()

@@ -73,7 +73,7 @@ def test_an_ensemble_ends_a_motion_inside_at_once_and_outside_later(rotor):
     for times_level, at_once in ((0.999, True), (1.001, False)):
         starts = sliding(found, times_level, seed=5)
         assert len(starts[0]) > 50
-        endings = settle(rotor, *starts)
+        endings = settle(rotor, State(*starts))
         np.testing.assert_array_equal(endings.times == 0.0, at_once)
         if at_once:
             assert (endings.outcomes == Outcome.FORWARD_RUB).all()
@@ -86,11 +86,11 @@ def settled_both_ways(rotor, count, seed, monkeypatch):
     rng = np.random.default_rng(seed)
     turns = np.exp(2j * np.pi * rng.uniform(0.0, 1.0, (2, count)))
     starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
-    proven = settle(rotor, *starts)
+    proven = settle(rotor, State(*starts))
     monkeypatch.setattr(
         "carom.motions.portions.fresh_memory", lambda rotor, patience, absorb, trigger: fresh_memory(rotor, patience)
     )
-    followed = settle(rotor, *starts)
+    followed = settle(rotor, State(*starts))
     for name in ("outcomes", "impacts", "multiplicities"):
         np.testing.assert_array_equal(getattr(proven, name), getattr(followed, name), err_msg=name)
     return proven, followed

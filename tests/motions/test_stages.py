@@ -103,7 +103,7 @@ def test_what_is_carried_over_may_change():
     first, second = cm.simulate(staged, KICK).parts
     assert second.start.position == pytest.approx(first.final.position, abs=1e-15)
     assert second.start.velocity == pytest.approx(-1j * first.final.position, abs=1e-15)
-    ends = cm.settle(staged, *starts(12))
+    ends = cm.settle(staged, cm.State(*starts(12)))
     for place, (position, kick) in enumerate(zip(*starts(12), strict=True)):
         assert cm.simulate(staged, cm.State(position, kick)).outcome == ends.outcomes[place]
 
@@ -121,13 +121,13 @@ def test_what_is_carried_over_may_change():
 def test_many_starts_end_as_each_alone(trigger):
     staged = in_stages((Stage(ROTOR, trigger), Stage(HELPED, Trigger(time=4.0)), Stage(ROTOR)))
     positions, kicks = starts(sized(60, 20), seed=3)
-    ends = cm.settle(staged, positions, kicks, threads=2)
+    ends = cm.settle(staged, cm.State(positions, kicks), threads=2)
     for place, (position, kick) in enumerate(zip(positions, kicks, strict=True)):
         motion = cm.simulate(staged, cm.State(position, kick))
         assert motion.outcome == ends.outcomes[place]
         if motion.outcome is not Outcome.FORWARD_RUB:  # which settle proves before it is reached
             assert sum(len(part.contacts) for part in motion.parts) == ends.impacts[place]
-    until = cm.settle(staged, positions, kicks, until=20.0, patience=0)
+    until = cm.settle(staged, cm.State(positions, kicks), until=20.0, patience=0)
     for place, (position, kick) in enumerate(zip(positions, kicks, strict=True)):
         motion = cm.simulate(staged, cm.State(position, kick), 20.0)
         assert motion.outcome == until.outcomes[place]
@@ -171,7 +171,7 @@ def test_contact_that_would_settle_triggers_once_it_has_persisted(least, gap):
     for rotor in (ROTOR, ROTOR.replace(gamma=0.2)):
         staged = in_stages((Stage(rotor, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
         positions, kicks = starts(12, 1)
-        ends = cm.settle(staged, positions, kicks)
+        ends = cm.settle(staged, cm.State(positions, kicks))
         for position, kick, outcome in zip(positions, kicks, ends.outcomes, strict=True):
             motion = cm.simulate(staged, cm.State(position, kick))
             followed = cm.simulate(staged, cm.State(position, kick), 5000.0, settle=False)

@@ -43,7 +43,7 @@ def bouncing_from(rotor, starts: int, seed: int = 0, wanted=(Outcome.BOUNCING, O
     rng = np.random.default_rng(seed)
     place, speed = rng.uniform(size=(2, starts))
     turn, way = np.exp(2j * np.pi * rng.uniform(size=(2, starts)))
-    ends = settle(rotor, np.sqrt(place) * turn, 2.0 * np.sqrt(speed) * way, patience=1000)
+    ends = settle(rotor, State(np.sqrt(place) * turn, 2.0 * np.sqrt(speed) * way), patience=1000)
     chosen = np.isin(ends.outcomes, wanted)
     return [State(complex(u), complex(v)) for u, v in zip(ends.positions[chosen], ends.velocities[chosen], strict=True)]
 

@@ -106,7 +106,7 @@ def test_the_share_of_fresh_motions_that_end_on_a_listed_orbit():
     """It is that of motions followed here, within five standard deviations of both samples."""
     found = find_orbits(PAPER.replace(gamma=0.1), impacts=2)
     random = np.random.default_rng(99)
-    ends = settle(found.rotor, *random_starts(found.rotor, random, 4000))
+    ends = settle(found.rotor, State(*random_starts(found.rotor, random, 4000)))
     share = np.mean((ends.outcomes == Outcome.BOUNCING) & np.isin(ends.multiplicities, (1, 2)))
     assert found.search.share_on_listed == pytest.approx(share, abs=5 * np.sqrt(0.25 / found.search.fresh))
     assert 0.5 < share < 1.0

@@ -105,7 +105,7 @@ def test_kicks_of_machines_drawn_from_the_box_return(case):
         ahead = rotor.equilibrium / abs(rotor.equilibrium) if rotor.equilibrium else 1.0
         size = largest / (1000 * velocity if isinstance(machine, str) else 1.0) * (1 - 1e-12)
         kicks = size * values[-2] * np.exp(2j * np.pi * values[-1]) * ahead
-        endings = settle(rotor, np.full(4, rotor.equilibrium), kicks, threads=1)
+        endings = settle(rotor, carom.State(np.full(4, rotor.equilibrium), kicks), threads=1)
         assert endings.recovered.all(), (settings, kicks)
         assert (endings.impacts <= IMPACTS.index(letter)).all(), (settings, kicks)
         hit += int((endings.impacts > 0).sum())

@@ -10,7 +10,7 @@ from machines import DECIMAL, dimensionless
 
 from carom.base.outcome import InputError
 from carom.models import jeffcott
-from carom.motions import settle
+from carom.motions import State, settle
 from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.kick_cells import IMPACTS, leaves, read
 from carom.proofs.seeds import doubles_of
@@ -62,7 +62,7 @@ def test_all_kicks_are_proven_to_return(proof):
 
 def test_simulated_kicks_return_with_at_most_as_many_impacts(proof):
     rotor, kicks, most = drawn(proof, sized(10_000, 300, 100_000))
-    endings = settle(rotor, np.full(len(kicks), rotor.equilibrium), kicks)
+    endings = settle(rotor, State(np.full(len(kicks), rotor.equilibrium), kicks))
 
     assert endings.recovered.all()
     assert (endings.impacts <= most).all()

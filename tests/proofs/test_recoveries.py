@@ -9,7 +9,7 @@ from compilation import sized
 from carom.base.outcome import InputError, Outcome
 from carom.closed_forms import contact_free_kick
 from carom.models import jeffcott
-from carom.motions import settle
+from carom.motions import State, settle
 from carom.proofs import Proof, check, hypotheses_of
 from carom.proofs.claims import Evidence
 from carom.proofs.families import KICKS
@@ -86,7 +86,7 @@ def test_kicks_of_a_refuted_cell_end_in_the_rub(machine, largest):
     )
     ahead = rotor.equilibrium / abs(rotor.equilibrium)
     kicks = float(largest) * sizes * np.exp(2j * np.pi * turns) * ahead
-    endings = settle(rotor, np.full(number, rotor.equilibrium), kicks)
+    endings = settle(rotor, State(np.full(number, rotor.equilibrium), kicks))
 
     assert set(endings.outcomes.tolist()) <= {Outcome.FORWARD_RUB}
 

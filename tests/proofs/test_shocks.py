@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom import BaseShock, settle
+from carom import BaseShock, State, settle
 from carom.base.outcome import InputError
 from carom.models import jeffcott
 from carom.proofs import check, prove_kicks, prove_shocks, prove_unbalance_steps
@@ -76,11 +76,11 @@ def test_simulations_return_with_at_most_as_many_impacts(proof):
         # The rotor feels the opposite of the acceleration of its base.
         starts = BaseShock(largest, duration).starts(rotor, largest * np.abs(shares), np.angle(-shares * ahead))
         assert not (starts.touched | starts.ended).any()
-        endings = settle(rotor, starts.positions, starts.velocities)
+        endings = settle(rotor, State(starts.positions, starts.velocities))
     else:
         p = rotor.parameters
         gain = 1 / abs(complex(p.omega**2 - 1, p.gamma))
-        endings = settle(rotor, levitation + largest * gain * shares * ahead, np.zeros_like(shares))
+        endings = settle(rotor, State(levitation + largest * gain * shares * ahead, np.zeros_like(shares)))
 
     assert endings.recovered.all()
     assert (endings.impacts <= most).all()

@@ -58,7 +58,7 @@ def test_simulated_states_return(proof):
     rotor = jeffcott(doubles_of(proof.hypotheses))
     starts = drawn(proof["states recover"].enclosures["speed"].value, sized(10_000, 300, 100_000))
 
-    assert settle(rotor, *starts).recovered.all()
+    assert settle(rotor, cm.State(*starts)).recovered.all()
 
 
 def valued(form, place, velocity, circle):
@@ -138,7 +138,7 @@ def test_states_that_are_said_to_be_lost_are():
     spindle = prove_states("examples/spindle.toml", "200 mm/s")
     speed = spindle["states lost"].enclosures["speed"].value
     place = np.exp(1j * np.linspace(0, 6, 50))
-    endings = settle(cm.load("examples/spindle.toml"), place, -1j * place * (1.001 * speed + 1))
+    endings = settle(cm.load("examples/spindle.toml"), cm.State(place, -1j * place * (1.001 * speed + 1)))
 
     assert spindle["states all recover"].status == "undecided"
     assert endings.count(Outcome.ROLLING) == len(place)

@@ -51,7 +51,7 @@ def test_nothing_fresh_is_lost_at_advised_values(kick):
     assert result.recommendation.kind == "change"
     for change in result.recommendation.changes:
         rotor = jeffcott(with_setting(case, change.terms).parameters)
-        lost = ~settle(rotor, *fresh(rotor, result.required.kick, 2000, 77)).recovered
+        lost = ~settle(rotor, cm.State(*fresh(rotor, result.required.kick, 2000, 77))).recovered
         assert lost.sum() == 0, (kick, change.terms.setting)
 
 

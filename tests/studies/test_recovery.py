@@ -47,7 +47,7 @@ def test_nothing_fresh_is_lost_inside_a_range(along_damping):
     assert (span.high.value, span.high.kind) == (4.0, "")
     for number, gamma in enumerate(np.geomspace(1.05 * span.low.value, span.high.value, 5)):
         rotor = jeffcott(PAPER.replace(gamma=float(gamma)))
-        lost = ~settle(rotor, *fresh(rotor, 2000, 100 + number)).recovered
+        lost = ~settle(rotor, cm.State(*fresh(rotor, 2000, 100 + number))).recovered
         assert lost.sum() == 0
 
 
@@ -60,7 +60,7 @@ def test_something_is_lost_just_beyond_its_end(along_damping):
     assert lost.motion == span.low.motion
     rotor = jeffcott(PAPER.replace(gamma=beyond))
     starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
-    (outcome,) = settle(rotor, starts.positions, starts.velocities).outcomes
+    (outcome,) = settle(rotor, cm.State(starts.positions, starts.velocities)).outcomes
     assert outcome == lost.motion.outcome
 
 

@@ -136,7 +136,7 @@ def test_motions_do_what_is_said_of_each_speed():
 
 
 def _ends(rotor: Rotor, places: list[complex], velocities: list[complex]) -> list[int]:
-    return settle(rotor, np.array(places), np.array(velocities)).outcomes.tolist()
+    return settle(rotor, cm.State(np.array(places), np.array(velocities))).outcomes.tolist()
 
 
 def test_the_lag_at_the_present_speed_is_that_of_the_curve():

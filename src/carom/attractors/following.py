@@ -197,7 +197,7 @@ def measure_survival(
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left, low_for = [], [], np.zeros(motions, int)
     for _ in range(1 + max(1, impacts // LOOK)):
-        ends = settle(rotor, positions, velocities, begins=times, patience=LOOK, threads=threads)
+        ends = settle(rotor, State(positions, velocities, time=times), patience=LOOK, threads=threads)
         low = stay_low(ends)
         low_for = np.where(low, low_for + 1, 0)
         alive = still_irregular(ends) | (low & (low_for < LOOKS_LOW))
@@ -221,7 +221,7 @@ def follow_further(rotor: Rotor, endings: Endings, chosen: np.ndarray, **limits:
     """
     before = endings[chosen]
     reached = before.begins + before.times
-    further = settle(rotor, before.positions, before.velocities, begins=reached, **limits)
+    further = settle(rotor, State(before.positions, before.velocities, time=reached), **limits)
     whole = {name: values.copy() for name, values in vars(endings).items()}
     followed = further.outcomes != NOT_FOLLOWED
     places, further = tuple(each[followed] for each in np.nonzero(chosen)), further[followed]

@@ -12,6 +12,7 @@ from carom.disturbances.coordinates import INSTANT, Starts
 from carom.disturbances.model import Disturbance
 from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
+from carom.motions.starts import State
 
 
 class Quantity(NamedTuple):
@@ -55,7 +56,7 @@ def follow(
     if starts.after is not None:
         machine, machines = _distinct(starts.after[chosen])
     found = settle(
-        machine, starts.positions[chosen], starts.velocities[chosen], which=machines, begins=begins, **limits
+        machine, State(starts.positions[chosen], starts.velocities[chosen], time=begins), which=machines, **limits
     )
     whole = {}
     for name, values in vars(found).items():

@@ -302,7 +302,7 @@ def _plain(name: str, value: object) -> object:
     raise InputError(name, shown(value), "a number, a text, or a tuple of these, so that results can record it")
 
 
-def _from_plain(field: dataclasses.Field[object], value: Any) -> Any:
+def _from_plain(field: dataclasses.Field[object], value: Any) -> object:
     """Value of a field from plain data, in which complex numbers and tuples are lists."""
     if field.type in (complex, "complex"):
         return complex(*value) if isinstance(value, list) else complex(value)

@@ -43,7 +43,7 @@ class Echo:
 
     def document(self, scales: Scales | None) -> dict[str, object]:
         """Return it as plain data, with sizes in SI units too where the scales are known."""
-        document: dict[str, Any] = {"kind": self.kind, "words": self.words}
+        document: dict[str, object] = {"kind": self.kind, "words": self.words}
         for name, (value, scale) in self.sizes.items():
             document[name] = value
             if scale:

@@ -64,7 +64,7 @@ class Definition:
         """Value of a named parameter, in the unit of its field."""
         raise NotImplementedError
 
-    def replace(self, **changes: Any) -> Definition:
+    def replace(self, **changes: float | str) -> Definition:
         """Return it with other values of named parameters; what depends on them changes too."""
         raise NotImplementedError
 

@@ -18,7 +18,7 @@ _PACKAGES = ("carom.parameters", "carom.models", "carom.rotors")
 """Whose classes rotors are made of; a file can name no others."""
 
 
-def document_of(part: Any) -> Any:
+def document_of(part: Any) -> object:
     """A rotor or a part of it as numbers, texts, lists and dictionaries; a controller of another library as its matrices.
 
     Of a class that is in none of the packages, a definition is written by its equations of motion.
@@ -41,7 +41,7 @@ def document_of(part: Any) -> Any:
     return document_of(import_module("carom.rotors.controllers").state_space_of(part))
 
 
-def part_from(given: object) -> Any:
+def part_from(given: object) -> object:
     """The rotor, or the part of one, of which :func:`document_of` has made these data."""
     if isinstance(given, list):
         return tuple(map(part_from, given))
@@ -56,6 +56,6 @@ def part_from(given: object) -> Any:
     return getattr(made, "from_stored", made)(**own)
 
 
-def _class_of(kind: str) -> Any:
+def _class_of(kind: str) -> type | None:
     classes = (getattr(import_module(package), kind, None) for package in _PACKAGES)
     return next((each for each in classes if isinstance(each, type)), None)

@@ -42,8 +42,7 @@ ONE = 1e-7
 
 
 _KEPT = ("offsets", "masses", *Wall._fields, "limit_offsets", "limit_bounds", "limit_couplings")
-_AS_BEFORE = ("translation", "races", "shaft", "clearances", "magnets", "growth")
-"""What forces do not change, of the arrays and of a system."""
+"""Arrays that forces do not change."""
 
 
 class Force(NamedTuple):
@@ -102,7 +101,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         forced=modes.forced,
         conjugate_modes=modes.left[:, last + first :] if turns else None,
         arrays=moved | {name: arrays[name] for name in _KEPT},
-        **{name: getattr(system, name) for name in _AS_BEFORE},
+        beside=system,
     )
 
 

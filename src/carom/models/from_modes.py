@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from carom.base.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
-from carom.models.system import System
-from carom.models.turning import Race
+from carom.models.system import BesideModes, System
 
 SMALLEST = 2
 """Least number of modes in the arrays; larger numbers are powers of two."""
@@ -42,21 +40,22 @@ def modal_system(
     shapes: np.ndarray,
     inverse: np.ndarray,
     arrays: dict[str, np.ndarray],
+    beside: BesideModes,
     forced: np.ndarray | None = None,
     conjugate_modes: np.ndarray | None = None,
-    **others: Any,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
 
     Parameters
     ----------
-    rest, shapes, inverse, forced, conjugate_modes, **others
-        See :class:`System`.  Each race that turns is one more mode, a shaft whose speed changes two, at the nominal speed at first.
+    rest, shapes, inverse, forced, conjugate_modes
+        See :class:`System`.
     arrays : dict of str to ndarray
         Arguments of :func:`~carom.core.layout.rotor_record`; all modes are free by default.
+    beside : BesideModes
+        Each race that turns is one more mode, a shaft whose speed changes two, at the nominal speed at first.
     """
-    exponents, shaft, magnets = arrays["exponents"], others.get("shaft"), others.get("magnets")
-    races: Sequence[Race | None] = others.get("races") or ()
+    exponents, shaft, races = arrays["exponents"], beside.shaft, beside.races or ()
     modes, turning = len(exponents), [(plane, race) for plane, race in enumerate(races) if race is not None]
     number = len(turning)
     size = size_of(modes + number + (0 if shaft is None else 2))
@@ -84,8 +83,8 @@ def modal_system(
             "shaft_gain": shaft.gains(arrays["masses"], arrays["surface_speed"] - 1.0),
             "drive": np.array([shaft.drive]),
         }
-    if magnets is not None:
-        arrays |= {"gap_rows": magnets @ shapes, "gap_offsets": magnets @ rest}
+    if beside.magnets is not None:
+        arrays |= {"gap_rows": beside.magnets @ shapes, "gap_offsets": beside.magnets @ rest}
     arrays = {name: filled(each, _ALONG_MODES[name]) if name in _ALONG_MODES else each for name, each in arrays.items()}
     return System(
         rotor_record(**arrays | {"exponents": filled(exponents, filler=exponents[-1])}),
@@ -94,7 +93,12 @@ def modal_system(
         filled(inverse),
         forced=None if forced is None else filled(forced),
         conjugate_modes=None if conjugate_modes is None else filled(conjugate_modes),
-        **others | {"races": tuple(races) if turning else None},
+        translation=beside.translation,
+        races=races if turning else None,
+        shaft=shaft,
+        clearances=beside.clearances,
+        growth=beside.growth,
+        magnets=beside.magnets,
     )
 
 

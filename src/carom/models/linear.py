@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from carom.base.outcome import InputError, shown
 from carom.base.results import Result
@@ -17,9 +18,9 @@ from carom.models.definition import Definition, Matrices, is_singular
 from carom.models.forcing import complex_numbers
 from carom.models.linear_system import system_of
 from carom.models.rotor import Rotor
-from carom.models.system import System
+from carom.models.system import BesideModes, System
 from carom.models.touchdown import Touchdown
-from carom.models.turning import Shaft
+from carom.models.turning import Shaft, ShaftModes
 from carom.parameters import Field, Scales
 
 ROUNDING = 1e-12
@@ -109,7 +110,7 @@ class LinearEquations(Definition, Result):
             object.__setattr__(self, "conjugate", None)
         if self.has_mass.any() and self.forcing[~self.has_mass].any():
             raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
-        given: Any = self.touchdowns
+        given: object = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
             allowed = f"carom.models.Touchdown, one or more, with planes of {n} coordinates"
@@ -152,34 +153,15 @@ class LinearEquations(Definition, Result):
         return np.array([each.plane for each in self.touchdowns])
 
     @classmethod
-    def in_fixed_frame(
-        cls, *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, **others: Any
-    ) -> Self:
-        """Rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
+    def in_fixed_frame(cls, matrices: Matrices, touchdowns: Sequence[Touchdown], **others: Any) -> Self:
+        """Rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``, and further attributes.
 
         With ``Z = U e^{it}`` the matrices of the co-rotating frame are ``M``, ``D − iG + 2iM`` and
         ``K − M + i(D − iG)``.
-
-        Parameters
-        ----------
-        mass, damping, stiffness, gyroscopic : array_like, shape (n, n)
-            ``M``, ``D``, ``K`` and the gyroscopic matrix ``G`` (polar moments of inertia; zero by default), with ``Ω = 1``.
-        forcing : array_like of complex, shape (n,)
-            Unbalance ``F``.
-        **others
-            Further attributes of :class:`LinearEquations`.
-
-        Raises
-        ------
-        InputError
-            See :class:`LinearEquations`.
         """
-        shape = (_numbers("forcing", forcing).size,) * 2
-        given = {"mass": mass, "damping": damping, "stiffness": stiffness}
-        given["gyroscopic"] = np.zeros(shape) if gyroscopic is None else gyroscopic
-        mass, damping, stiffness, gyroscopic = (_numbers(name, values, shape) for name, values in given.items())
+        mass, damping, gyroscopic, stiffness, forcing = matrices
         spin = damping - 1j * gyroscopic
-        return cls(mass, spin + 2j * mass, stiffness - mass + 1j * spin, forcing, **others)
+        return cls(mass, spin + 2j * mass, stiffness - mass + 1j * spin, forcing, touchdowns, **others)
 
     @cached_property
     def system(self) -> System:
@@ -187,14 +169,15 @@ class LinearEquations(Definition, Result):
         return system_of(self)
 
     @property
-    def system_fields(self) -> dict[str, Any]:
-        """Fields of its system that do not follow from its modes."""
-        return {
-            "races": [each.race for each in self.touchdowns],
-            "translation": self.translation,
-            "clearances": tuple(each.clearance for each in self.touchdowns),
-            "magnets": self.magnets,
-        }
+    def beside_modes(self) -> BesideModes:
+        """What does not follow from its modes."""
+        return BesideModes(
+            translation=self.translation,
+            races=tuple(each.race for each in self.touchdowns),
+            shaft=None if self.shaft is None else ShaftModes(self.shaft, self.accelerations(self.forcing)),
+            clearances=tuple(each.clearance for each in self.touchdowns),
+            magnets=self.magnets,
+        )
 
     @property
     def matrices(self) -> Matrices:
@@ -215,8 +198,8 @@ class LinearEquations(Definition, Result):
             raise InputError("machine", shown(self), allowed)
         damping, stiffness = np.zeros((2, *self.mass.shape)) if self.unlevitated is None else self.unlevitated
         left = self.matrices._replace(damping=damping, stiffness=stiffness)
-        kept = ("touchdowns", "translation", "scales", "shaft", "conjugate", "magnets")
-        return LinearEquations.in_fixed_frame(**left._asdict(), **{name: getattr(self, name) for name in kept})
+        kept = ("translation", "scales", "shaft", "conjugate", "magnets")
+        return LinearEquations.in_fixed_frame(left, self.touchdowns, **{name: getattr(self, name) for name in kept})
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
         """See :meth:`carom.models.Definition.unbalance_push`: all masses are off centre by the same, along the translation."""
@@ -270,7 +253,14 @@ class LinearEquations(Definition, Result):
 
 
 def from_matrices(
-    *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, touchdowns: Any, **others: object
+    *,
+    mass: ArrayLike,
+    damping: ArrayLike,
+    stiffness: ArrayLike,
+    gyroscopic: ArrayLike | None = None,
+    forcing: ArrayLike,
+    touchdowns: Sequence[Touchdown],
+    **others: object,
 ) -> Rotor:
     """Any linear rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
 
@@ -289,11 +279,15 @@ def from_matrices(
     InputError
         See :class:`LinearEquations`.
     """
-    given = {"mass": mass, "damping": damping, "stiffness": stiffness, "gyroscopic": gyroscopic}
-    return Rotor(LinearEquations.in_fixed_frame(**given, forcing=forcing, touchdowns=touchdowns, **others))
+    unbalance = _numbers("forcing", forcing)
+    shape = (unbalance.size, unbalance.size)
+    spin = np.zeros(shape) if gyroscopic is None else gyroscopic
+    given = {"mass": mass, "damping": damping, "gyroscopic": spin, "stiffness": stiffness}
+    matrices = Matrices._make((*(_numbers(name, values, shape) for name, values in given.items()), unbalance))
+    return Rotor(LinearEquations.in_fixed_frame(matrices, touchdowns, **others))
 
 
-def _numbers(name: str, given: Any, shape: tuple[int, ...] | None = None) -> np.ndarray:
+def _numbers(name: str, given: object, shape: tuple[int, ...] | None = None) -> np.ndarray:
     """Array of the given numbers, a copy; refuse what is none, and one of another shape."""
     values = complex_numbers(given)
     if values is None or not values.size or shape not in (None, values.shape):

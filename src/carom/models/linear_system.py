@@ -28,7 +28,6 @@ from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
 from carom.models.modes import modes_of
 from carom.models.system import System
-from carom.models.turning import ShaftModes
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
@@ -44,8 +43,7 @@ def system_of(given: LinearEquations) -> System:
         # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
         push = Force(0.0, given.accelerations(given.forcing))
         return with_forces(dataclasses.replace(given, forcing=np.zeros(n)).system, (push,))
-    turning = None if given.shaft is None else ShaftModes(given.shaft, given.accelerations(given.forcing))
-    rests = turning is None and given.forcing.any()
+    rests = given.shaft is None and given.forcing.any()
     rest = np.linalg.solve(given.stiffness, given.forcing) if rests else np.zeros(n, complex)
     moved = given.accelerations(given.planes.conj().T)
     found = modes_of(_generator(given), given.mass if given.has_mass.all() else None)
@@ -54,8 +52,9 @@ def system_of(given: LinearEquations) -> System:
         raise InputError(
             "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
         )
-    races = [each.race for each in given.touchdowns]
-    if n == 1 and given.planes.tolist() == [[1.0]] and races == [None] and turning is None and given.magnets is None:
+    beside = given.beside_modes
+    plain = beside.races == (None,) and given.shaft is None and given.magnets is None
+    if n == 1 and given.planes.tolist() == [[1.0]] and plain:
         return _one_coordinate(given, found.exponents, complex(rest[0]))
     inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
     inverse[:, np.append(np.ones(n, bool), given.has_mass)] = np.linalg.inv(found.basis)
@@ -69,7 +68,7 @@ def system_of(given: LinearEquations) -> System:
         **walls_as_arrays([each.wall(mass) for each, mass in zip(given.touchdowns, masses, strict=True)]),
     }
     shapes = found.basis[:n]
-    return modal_system(rest=rest, shapes=shapes, inverse=inverse, arrays=arrays, shaft=turning, **given.system_fields)
+    return modal_system(rest=rest, shapes=shapes, inverse=inverse, arrays=arrays, beside=beside)
 
 
 def _check_inverses(given: LinearEquations) -> None:
@@ -138,7 +137,7 @@ def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
         arrays=own | {name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
         forced=np.append(np.zeros(modes), 1.0).astype(complex),
         conjugate_modes=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
-        **given.system_fields,
+        beside=given.beside_modes,
     )
 
 

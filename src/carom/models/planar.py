@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 
@@ -146,26 +146,21 @@ class Planar(Definition):
     def equations(self) -> LinearEquations:
         """The same by matrices."""
         scales = cast("Scales", self.scales)
-        mass, damping, _, stiffness, forcing = self._row
+        matrices, plane, none = self._row, [1.0], np.zeros((1, 1), complex)
         if not self.levitates:
-            damping, stiffness = np.zeros_like(damping), np.zeros_like(stiffness)
-        plane, matrices = [1.0], {"mass": mass, "damping": damping, "stiffness": stiffness}
-        given = self.bearing or RIGID
+            matrices = matrices._replace(damping=none, stiffness=none)
+        given, at = self.bearing or RIGID, self.parameters
         if mount := given.mount:
             plane = [1.0, -1.0]
-            matrices = {
-                name: np.diag([matrix[0, 0], getattr(mount, name) / getattr(scales, name)])
-                for name, matrix in matrices.items()
-            }
-            forcing = np.append(forcing, 0.0)
-        at = self.parameters
+            own = mount.mass / scales.mass, mount.damping / scales.damping, 0.0, mount.stiffness / scales.stiffness
+            pairs = (np.diag([matrix[0, 0], of_mount]) for matrix, of_mount in zip(matrices, own, strict=False))
+            matrices = Matrices._make((*pairs, np.append(matrices.forcing, 0.0)))
         touchdown = Touchdown(
             plane, law_of(given, scales, at.d), at.mu, at.radius_ratio + 1.0, race_of(given, at.radius_ratio, scales)
         )
         return LinearEquations.in_fixed_frame(
-            **matrices,
-            forcing=forcing,
-            touchdowns=[touchdown],
+            matrices,
+            [touchdown],
             translation=np.eye(len(plane))[0],
             carried=np.ones(len(plane)),
             shaft=shaft_of(self.drive, scales),
@@ -229,7 +224,7 @@ class Planar(Definition):
             return float(getattr(self.bearing, name.removeprefix(PREFIX)))
         return self.parameters.value(name)
 
-    def replace(self, **changes: Any) -> Planar:
+    def replace(self, **changes: float | str) -> Planar:
         """Return it with other values of its parameters; those of the bearing stay what they are in SI units."""
         if self.bearing is None:
             return Planar(self.parameters.replace(**changes))

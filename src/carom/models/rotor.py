@@ -317,7 +317,7 @@ class Rotor(Result):
         """
         return self._gravity[1] if name == GRAVITY_NAME and self._gravity else self.definition.value(name)
 
-    def replace(self, **changes: Any) -> Rotor:
+    def replace(self, **changes: float | str) -> Rotor:
         """Return the rotor with other values of named parameters; what depends on them changes too.
 
         Forces and limits stay what they are in SI units, if scales are known; limits that follow from parameters change with these.

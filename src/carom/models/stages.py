@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -105,7 +104,7 @@ def in_stages(stages: Sequence[Stage]) -> Rotor:
     >>> [part.outcome.label for part in motion.parts]
     ['triggered', 'levitated']
     """
-    given: Any = stages
+    given: object = stages
     listed = tuple(given) if isinstance(given, Sequence) else ()
     if not listed or not all(isinstance(each, Stage) for each in listed):
         raise InputError("stages", shown(given), "carom.models.Stage, one or more")

@@ -64,8 +64,36 @@ ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
 
 
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class BesideModes:
+    """What a rotor has beside its modes, whatever forces act on it.
+
+    Attributes
+    ----------
+    translation : ndarray of complex, shape (n,), optional
+        Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
+    races : tuple of Race or None, optional
+        The race at each plane, where one turns.  Their modes are not free, but friction changes them.
+    shaft : ShaftModes, optional
+        Those of a shaft whose speed changes.  The frame turns at its nominal speed.
+    clearances : tuple of float, optional
+        Clearance of each plane in the unit of length of the rotor's scales; ones by default.
+    growth : float
+        Rate, in ``Ω``, at which a motion grows that the modes leave out; 0, the default, if none does.
+    magnets : ndarray of complex, shape (G, n), optional
+        Displacement at each magnet, in its air gap, per coordinate, where the gap is known.
+    """
+
+    translation: np.ndarray | None = None
+    races: tuple[Race | None, ...] | None = None
+    shaft: ShaftModes | None = None
+    clearances: tuple[float, ...] | None = None
+    growth: float = 0.0
+    magnets: np.ndarray | None = None
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class System(ModeArrays):
+class System(ModeArrays, BesideModes):
     """Modes, contact planes and contact law of a rotor, as arrays for the kernels.
 
     A state is a view of the amplitudes: the ``n`` coordinates of the rotor and their rates; for a rotor with one coordinate they
@@ -85,36 +113,18 @@ class System(ModeArrays):
         Coordinates per amplitude.
     to_modes : ndarray of complex, shape (N, 2n)
         Amplitudes per coordinate, then per rate of a coordinate; zeros for modes that are not free.
-    translation : ndarray of complex, shape (n,), optional
-        Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
     forced : ndarray of complex, shape (N,), optional
         Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
-    races : tuple of Race or None, optional
-        The race at each plane, where one turns.  Their modes are not free, but friction changes them.
-    shaft : ShaftModes, optional
-        Those of a shaft whose speed changes.  The frame turns at its nominal speed.
-    clearances : tuple of float, optional
-        Clearance of each plane in the unit of length of the rotor's scales; ones by default.
     conjugate_modes : ndarray of complex, shape (N, 2n), optional
         Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings are anisotropic
         (:mod:`carom.models.linear_system`); by default they do not.
-    magnets : ndarray of complex, shape (G, n), optional
-        Displacement at each magnet, in its air gap, per coordinate, where the gap is known.
-    growth : float
-        Rate, in ``Ω``, at which a motion grows that these modes leave out; 0, the default, if none does.
     """
 
     rest: np.ndarray
     shapes: np.ndarray
     to_modes: np.ndarray
-    translation: np.ndarray | None = None
     forced: np.ndarray | None = None
-    races: tuple[Race | None, ...] | None = None
-    shaft: ShaftModes | None = None
-    clearances: tuple[float, ...] | None = None
     conjugate_modes: np.ndarray | None = None
-    growth: float = 0.0
-    magnets: np.ndarray | None = None
 
     @property
     def decay(self) -> float:

@@ -85,7 +85,7 @@ class Touchdown:
     def replace(self, name: str, value: float) -> Touchdown:
         """Return the same with another value of one of its parameters."""
         if name in self.law.parameters:
-            changed: dict[str, Any] = {self.law.parameters[name]: value}
+            changed = {self.law.parameters[name]: value}
             return dataclasses.replace(self, law=dataclasses.replace(self.law, **changed))
         if name == "mu":
             return dataclasses.replace(self, friction=value)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.base.arguments import Count, Reals, Whole, checked
-from carom.base.outcome import InputError, Outcome
+from carom.base.arguments import Count, Whole, checked, kind_of_numbers
+from carom.base.outcome import InputError, Outcome, shown
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result
 from carom.core.processors import available_cores
@@ -23,7 +23,7 @@ from carom.motions.settling import (
     may_be_low,
 )
 from carom.motions.simulation import Following, stretches
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, arrays_of
 from carom.parameters import own_time
 
 MOST_EVENTS = 1_000_000
@@ -97,11 +97,9 @@ class Endings(Result):
 @shows_progress
 def settle(
     machine: Subject | Sequence[Subject],
-    positions: np.ndarray,
-    velocities: np.ndarray,
+    starts: State,
     *,
     which: np.ndarray | None = None,
-    begins: Reals | None = None,
     until: Until | None = None,
     patience: Whole = PATIENCE,
     max_events: Count = MOST_EVENTS,
@@ -121,13 +119,11 @@ def settle(
     ----------
     machine : Machine, Case, Parameters or model, or a sequence of them
         In a sequence: ``which`` assigns one of the machines to each start.
-    positions, velocities : array_like of complex
-        Starts in the co-rotating frame, broadcast to one shape; ``|U| ≤ 1``.  For a rotor of ``n > 1`` coordinates with a
-        last axis of that length.
+    starts : State
+        Many in one: arrays of positions, velocities and times, broadcast to one shape; ``|U| ≤ 1``.  Races and a shaft have the speeds that the
+        rotor begins with.
     which : array_like of int, optional
         With a sequence: the index of the machine of each start, of the same shape.
-    begins : array_like, optional
-        Time at which each start is taken, in ``1/Ω``, by default 0: under weight it says where this points, as that of a :class:`carom.State`.
     until : float or str
         Time after which a motion that has not settled is given up, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by
         default :func:`~carom.motions.settling.longest_time` of its machine.
@@ -155,17 +151,17 @@ def settle(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> endings = cm.settle(machine, [0.2, 0.9j], [0.0, -1.0])
+    >>> endings = cm.settle(machine, cm.State([0.2, 0.9j], [0.0, -1.0]))
     >>> [cm.outcome.Outcome(code).label for code in endings.outcomes]
     ['forward-rub', 'forward-rub']
     """
     rotors, which = _machines(machine, which)
-    shape, which, starts = _broadcast(rotors, which, positions, velocities, begins)
+    shape, which, begun = _broadcast(rotors, which, starts)
     for rotor in rotors if until is not None or patience == 0 else ():
         own_time("until", until, rotor.scales)
     tell = Reporter.of(progress, "following starts")
     limits = EventLimits(until, patience, max_events, threads or available_cores(), tell)
-    endings = _followed([stages_of(rotor) for rotor in rotors], which, starts, limits)
+    endings = _followed([stages_of(rotor) for rotor in rotors], which, begun, limits)
     present_question().count(endings.outcomes)
     return endings.reshaped(*shape)
 
@@ -253,34 +249,30 @@ def _settled(stages: Sequence[Stage], which: np.ndarray, starts: _Begun, limits:
     )
 
 
-def _broadcast(
-    rotors: Sequence[Rotor], which: np.ndarray, positions: np.ndarray, velocities: np.ndarray, begins: Reals | None
-) -> tuple[tuple[int, ...], np.ndarray, _Begun]:
+def _broadcast(rotors: Sequence[Rotor], which: np.ndarray, starts: State) -> tuple[tuple[int, ...], np.ndarray, _Begun]:
     """The shape of all starts, and in one dimension the numbers of their machines and themselves."""
     counts = {len(rotor.system.rest) for rotor in rotors} or {1}
     if len(counts) > 1:
         raise InputError("machine", f"rotors of {sorted(counts)} coordinates", "rotors of equally many coordinates")
+    if starts.races or starts.shaft:
+        raise InputError("start races, shaft", shown(starts), "left out: of many motions these speeds are not kept")
+    if kind_of_numbers(starts.time) not in "iuf":
+        raise InputError("start time", shown(starts.time), "finite real numbers")
     coordinates = tuple(counts - {1})  # last axes of positions: none for rotors of one coordinate
-    given, shapes = [], []
-    for name, values in (
-        ("positions", np.asarray(positions, complex)),
-        ("velocities", np.asarray(velocities, complex)),
-    ):
-        own = values.ndim - len(coordinates)
-        if values.shape[own:] != coordinates:
-            raise InputError(
-                f"start {name}", values.shape, f"an array with a last axis of {coordinates[0]} coordinates"
-            )
-        given.append(values)
-        shapes.append(values.shape[:own])
-    started = np.zeros(()) if begins is None else np.asarray(begins, float)
-    shapes += [which.shape, started.shape]
+    parts, started = arrays_of(starts), np.asarray(starts.time, float)
+    own = [values.ndim - len(coordinates) for values in parts]
+    for name, values, axes in zip(("position", "velocity"), parts, own, strict=True):
+        if values.shape[axes:] != coordinates:
+            allowed = f"an array with a last axis of {coordinates[0]} coordinates"
+            raise InputError(f"start {name}", values.shape, allowed)
+    shapes = *(values.shape[:axes] for values, axes in zip(parts, own, strict=True)), which.shape, started.shape
     try:
         shape = np.broadcast_shapes(*shapes)
     except ValueError:
-        allowed = "arrays of shapes that fit together"
-        raise InputError("start positions, velocities, which, begins", shapes, allowed) from None
-    places, speeds = (np.broadcast_to(values, shape + coordinates) for values in given)
+        raise InputError(
+            "start position, velocity, time, which", shapes, "arrays of shapes that fit together"
+        ) from None
+    places, speeds = (np.broadcast_to(values, shape + coordinates) for values in parts)
     which, started = (np.broadcast_to(values, shape).ravel() for values in (which, started))
     _check_starts(places, speeds, all(rotor.system.is_planar for rotor in rotors))
     places, speeds = (values.reshape(len(which), *coordinates) for values in (places, speeds))

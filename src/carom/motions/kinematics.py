@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -36,7 +36,7 @@ def slip_velocity(system: System, plane: int, amplitudes: np.ndarray) -> np.ndar
     On a rigid wall ``r`` is one.  The surface of a race that turns has the speed ``q``.  A shaft whose speed changes has ``sσ`` in
     place of ``s``.
     """
-    surface_speed: Any = system.contacts[plane].wall.surface_speed
+    surface_speed: float | np.ndarray = system.contacts[plane].wall.surface_speed
     if system.shaft is not None:
         surface_speed += (surface_speed - 1.0) * (shaft_speed(system, amplitudes) - 1.0)
     position, velocity = system.at_plane(amplitudes, plane)

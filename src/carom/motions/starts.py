@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
-from typing import Annotated, Any, Protocol, runtime_checkable
+from typing import Annotated, Any, Protocol, cast, runtime_checkable
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
 from carom.models import Rotor, Subject, System
+from carom.models.forcing import complex_numbers
 
 
 @runtime_checkable
@@ -29,8 +30,8 @@ LARGEST_SPEED = 1e12
 """Largest speed of a start: far larger ones cross the clearance in less than a double tells apart from no time."""
 FARTHEST = 1e12
 """Farthest place and largest time of a start: of larger ones no digits are left, of the wall or of a turn."""
-_REALS, _NUMBERS = "iuf", "iufc"
-"""Kinds of numbers of NumPy, without and with complex ones."""
+_REALS = "iuf"
+"""Kinds of real numbers of NumPy."""
 WALL_TOLERANCE = 1e-12
 """Distance from ``|U| = 1`` within which a start counts as on the wall."""
 _TIME = "a finite time above 0, in 1/Omega or with a unit, such as '2 s'"
@@ -45,7 +46,8 @@ class State:
     Attributes
     ----------
     position, velocity : complex, or ndarray of complex, shape (n,)
-        ``U`` in clearances and ``U̇`` in clearances times ``Ω``; arrays for a rotor of ``n > 1`` coordinates.
+        ``U`` in clearances and ``U̇`` in clearances times ``Ω``; arrays for a rotor of ``n > 1`` coordinates.  Those of many starts, for
+        :func:`carom.settle`, are arrays of any shape, then with a last axis of coordinates; so is their time.
     races : tuple of float
         Speeds of the surfaces of the races that turn, in the order of their planes, in ``c_r Ω`` in the fixed frame; by default
         those that the rotor begins with.
@@ -70,7 +72,7 @@ class State:
     velocity: Any = 0j
     races: tuple[float, ...] = ()
     shaft: tuple[float, ...] = ()
-    time: float = 0.0
+    time: Any = 0.0
 
     def __repr__(self) -> str:
         turning = [f", {name}={getattr(self, name)}" for name in ("races", "shaft", "time") if getattr(self, name)]
@@ -111,17 +113,22 @@ def levitating(rotor: Rotor, push: complex = 0j, instant: float = 0.0) -> State:
     return State.of(*rotor.system.kicked(push, begun), time=begun)
 
 
+def arrays_of(start: State) -> tuple[np.ndarray, np.ndarray]:
+    """Position and velocity of one start or of many as arrays; refuse what are no finite numbers."""
+    parts = complex_numbers(start.position), complex_numbers(start.velocity)
+    for name, values in zip(("position", "velocity"), parts, strict=True):
+        if values is None:
+            raise InputError(f"start {name}", getattr(start, name), "finite numbers")
+    return cast("tuple[np.ndarray, np.ndarray]", parts)
+
+
 def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
     system = rotor.system
     coordinates = () if len(system.rest) == 1 else system.rest.shape
-    for name in ("position", "velocity"):
-        given = getattr(state, name)
-        values = np.asarray(given)
+    for name, values in zip(("position", "velocity"), arrays_of(state), strict=True):
         if values.shape != coordinates:
-            raise InputError(f"start {name}", given, f"{len(system.rest)} coordinate(s)")
-        if kind_of_numbers(given) not in _NUMBERS:
-            raise InputError(f"start {name}", given, "finite numbers")
+            raise InputError(f"start {name}", getattr(state, name), f"{len(system.rest)} coordinate(s)")
     if np.abs(state.velocity).max() > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
     if np.abs(state.position).max() > FARTHEST:

@@ -80,7 +80,7 @@ def _orbits_of_ends(
 
     And the number of motions that had not settled when they were given up.
     """
-    ends: Endings = settle(rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
+    ends: Endings = settle(rotor, State(*random_starts(rotor, random, count)), patience=GIVEN_UP, max_events=GIVEN_UP)
     irregular = (ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities == 0)
     unsettled = int(np.count_nonzero(irregular | (ends.outcomes < Outcome.LEVITATED)))
     ends = ends[((ends.outcomes == Outcome.BOUNCING) & ~irregular) | (ends.outcomes == Outcome.MIXED)]

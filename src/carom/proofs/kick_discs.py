@@ -14,7 +14,7 @@ from flint import arb, arb_series
 
 from carom.base.outcome import InputError, Outcome
 from carom.models import Rotor, jeffcott
-from carom.motions import settle
+from carom.motions import State, settle
 from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational, terms
@@ -262,7 +262,7 @@ class BoxPart:
         # What is outside by then is tried, to be stated why it is open.
         outside = np.abs(starts) >= 1
         starts[outside], velocities[outside] = rotor.equilibrium, 0
-        endings = settle(rotor, starts, velocities, threads=1, progress=False)
+        endings = settle(rotor, State(starts, velocities), threads=1, progress=False)
         returned: list[bool] = (endings.outcomes == Outcome.LEVITATED).tolist()
         return returned
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.models import Limit, Rotor, Touchdown
+from carom.models import Limit, Matrices, Rotor, Touchdown
 from carom.models.planar import law_of, race_of
 from carom.models.touchdown import FARTHEST
 from carom.parameters import Scales
@@ -267,15 +267,12 @@ class ReducedMachine(Result):
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
         slowest = at.slowest
+        damping, stiffness = once * given.damping, twice * given.stiffness
         return FlexibleDefinition.in_fixed_frame(
+            Matrices(given.mass, damping, given.gyroscopic, stiffness, given.forcing / (scales.length * size)),
+            [self._touchdown(*each) for each in planes],
             reduced=self,
             growth=float(slowest.exponents.real.max()) / at.speed if slowest.grows else 0.0,
-            mass=given.mass,
-            damping=once * given.damping,
-            stiffness=twice * given.stiffness,
-            gyroscopic=given.gyroscopic,
-            forcing=given.forcing / (scales.length * size),
-            touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.append(given.carried[: self.vectors] / size, np.zeros(len(given.mass) - self.vectors)),
             carried=given.carried / size,
             regained=given.regained,

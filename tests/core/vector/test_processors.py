@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import settle
+from carom import State, settle
 from carom.core.layout import LANE_NODES, LANES, LEVELS, OCTET
 from carom.models import jeffcott
 
@@ -27,7 +27,7 @@ SHORT, STRONGLY_DAMPED = "0.1 20.0", "0.3 200000.0"
 SCRIPT = f"""
 import sys
 import numpy as np
-from carom import settle
+from carom import State, settle
 from carom.models import jeffcott
 from carom.core.ensemble import follow_each
 from carom.core.layout import LANES, WIDTH
@@ -38,7 +38,7 @@ given, found = np.load(sys.argv[1]), {{}}
 for case in ({SHORT!r}, {STRONGLY_DAMPED!r}):
     damping, until = map(float, case.split())
     rotor = jeffcott(PAPER.replace(gamma=damping))
-    endings = settle(rotor, given["positions"], given["velocities"], until=until, threads=1)
+    endings = settle(rotor, State(given["positions"], given["velocities"]), until=until, threads=1)
     found |= {{f"{{case}} {{name}}": values for name, values in vars(endings).items()}}
 look_up = program("row, few, places, levels, out, first", [
     "store(out[0], first, take(row, load(places, first)))", "store(out[1], first, choose(few, load(levels, first)))",
@@ -93,7 +93,7 @@ def found(given, tmp_path_factory):
 @pytest.mark.parametrize("case", [SHORT, STRONGLY_DAMPED])
 def test_motions_are_the_same(given, found, case):
     damping, until = map(float, case.split())
-    here = settle(jeffcott(PAPER.replace(gamma=damping)), given["positions"], given["velocities"], until=until)
+    here = settle(jeffcott(PAPER.replace(gamma=damping)), State(given["positions"], given["velocities"]), until=until)
     for name in ("outcomes", "impacts", "multiplicities"):
         np.testing.assert_array_equal(found[f"{case} {name}"], getattr(here, name), err_msg=name)
     np.testing.assert_allclose(found[f"{case} times"], here.times, rtol=1e-9)

@@ -14,7 +14,7 @@ from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import ContactPeaks, contact_peaks, wall_at
 from carom.models import Rotor
-from carom.motions import LastingContact, Trajectory, settle, simulate
+from carom.motions import LastingContact, State, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.parameters.formats import shown_in
 from carom.plots.cells import MotionLook
@@ -116,7 +116,7 @@ def follow_kick(
     shown = simulate(rotor, start, _shown_until(rotor, motion), max_events=MOST_EVENTS)
     times = shown.sample(max(LEAST_SAMPLES, min(MOST_SAMPLES, int(PER_TURN * shown.time / math.tau))))
     times = times[:: math.ceil(len(times) / (2 * MOST_SAMPLES))]
-    _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
+    _, (name,) = name_motions(rotor, settle(rotor, State(np.array([start.position]), np.array([start.velocity]))))
     look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
     every = [contact_peaks(motion.seen_at(place)) for place in range(len(rotor.system.planes))]
     return KickedMotion(
