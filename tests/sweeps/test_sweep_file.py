@@ -222,7 +222,7 @@ def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_pa
         "slice": "",
         "state": "fastest = 1",
     }
-    assert sizes.keys() == MODELS.keys()
+    assert sizes.keys() == {name for name, model in MODELS.items() if model.__module__.startswith("carom")}
     tasks = [f'[basins]\nstarts = 10\n[basins.disturbance]\nkind = "{kind}"\n{size}' for kind, size in sizes.items()]
     files = [
         write(do=task).rename(tmp_path / f"{number}.toml")

@@ -21,7 +21,7 @@ from carom.base.results import Result, record
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Rotor, Subject, rotor_of
-from carom.motions import Endings, settle, simulate
+from carom.motions import Endings, State, settle, simulate
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import REPEATING

@@ -23,7 +23,7 @@ from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
     from carom.basins.maps import Over
-    from carom.disturbances import Disturbance, Drop
+    from carom.disturbances import Drop
     from carom.disturbances.single import Echo
     from carom.models import Axis, Rotor
     from carom.motions.loads import DropLoads
@@ -34,16 +34,9 @@ if TYPE_CHECKING:
 
 def read_one(option: str, text: str, scales: Scales | None) -> Single:
     """Read the single disturbance, or the state, of an option."""
-    from carom.disturbances import BaseShock, BladeLoss, GivenState, VelocityKick, Whirl
+    from carom.disturbances import Disturbance
 
-    kinds: dict[str, type[Disturbance]] = {
-        "--start": GivenState,
-        "--kick": VelocityKick,
-        "--whirl": Whirl,
-        "--shock": BaseShock,
-        "--blade-loss": BladeLoss,
-    }
-    return read_single(kinds[option], text, scales, option)
+    return read_single(Disturbance.of_kind(option.removeprefix("--")), text, scales, option)
 
 
 def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> float:
@@ -74,9 +67,7 @@ def _size(option: str, text: str, kind: str, scales: Scales | None) -> float:
 
 def read_all_around(option: str, text: str, scales: Scales | None) -> Single:
     """Read a kick, a shock or a loss of a blade of which all directions are meant, by its option."""
-    from carom.disturbances import MODELS
-
-    single = read_single(MODELS[option.removeprefix("--")], text, scales, option)
+    single = read_one(option, text, scales)
     if single.values[-1]:
         raise InputError(option, text, "must be without an angle: all directions are tried")
     return single

@@ -21,7 +21,7 @@ co-rotating frame, from which the motion is free.
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
-(with ``shocks``, which follows a rotor through a pulse), ``states``, ``blade_loss`` and ``drops``, by name in ``kinds``.  ``plans`` has
+(with ``shocks``, which follows a rotor through a pulse), ``states``, ``blade_loss`` and ``drops``.  ``plans`` has
 grids and samples, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where they end, of which
 it says what is measured.
 

@@ -49,6 +49,7 @@ class Drop(Disturbance):
     kind: ClassVar[str] = "drop"
     noun: ClassVar[str] = "drops"
     changes_machine: ClassVar[bool] = True
+    many: ClassVar[bool] = False
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

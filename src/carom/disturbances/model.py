@@ -50,6 +50,8 @@ class Disturbance:
         Such a text in quotes.
     bare : bool
         Whether its sizes may be numbers without a unit where the machine is in SI units.
+    many : bool
+        Whether grids and samples of it are taken, in sweep files too.
     """
 
     kind: ClassVar[str] = ""
@@ -59,6 +61,7 @@ class Disturbance:
     parts: ClassVar[tuple[Part, ...]] = ()
     example: ClassVar[str] = ""
     bare: ClassVar[bool] = False
+    many: ClassVar[bool] = True
 
     def __init_subclass__(cls, **keywords: object) -> None:
         super().__init_subclass__(**keywords)
@@ -68,6 +71,8 @@ class Disturbance:
         if known.__qualname__ != cls.__qualname__:
             raise InputError("kind", cls.kind, f"another name: {known.__qualname__} has this one")
         _KNOWN[cls.kind] = cls
+        if cls.many:
+            MODELS[cls.kind] = cls
 
     def __post_init__(self) -> None:
         for name, scale in self.measured_in.items():
@@ -106,6 +111,14 @@ class Disturbance:
             (:attr:`carom.models.Rotor.depends_on_instant`).
         """
         raise NotImplementedError
+
+    @staticmethod
+    def of_kind(kind: object) -> type[Disturbance]:
+        """The class of this kind; refuse one that is not known."""
+        if kind not in _KNOWN:
+            known = f"one of: {', '.join(_KNOWN)}; one of your own must be imported before its results are read"
+            raise InputError("disturbance", kind, known)
+        return _KNOWN[str(kind)]
 
     @classmethod
     def read(cls, text: str, machine: Subject, name: str = "") -> Single:
@@ -278,16 +291,13 @@ class Disturbance:
         InputError
             A kind of disturbance that is not known.
         """
-        kind = description["kind"]
-        if kind not in _KNOWN:
-            known = f"one of: {', '.join(_KNOWN)}; one of your own must be imported before its results are read"
-            raise InputError("disturbance", kind, known)
-        model = _KNOWN[kind]
+        model = Disturbance.of_kind(description["kind"])
         return model(**{one.name: _from_plain(one, description[one.name]) for one in dataclasses.fields(model)})
 
 
 _KNOWN: dict[str, type[Disturbance]] = {}
-"""All models by their kind, those of carom and those that users have defined."""
+MODELS: dict[str, type[Disturbance]] = {}
+"""All models by their kind, those of carom and those that users have defined; and those of which grids and samples are taken."""
 
 
 def _plain(name: str, value: object) -> object:

@@ -146,6 +146,7 @@ class GivenState(Disturbance):
     kind: ClassVar[str] = "start"
     noun: ClassVar[str] = "states"
     bare: ClassVar[bool] = True
+    many: ClassVar[bool] = False
     parts: ClassVar = (
         Part("x", "RE", "length", optional=False),
         Part("y", "IM", "length", optional=False),
@@ -197,6 +198,7 @@ class Whirl(Disturbance):
 
     kind: ClassVar[str] = "whirl"
     noun: ClassVar[str] = "whirls"
+    many: ClassVar[bool] = False
     parts: ClassVar = (
         Part("radius", "RADIUS", "length", optional=False),
         Part("speed", "SPEED", "speed", optional=False),

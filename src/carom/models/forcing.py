@@ -24,8 +24,7 @@ from carom.base.arguments import kind_of_numbers
 from carom.base.outcome import InputError, shown
 from carom.core.wall import Wall
 from carom.models.from_modes import modal_system
-from carom.models.linear_system import TURN
-from carom.models.mode_arrays import EQUAL, STEADY
+from carom.models.mode_arrays import EQUAL, STEADY, TURN
 from carom.models.system import System
 from carom.parameters import Scales
 

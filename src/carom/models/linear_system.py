@@ -26,6 +26,7 @@ from carom.core.wall import Wall
 from carom.models.definition import is_singular
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.mode_arrays import TURN
 from carom.models.modes import modes_of
 from carom.models.system import System
 
@@ -100,10 +101,6 @@ def _one_coordinate(given: LinearEquations, exponents: np.ndarray, equilibrium: 
         exponents=(fast, slow), equilibrium=equilibrium, wall=given.touchdowns[0].wall(mass), mass=mass
     )
     return dataclasses.replace(system, translation=given.translation)
-
-
-TURN = -2j
-"""Exponent of ``τ``."""
 
 
 def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:

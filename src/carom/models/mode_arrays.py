@@ -15,8 +15,8 @@ from carom.core.wall import Wall
 
 TABLES = 32
 """Number of tables kept."""
-STEADY = -1j
-"""Exponent of a force that is constant in the fixed frame."""
+STEADY, TURN = -1j, -2j
+"""Exponents of a force that is constant in the fixed frame, and of the turn ``τ`` of anisotropic bearings (:mod:`carom.models.linear_system`)."""
 EQUAL = 1e-12
 """Distance of exponents, relative to one plus their size, below which they are one number."""
 

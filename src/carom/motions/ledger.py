@@ -14,7 +14,7 @@ from carom.base.outcome import InputError, Phase
 from carom.core.wall_work import DAMPED
 from carom.models import Matrices, Rotor
 from carom.models.limits import saturation_accelerations, saturation_of
-from carom.models.linear_system import TURN
+from carom.models.mode_arrays import TURN
 from carom.motions.contacts import contact_works, lost_on_parting, stored
 from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_speed
 from carom.motions.tables import LogTable, column
