@@ -10,7 +10,7 @@ from scipy.linalg import expm
 
 from carom.base.outcome import InputError
 from carom.models import from_matrices
-from carom.models.modes import modes_of
+from carom.models.from_modes import modes_of
 from carom.motions import State, simulate
 
 

@@ -10,7 +10,7 @@ import carom as cm
 from carom.base.outcome import Outcome
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
-from carom.motions.magnets import excess_pull
+from carom.motions.loads import excess_pull
 
 pytestmark = pytest.mark.jit_only
 

@@ -17,9 +17,9 @@ from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.sizes import BESIDE_LOST, SmallestUnrecovered, contact_free_size, size_coordinate
 from carom.disturbances import BladeLoss, Disturbance, KickPlane, Starts, VelocityKick
-from carom.disturbances.blade_loss import starts_after
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
+from carom.disturbances.machine_changes import starts_after
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 

@@ -21,7 +21,7 @@ co-rotating frame, from which the motion is free.
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
-(with ``shocks``, which follows a rotor through a pulse), ``states``, ``blade_loss`` and ``drops``.  ``plans`` has
+(with ``shocks``, which follows a rotor through a pulse), ``states`` and ``machine_changes``.  ``plans`` has
 grids and samples, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where they end, of which
 it says what is measured.
 
@@ -30,10 +30,9 @@ Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  ``Velocity
 units.
 """
 
-from carom.disturbances.blade_loss import BladeLoss
 from carom.disturbances.coordinates import Coordinate, Starts
-from carom.disturbances.drops import Drop, drop
 from carom.disturbances.kicks_and_shocks import BaseShock, KickPlane, VelocityKick, kick, outward_from
+from carom.disturbances.machine_changes import BladeLoss, Drop, drop
 from carom.disturbances.model import FASTEST, MODELS, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
 from carom.disturbances.single import Single

@@ -7,7 +7,7 @@
 ``documents``             a rotor as plain data, and back
 ``mode_arrays``           modes and contact planes as arrays for the kernels
 ``system``                :class:`System`: any linear rotor by these, its states and what repeats
-``from_modes``            systems from their modes
+``from_modes``            systems from their modes, and modes of a matrix, in pairs where two nearly coincide
 ``planar``                :func:`jeffcott`: the planar rigid rotor by its parameters, in a touchdown bearing of any kind
 ``linear``                :class:`LinearEquations`: the equations of any linear rotor, by its matrices
 ``linear_system``         its system, also where bearings are anisotropic
@@ -15,7 +15,6 @@
 ``limits``                :class:`Limit`: limits of magnetic bearings, and what is asked for beyond them
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``turning``               :class:`Race`: a race that turns; :class:`Shaft`: a shaft whose speed changes
-``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``stages``                :func:`in_stages`: a rotor that changes when a trigger ends a stage
 ``subjects``              :func:`rotor_of`, :func:`case_of`: any description of a rotor -> its model, its case

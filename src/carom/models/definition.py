@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -99,7 +99,7 @@ class Definition:
         return self.equations.unbalance_phase
 
     @property
-    def equilibrium(self) -> Any:
+    def equilibrium(self) -> complex | np.ndarray:
         """Coordinates at rest without further forces; a plain number of one coordinate."""
         return complex(self.system.rest[0]) if len(self.system.rest) == 1 else self.system.rest
 
@@ -114,7 +114,7 @@ class Definition:
         return False
 
     @property
-    def finite_elements(self) -> Any:
+    def finite_elements(self) -> object:
         """The reduced flexible machine behind it; ``None`` without one."""
         return None
 

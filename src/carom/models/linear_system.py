@@ -25,9 +25,8 @@ from carom.base.outcome import InputError
 from carom.core.wall import Wall
 from carom.models.definition import is_singular
 from carom.models.forcing import Force, with_forces
-from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.from_modes import modal_system, modes_of, second_order_system, walls_as_arrays
 from carom.models.mode_arrays import TURN
-from carom.models.modes import modes_of
 from carom.models.system import System
 
 if TYPE_CHECKING:

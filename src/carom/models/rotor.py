@@ -190,11 +190,6 @@ class Rotor(Result):
         return tuple(touchdown.race for touchdown in self.equations.touchdowns)
 
     @property
-    def is_on_mount(self) -> bool:
-        """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
-        return self.definition.planar is not None and len(self.definition.system.rest) > 1
-
-    @property
     def carried_by_housing(self) -> np.ndarray:
         """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and mounts."""
         carried = self.equations.carried

@@ -35,11 +35,6 @@ class Trigger:
     contact_gap: NotNegative = 0.0
     impact_speed: Positive | Infinity = np.inf
 
-    @property
-    def watches_contact(self) -> bool:
-        """Whether contact can end the stage."""
-        return min(self.contact_time, self.impact_speed) < np.inf
-
 
 NEVER = Trigger()
 """The trigger of a stage without an end."""

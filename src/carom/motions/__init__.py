@@ -12,10 +12,9 @@
 ``contacts``          the log of contacts, of whatever law, with impulses in events and works of lasting contact
 ``kinematics``        speeds at the touchdown bearings, and the course there with forces and slip
 ``tables``            tables of columns with units
-``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest
+``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest; how near magnets come
 ``load_sums``         loads, added up piece by piece
 ``courses``           a drop sampled over all stages, to be drawn
-``magnets``           how near a rotor comes to its magnets, and by how much their linear law is wrong there
 ``ledger``            energies of a motion
 ====================  ======================================================================================
 """

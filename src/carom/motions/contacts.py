@@ -6,9 +6,9 @@ An impact on a rigid touchdown bearing is a contact of no duration.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -129,8 +129,8 @@ class ContactLog(LogTable):
 
     def some(self, chosen: np.ndarray) -> ContactLog:
         """Those that are chosen."""
-        columns: dict[str, Any] = {name: getattr(self, name)[chosen] for name in self.columns}
-        return replace(self, **columns)
+        columns: dict[str, np.ndarray] = {name: getattr(self, name)[chosen] for name in self.columns}
+        return ContactLog(**columns, scales=self.scales)
 
     @property
     def whole(self) -> ContactLog:
@@ -142,13 +142,13 @@ class ContactLog(LogTable):
             return self
         peaks = np.maximum.reduceat(self.peak_force, first)
         hardest = self.peak_force == np.repeat(peaks, last - first + 1)
-        columns: dict[str, Any] = {
+        columns: dict[str, np.ndarray] = {
             name: getattr(self, name)[last if name in _AT_END else first] for name in self.columns
         }
         columns |= {name: np.add.reduceat(getattr(self, name), first) for name in _SUMS}
         columns["peak_time"] = np.minimum.reduceat(np.where(hardest, self.peak_time, np.inf), first)
         columns["deepest"] = np.maximum.reduceat(self.deepest, first)
-        return replace(self, **columns | {"peak_force": peaks})
+        return ContactLog(**columns | {"peak_force": peaks}, scales=self.scales)
 
 
 _INSTANTS = ("time", "end", "peak_time")

@@ -100,7 +100,7 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
         "slip": np.abs(history.slip),
         "held": presses(phases[:, part.plane]),
     }
-    if part.rotor.is_on_mount:
+    if part.rotor.planar is not None and len(system.rest) > 1:  # on a mount, whose place is the second coordinate
         columns["mount"] = system.state(amplitudes)[0][:, 1] * np.exp(1j * fixed)
     if system.arrays.race[part.plane] >= 0:
         columns["race"] = race_speed(system, part.plane, amplitudes)

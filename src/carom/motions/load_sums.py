@@ -17,8 +17,7 @@ from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
 from carom.motions.contacts import ContactLog, ContactWorks, contact_works, contacts_of
 from carom.motions.kinematics import presses, race_speed
-from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads
-from carom.motions.magnets import reach_with
+from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads, reach_with
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import Following, stretches
 from carom.motions.starts import Beginning, State, Until

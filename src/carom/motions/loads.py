@@ -1,4 +1,4 @@
-"""What a motion asks of a touchdown bearing: its loads, when they come, and how the rotor stays there, over all stages."""
+"""What a motion asks of a touchdown bearing: its loads, when they come, how the rotor stays there, and how near it comes to its magnets, over all stages."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from carom.base.outcome import Outcome
 from carom.base.results import KINDS, Result
 from carom.models import Rotor
-from carom.motions.magnets import MagnetReach
+from carom.motions.trajectories import Trajectory
 from carom.parameters import Scales
+from carom.parameters.formats import number
 
 MEASURED = ("impulse", "force", "depth", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
 """Loads that have a unit."""
@@ -154,11 +157,6 @@ class TouchdownLoads(Result):
         """Whether the motion has settled in contact, so that impacts or heat have no end."""
         return self.outcome.settled and self.outcome is not Outcome.LEVITATED
 
-    @property
-    def goes_on_bouncing(self) -> bool:
-        """Whether it has settled to bouncing, so that its impacts have no end."""
-        return self.outcome in (Outcome.BOUNCING, Outcome.MIXED)
-
     def si(self) -> dict[str, float] | None:
         """Loads in SI units by name; ``None`` without scales."""
         if self.scales is None:
@@ -227,3 +225,74 @@ class DropLoads(Result):
         if self.outcome in GOING_ROUND:
             times += [each.whirl.since for each in held if each.whirl]
         return max(times, default=None)
+
+
+PER_TURN, SAMPLES = 1000, 5000
+"""Instants, beside those of events, at which the place of a rotor at its magnets is looked at: in a turn, and at most in a stage or piece of one."""
+TOGETHER = 2_000
+
+
+def excess_pull(share: float) -> float:
+    """By how much a magnet pulls harder than in the linear law, relative to that, at a share of its air gap from the centre, without control current.
+
+    A differential pair with the air gap ``s₀``, the bias current ``i₀`` and the control current ``i`` pulls a rotor at ``x`` with
+
+        F = k [(i₀ + i)²/(s₀ − x)² − (i₀ − i)²/(s₀ + x)²],
+
+    so without control current with ``4k i₀² s₀ x/(s₀² − x²)²``: with ``ξ = x/s₀``, ``1/(1 − ξ²)²`` times as hard as the linear law ``4k i₀² x/s₀³``.
+    Saturating iron takes from that, so it is an upper bound.
+    """
+    return 1.0 / (1.0 - share**2) ** 2 - 1.0
+
+
+def pull_words(share: float) -> str:
+    """The same in words, to follow the place."""
+    return f"there a magnet pulls up to {number(100.0 * excess_pull(share), 2)} % harder than in this linear model (less where its iron saturates)"
+
+
+@dataclass(frozen=True, repr=False)
+class MagnetReach(Result):
+    """How near a rotor comes to its magnets while they act.
+
+    Attributes
+    ----------
+    share : float
+        Largest distance from the centre of a magnetic bearing over its air gap, while they act.
+    reached : bool
+        Whether it reaches one, whether they act or not.  A motion ends at the first event at which that is seen.
+    """
+
+    share: float
+    reached: bool
+
+    @property
+    def words(self) -> str:
+        """The same in sentences."""
+        shown = "The rotor reaches a magnet: the simulated motion after that is not valid. " if self.reached else ""
+        if not 0.0 < self.share < 1.0:
+            return shown.rstrip()
+        return shown + (
+            f"While the magnets act, the rotor moves up to {number(100.0 * self.share, 2)} % of an air gap from the centre; {pull_words(self.share)}."
+        )
+
+    def document(self) -> dict[str, object]:
+        """As plain data for JSON."""
+        wrong = excess_pull(self.share) if self.share < 1.0 else None
+        return {"share_of_air_gap": self.share, "reached": self.reached, "excess_pull": wrong}
+
+
+def reach_with(known: MagnetReach | None, part: Trajectory) -> MagnetReach | None:
+    """What is known of a motion with one more stage, or piece of one; ``None`` where no air gap is known."""
+    gaps, system = part.rotor.system.magnets, part.rotor.system
+    if gaps is None:
+        return known
+    before, share = known or MagnetReach(0.0, False), _largest(part, gaps)
+    return MagnetReach(max(before.share, share if system.levitates else 0.0), before.reached or share > 1.0)
+
+
+def _largest(part: Trajectory, gaps: np.ndarray) -> float:
+    begun = part.segment_starts[0]
+    even = np.linspace(begun, part.time, min(SAMPLES, math.ceil(PER_TURN * (part.time - begun) / math.tau) + 2))
+    times = np.concatenate([part.segment_starts, even])
+    pieces = np.array_split(times, math.ceil(len(times) / TOGETHER))
+    return max(float(np.abs(np.reshape(part.at(each)[0], (len(each), -1)) @ gaps.T).max()) for each in pieces)

@@ -125,7 +125,8 @@ def _settle_part(part: Portion, limits: EventLimits) -> int:
     until = time_limit(rotor, trigger) if limits.until is None else own_time("until", limits.until, rotor.scales)
     # What has settled may still be ended by a time.
     memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
-    if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.elapsed.any()):
+    watches_contact = min(trigger.contact_time, trigger.impact_speed) < np.inf
+    if not rotor.system.is_planar or watches_contact or (limits.until is not None and part.elapsed.any()):
         return _follow_singly(part, until, limits, memory)
     if not part.purse.suffices(part.first):
         return 0

@@ -65,13 +65,11 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
 def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
     """One stage of a motion, whose names end with a mark."""
     shown = {name.removesuffix(mark): value for name, value in dataset.attrs.items() if name.endswith(mark)}
-    columns: dict[str, Any] = {name: dataset[f"{name}{mark}"].values for name in SEGMENTS}
-    columns |= {name: columns[name][..., 0] + 1j * columns[name][..., 1] for name in COMPLEX}
-    start, final = (_state(json.loads(shown[name])) for name in ("start", "final"))
-    numbers: dict[str, Any] = {name: kind(shown[name]) for name, kind in NUMBERS.items()}
-    return Trajectory(
-        rotor=rotor_from(shown), start=start, outcome=Outcome[shown["outcome"]], final=final, **numbers, **columns
-    )
+    fields: dict[str, Any] = {name: dataset[f"{name}{mark}"].values for name in SEGMENTS}
+    fields |= {name: fields[name][..., 0] + 1j * fields[name][..., 1] for name in COMPLEX}
+    fields |= {name: kind(shown[name]) for name, kind in NUMBERS.items()}
+    fields |= {name: _state(shown[name]) for name in ("start", "final")}
+    return Trajectory(rotor=rotor_from(shown), outcome=Outcome[shown["outcome"]], **fields)
 
 
 def provenance(motion: Trajectory) -> dict[str, object]:
@@ -92,7 +90,7 @@ def _numbers(state: State) -> list[object]:
     return [*numbers, list(state.races), list(state.shaft), state.time]
 
 
-def _state(numbers: list[Any]) -> State:
-    position, velocity = (np.array(real) + 1j * np.array(imaginary) for real, imaginary in numbers[:2])
-    races, shaft, *time = numbers[2:]
-    return State.of(position, velocity, tuple(races), tuple(shaft), *time)
+def _state(text: str) -> State:
+    *parts, races, shaft, time = json.loads(text)
+    position, velocity = (np.array(real) + 1j * np.array(imaginary) for real, imaginary in parts)
+    return State.of(position, velocity, tuple(races), tuple(shaft), time)

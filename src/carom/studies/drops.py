@@ -11,11 +11,12 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.results import Result, record
 from carom.disturbances import Drop, drop
-from carom.disturbances.drops import ASSUMED
+from carom.disturbances.machine_changes import ASSUMED
 from carom.disturbances.single import Echo
 from carom.models import Rotor, rotor_of
 from carom.motions import Braking, DropLoads, LastWhirl, State, TouchdownLoads, Trajectory, drop_loads, simulate
 from carom.motions.loads import MEASURED
+from carom.motions.settling import REPEATING
 from carom.parameters import LIMIT_FIELDS, Case, LoadLimits
 from carom.parameters.formats import number
 from carom.rotors.reduction_errors import ReductionError, reduction_error
@@ -131,7 +132,7 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     values = {**si, "impacts": float(loads.contacts)}
     found = []
     for name, limit in limits.given.items():
-        grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.goes_on_bouncing}
+        grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.outcome in REPEATING}
         endless, value = grows.get(name, False), values[name]
         after = 0.0 if value > limit else math.inf
         if endless and name == "heat" and value <= limit:

@@ -11,7 +11,7 @@ from carom.base.outcome import STEADY_WORDS, Outcome
 from carom.base.results import record
 from carom.closed_forms import Levitation, Rolling, Runaway
 from carom.models import Edge
-from carom.motions.magnets import pull_words
+from carom.motions.loads import pull_words
 from carom.orbits import Orbit
 from carom.parameters import GRAVITY, in_terms_of
 from carom.parameters.formats import format_entry, number

@@ -31,7 +31,7 @@ from carom.disturbances.kicks_and_shocks import LONGEST_SHOCK
 from carom.models import Rotor
 from carom.motions import DropLoads, State, TouchdownLoads, Trajectory, drop_loads, simulate
 from carom.motions.budget import Budget, present_question
-from carom.motions.magnets import MagnetReach
+from carom.motions.loads import MagnetReach
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, LoadLimits, Required, Scales
 from carom.rotors.reduction_errors import ReductionError, reduction_error
 from carom.studies.drops import LoadCheck, check_loads, worst_of

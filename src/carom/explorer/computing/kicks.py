@@ -12,8 +12,8 @@ from carom.base.outcome import InputError, Outcome
 from carom.base.progress import ShowProgress
 from carom.basins import Share, map_basins
 from carom.disturbances import Grid
-from carom.disturbances.blade_loss import levitating_before
 from carom.disturbances.following import NO_START, follow
+from carom.disturbances.machine_changes import levitating_before
 from carom.explorer.computing.planes import DisturbancePlane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Rotor
