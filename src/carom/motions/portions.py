@@ -160,7 +160,7 @@ def _follow_singly(part: Portion, until: float, limits: EventLimits, memory: np.
         while outcome is Outcome.EVENT_LIMIT and events < most_events:
             log = room.first(min(LOGGED, most_events - events))
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
-            outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory, scratch)
+            outcome, time, count = follow(scratch, amplitudes, end - motion.time, contact, log, memory)
             motion.time += time
             motion.impacts += np.count_nonzero(log.first(count).contact_beginnings(before, compliant))
             # A slice of flight has no event.

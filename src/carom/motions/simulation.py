@@ -152,10 +152,11 @@ def _follow_stage(
     first = np.where(contact == AWAY, FLIGHT, contact), amplitudes.copy(), limited
     reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, SettlingProgress()
     begun, impact_times, ended = 0.0, np.zeros(0), False
-    room = EventLog.empty(min(CHUNK, max_events), len(amplitudes), len(contact), rotor.system.limits)
+    given, limits = tools(rotor), rotor.system.limits
+    room = EventLog.empty(min(CHUNK, max_events), len(amplitudes), len(contact), limits)
     while not ended:
         log = room.first(max_events - events)
-        outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
+        outcome, time, count = follow(given, amplitudes, until - reached, contact, log, recollection)
         log = log.first(count)
         log = log._replace(times=reached + log.times)
         reached, events = reached + time, events + count
@@ -200,18 +201,17 @@ def tools(rotor: Rotor) -> tuple[np.record, ...]:
 
 
 def follow(
-    rotor: Rotor,
+    given: tuple[np.record, ...],
     amplitudes: np.ndarray,
     until: float,
     contact: np.ndarray,
     log: EventLog,
     recollection: np.record,
-    scratch: tuple[np.record, ...] | None = None,
 ) -> tuple[Outcome, float, int]:
-    """Advance amplitudes and contacts in place until the log is full or the motion ends.
+    """Advance amplitudes and contacts in place until the log is full or the motion ends, with :func:`tools` of the rotor.
 
-    See :func:`carom.core.advance.advance`; ``scratch`` are :func:`tools`, for many motions.
+    See :func:`carom.core.advance.advance`.
     """
-    arrays, table, work, rub = tools(rotor) if scratch is None else scratch
+    arrays, table, work, rub = given
     code, *rest = advance(arrays, table, amplitudes, until, contact, log, recollection, work, rub)
     return Outcome(code), *rest
