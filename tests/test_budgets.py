@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3181,
-    "models": 2098,
+    "models": 2100,
     "core": 6600,
     "motions disturbances": 3382,
     "orbits bifurcations closed_forms continuation": 6540,

@@ -248,7 +248,7 @@ class LinearEquations(Definition, Result):
         given = {field.name for field in dataclasses.fields(self)} & set(changes)
         rotor = dataclasses.replace(self, **{name: changes[name] for name in given}) if given else self
         for name in sorted(set(changes) - given, key=lambda name: (name != "speed", list(changes).index(name))):
-            rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
+            rotor = linear_parameters.moved(rotor, name, changes[name])
         return rotor
 
 

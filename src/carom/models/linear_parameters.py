@@ -16,7 +16,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -95,8 +95,8 @@ def _whole(rotor: LinearEquations, matrix: np.ndarray) -> float:
     return float(np.einsum("i,ij,j->", direction.conj(), matrix, direction).real)
 
 
-def moved(rotor: LinearEquations, name: str, given: float | str) -> dict[str, Any]:
-    """Attributes that change with another value of a parameter; a physical one is in SI units, or text with a unit.
+def moved(rotor: LinearEquations, name: str, given: float | str) -> LinearEquations:
+    """The rotor with another value of a parameter; a physical one is in SI units, or text with a unit.
 
     A value out of range is refused, and a rotor without the damping, stiffness or unbalance that would be multiplied.
     """
@@ -107,35 +107,36 @@ def moved(rotor: LinearEquations, name: str, given: float | str) -> dict[str, An
     own, plane = _planes(rotor).get(name, (PLANAR_NAMES.get(name, name), None))
     if plane is not None or own in _at_planes(rotor):
         changed = (each.replace(own, value) if plane in (None, k) else each for k, each in enumerate(rotor.touchdowns))
-        return {"touchdowns": tuple(changed)}
+        return replace(rotor, touchdowns=tuple(changed))
     if own == "phi":
-        return {"forcing": rotor.forcing * cmath.exp(1j * (value - rotor.unbalance_phase))}
+        return replace(rotor, forcing=rotor.forcing * cmath.exp(1j * (value - rotor.unbalance_phase)))
     _, damping, _, stiffness, _ = rotor.matrices
     if own == "speed" and rotor.scales is not None:
         slower = rotor.scales.speed / value
         more = (slower - 1.0) * damping
         stiffer = (slower * slower - 1.0) * stiffness
-        return {
-            "damping": rotor.damping + more,
-            "stiffness": rotor.stiffness + stiffer + 1j * more,
-            "touchdowns": tuple(each.at_speed(1.0 / slower) for each in rotor.touchdowns),
-            "shaft": None if rotor.shaft is None else rotor.shaft.at_speed(1.0 / slower),
-            "unlevitated": _times(rotor.unlevitated, slower, slower * slower),
-            "conjugate": _times(rotor.conjugate, slower, slower * slower),
-            "scales": replace(rotor.scales, speed=value),
-        }
+        return replace(
+            rotor,
+            damping=rotor.damping + more,
+            stiffness=rotor.stiffness + stiffer + 1j * more,
+            touchdowns=tuple(each.at_speed(1.0 / slower) for each in rotor.touchdowns),
+            shaft=None if rotor.shaft is None else rotor.shaft.at_speed(1.0 / slower),
+            unlevitated=_times(rotor.unlevitated, slower, slower * slower),
+            conjugate=_times(rotor.conjugate, slower, slower * slower),
+            scales=replace(rotor.scales, speed=value),
+        )
     present = value_of(rotor, own)
     if not present:
         raise InputError(name, shown(value), f"cannot be set: {name} = 0 now, and only another value can be multiplied")
     factor = value / present
     if own == "rho":
-        return {"forcing": rotor.forcing * factor}
+        return replace(rotor, forcing=rotor.forcing * factor)
     if own == "omega":
         stiffer = rotor.stiffness + (factor * factor - 1.0) * stiffness
-        return {"stiffness": stiffer, "unlevitated": _times(rotor.unlevitated, 1.0, factor * factor)}
+        return replace(rotor, stiffness=stiffer, unlevitated=_times(rotor.unlevitated, 1.0, factor * factor))
     more = (factor - 1.0) * damping
     multiplied = _times(rotor.unlevitated, factor, 1.0)
-    return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more, "unlevitated": multiplied}
+    return replace(rotor, damping=rotor.damping + more, stiffness=rotor.stiffness + 1j * more, unlevitated=multiplied)
 
 
 def refuse_node(node: int | None) -> None:

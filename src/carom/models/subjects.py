@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
@@ -67,7 +68,7 @@ def exact_rotor_of(subject: Subject) -> Rotor:
 
 
 @checked
-def rotor_from(attributes: Mapping[str, str]) -> Rotor:
+def rotor_from(attributes: Mapping[str, Any]) -> Rotor:
     """Rotor whose :meth:`~carom.models.Rotor.attributes` these are.
 
     Raises

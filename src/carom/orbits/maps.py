@@ -14,7 +14,7 @@ from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.settling import memory
 from carom.models import Subject, rotor_of
-from carom.motions.simulation import follow
+from carom.motions.simulation import follow, tools
 from carom.motions.starts import LARGEST_SPEED, State
 
 
@@ -106,7 +106,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
     log = EventLog.empty(2, len(amplitudes))
     bounces = memory(len(amplitudes), stop_at_landing=True)
     contact = np.array([Phase.FLIGHT])
-    outcome, time, count = follow(rotor, amplitudes, longest_flight, contact, log, bounces)
+    outcome, time, count = follow(tools(rotor), amplitudes, longest_flight, contact, log, bounces)
     if count < 2:
         return ImpactMap(Outcome.CLEAR if outcome is Outcome.TIME_REACHED else outcome, None, time, None)
     position, velocity = rotor.system.state(log.before[1])
