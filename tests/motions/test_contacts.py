@@ -61,7 +61,7 @@ class TestContactLog:
         assert dict(plain.sizes) == {"contact": len(log)}
         assert plain["time"].attrs == {
             "units": "1/Omega",
-            "long_name": "time of impact, or of entering the wall, or the beginning of the motion",
+            "long_name": "time of the impact, of entering the wall, or of the start of the motion",
         }
         assert si["normal_impulse"].attrs["units"] == "N s"
         assert plain["heat"].attrs["units"] == "m c_r^2 Omega^2"
