@@ -19,7 +19,8 @@ from carom.basins.dataset import about, outcome_flags
 from carom.basins.maps import Entry, Measure, Over, OverPlane, map_over
 from carom.core.processors import available_cores
 from carom.disturbances import Drop, Single, VelocityKick
-from carom.disturbances.following import NO_START, Quantity
+from carom.disturbances.following import NO_START
+from carom.disturbances.plans import Quantity
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions import DropLoads, follow_loads

@@ -23,8 +23,8 @@ from carom.basins.dataset import Mapped, Stored, provenance
 from carom.basins.shares import Population, Share
 from carom.basins.unrecovered import smallest_unrecovered_kick
 from carom.disturbances import KickPlane, Plan, Sample, Starts, VelocityKick
-from carom.disturbances.following import KICKS, NO_START, SHARES, SMALLEST, Quantity, follow_machines
-from carom.disturbances.plans import instants_words
+from carom.disturbances.following import NO_START, follow_machines
+from carom.disturbances.plans import KICKS, SHARES, SMALLEST, Quantity, instants_words
 from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions import PATIENCE
@@ -299,7 +299,7 @@ def _machine(rotor: Rotor, plan: Plan, axes: tuple[Axis, Axis], node: tuple[floa
 
 
 def recovery(plan: Plan, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> dict[str, Any]:
-    """What is measured of the disturbances of a plan: :data:`~carom.disturbances.following.SHARES`, of kicks ``KICKS``, and the share itself."""
+    """What is measured of the disturbances of a plan: :data:`~carom.disturbances.plans.SHARES`, of kicks ``KICKS``, and the share itself."""
     exists, at = outcomes != NO_START, instants_words(rotor, plan)
     if not exists.any():
         population = Population.of_model(plan.model, rotor.scales, at)

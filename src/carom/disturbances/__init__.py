@@ -22,8 +22,8 @@ A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
 (with ``shocks``, which follows a rotor through a pulse), ``states`` and ``machine_changes``.  ``plans`` has
-grids and samples, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where they end, of which
-it says what is measured.
+grids and samples and says what is measured of them, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where
+they end.
 
 Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
 Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  ``VelocityKick.of(machine, "50 mm/s")`` takes text with

@@ -1,41 +1,18 @@
-"""Disturbances followed to where they end, many at once, of one machine or of several, and what is measured of these ends."""
+"""Disturbances followed to where they end, many at once, of one machine or of several."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from carom.base.outcome import InputError, Outcome
-from carom.disturbances.coordinates import INSTANT, Starts
+from carom.disturbances.coordinates import Starts
 from carom.disturbances.model import Disturbance
 from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
 from carom.motions.starts import State
-
-
-class Quantity(NamedTuple):
-    """Unit and words of what is measured, and the property of the scales that converts it to SI units, if that is not 1."""
-
-    unit: str
-    words: str
-    scale: str = ""
-
-
-SHARES = {
-    "recovered": Quantity("1", "share of the disturbances that comes back to levitation, by area"),
-    "recovered_low": Quantity("1", "lower end of its 95 % confidence interval (of a grid: the share)"),
-    "recovered_high": Quantity("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
-    "unresolved": Quantity("1", "share whose end is unknown: given up, or beyond the model"),
-}
-SMALLEST = "smallest_unrecovered_kick"
-KICKS = {
-    SMALLEST: Quantity("c_r Omega", "smallest kick tried that does not come back", "velocity"),
-    f"{SMALLEST}_angle": Quantity("rad", "its direction, from the real axis of the co-rotating frame"),
-    f"{SMALLEST}_instant": Quantity("rad", INSTANT.words),
-}
-
 
 NO_START = -1
 """Outcome of a disturbance without a start: it lies outside the wall, or the rotor could not levitate before."""

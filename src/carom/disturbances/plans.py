@@ -1,11 +1,11 @@
-"""Which disturbances are tried: grids and seeded samples."""
+"""Which disturbances are tried, grids and seeded samples, and what is measured of where they end."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,28 @@ if TYPE_CHECKING:
 ANY_INSTANT, ITS_INSTANT = "at any instant of the turn", "at its own random instant of the turn"
 INSTANTS = 1
 """Stream of random numbers of instants: sizes and directions are the same on machines on which the instant does not matter."""
+
+
+class Quantity(NamedTuple):
+    """Unit and words of what is measured, and the property of the scales that converts it to SI units, if that is not 1."""
+
+    unit: str
+    words: str
+    scale: str = ""
+
+
+SHARES = {
+    "recovered": Quantity("1", "share of the disturbances that comes back to levitation, by area"),
+    "recovered_low": Quantity("1", "lower end of its 95 % confidence interval (of a grid: the share)"),
+    "recovered_high": Quantity("1", "upper end of its 95 % confidence interval (of a grid: the share)"),
+    "unresolved": Quantity("1", "share whose end is unknown: given up, or beyond the model"),
+}
+SMALLEST = "smallest_unrecovered_kick"
+KICKS = {
+    SMALLEST: Quantity("c_r Omega", "smallest kick tried that does not come back", "velocity"),
+    f"{SMALLEST}_angle": Quantity("rad", "its direction, from the real axis of the co-rotating frame"),
+    f"{SMALLEST}_instant": Quantity("rad", INSTANT.words),
+}
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,7 @@ import numpy as np
 from carom.base.outcome import Outcome
 from carom.base.results import in_si
 from carom.disturbances import Grid, KickPlane, Plan, Sample, VelocityKick
-from carom.disturbances.following import KICKS, SHARES, SMALLEST
-from carom.disturbances.plans import plan_words
+from carom.disturbances.plans import KICKS, SHARES, SMALLEST, plan_words
 from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
