@@ -40,6 +40,7 @@ KINDS = {
     "str": "str",
 }
 ELSEWHERE = {
+    "models.from_matrices",
     "parameters.own_size",
     "parameters.read_size",
     "parameters.read_quantity",

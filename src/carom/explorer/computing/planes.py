@@ -32,6 +32,7 @@ class ShockPlane(Disturbance):
     peak: float
     duration: float
     kind: ClassVar[str] = "shock-plane"
+    many: ClassVar[bool] = False
     noun: ClassVar[str] = "shocks"
     measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
 

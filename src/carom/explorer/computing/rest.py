@@ -31,6 +31,7 @@ class RestKick(KickPlane):
     position: complex = 1.0 + 0.0j
     among: tuple[complex, ...] = ()
     kind: ClassVar[str] = "rest-kick"
+    many: ClassVar[bool] = False
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
