@@ -177,6 +177,11 @@ def test_margins_vanish_where_the_sense_changes(regime):
         assert there == pytest.approx(velocity_change_in_sense(local, STOPPED, wall), abs=8 * EPSILON * size)
 
 
+def test_the_margin_of_an_impact_that_slips_is_the_slip_it_leaves():
+    assert margin_of_slip(1.0 - 9.0j, BACKWARD, Wall(0.2, 0.5, 3.0)) == pytest.approx(5.7, rel=1e-15)
+    assert margin_of_slip(1.0 + 0.0j, FORWARD, Wall(0.2, 0.5, 3.0)) == pytest.approx(2.7, rel=1e-15)
+
+
 def test_the_cone_is_left_where_friction_would_have_to_pull_more():
     wall = Wall(0.25, 0.9, 3.0)
     assert (
