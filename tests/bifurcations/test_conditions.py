@@ -106,9 +106,9 @@ def followed(monkeypatch, module, follow) -> tuple:
     """The equations, their Jacobian and the branch of a continuation."""
     caught = []
 
-    def catch(residual, *args, jacobian, **kwargs):
-        branch = continue_branch(residual, *args, jacobian=jacobian, **kwargs)
-        caught.append((residual, jacobian, branch))
+    def catch(equations, *args, **kwargs):
+        branch = continue_branch(equations, *args, **kwargs)
+        caught.append((equations.residual, equations.slopes, branch))
         return branch
 
     monkeypatch.setattr(module, "continue_branch", catch)

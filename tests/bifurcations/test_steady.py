@@ -8,7 +8,7 @@ from drawn_legends import legend_words
 from machines import PAPER
 
 from carom.base.outcome import InputError
-from carom.bifurcations import Diagram, continue_curve
+from carom.bifurcations import Diagram, continue_curve, find_bifurcations
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.steady import LOOKED, equilibrium_branches, levitation_along, rolling_branch, steady_points
 from carom.models import Rigid, Touchdown, axis, from_matrices, jeffcott
@@ -34,6 +34,19 @@ def test_a_rub_goes_on_as_the_same_branch_where_its_normal_force_changes_sign():
         force = branch.normal_force[np.isfinite(branch.normal_force)]
         assert force.min() < 0.0 < force.max()
         assert np.abs(np.diff(force)).max() < 0.05
+
+
+@pytest.mark.parametrize(("rho", "real"), [(0.37, True), (0.45, False)])
+def test_levitation_of_the_planar_rotor_is_lost_without_damping(rho, real):
+    """Its exponents are ``−γ/2 ± …``; with levitation inside the wall a free vibration of period ``2π/(1 + ω)`` touches it there."""
+    diagram = find_bifurcations(PAPER.replace(rho=rho), "gamma", (-0.031, 0.017))
+    lost, *vanishing = [point for point in diagram.points if abs(point.value) < 1e-6]
+    assert (lost.kind, lost.value, lost.admissible) == ("levitation-lost", 0.0, real)
+    assert (lost.motion, lost.detail) == ("contact-free", "below: a vibration grows")
+    assert [(each.kind, each.value, each.admissible) for each in vanishing] == [("vanishing-impact", 0.0, True)] * real
+    assert [each.period for each in vanishing] == pytest.approx([math.tau / (1.0 + PAPER.omega)] * real, rel=1e-5)
+    curve = continue_curve(lost, Plane("omega", "gamma", (0.6, 0.8), (-0.1, 0.1)))
+    assert (not curve.points[:, 1].any(), set(curve.stops)) == (True, {"edge of the plane"})
 
 
 def test_a_narrow_stretch_without_levitation_is_found_between_values_with_it():

@@ -5,7 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.continuation import Branch, Equations, Steps, Watch
+from carom.continuation import continue_branch as followed
+
+
+def continue_branch(residual, *start, watches=(), reach=None, **given):
+    return followed(Equations(residual, **given), *start, watches=watches, reach=reach)
 
 
 def circle(u, p):
@@ -35,14 +40,14 @@ def test_a_branch_ends_on_the_limit_beyond_which_the_equations_are_undefined():
     # In scaled unknowns the branch is steep, and close to level in the parameter.
     for size in (1.0, 20.0):
         branch = continue_branch(
-            line, np.array([1.2]), 0.4, (0.0, 1.0), jacobian=lambda u, p: np.array([[1.0, -3.0]]), solver=solver,
+            line, np.array([1.2]), 0.4, (0.0, 1.0), slopes=lambda u, p: np.array([[1.0, -3.0]]), solver=solver,
             scales=np.array([1.0, size]),
         )  # fmt: skip
         assert branch.stops == ("parameter limit", "parameter limit")
         assert sorted([branch.parameters[0], branch.parameters[-1]]) == [0.0, 1.0]
         assert np.abs(branch.unknowns[:, 0] - 3.0 * branch.parameters).max() < 1e-12
     (begin, end) = continue_branch(
-        line, np.array([0.0]), 0.0, (0.0, 1.0), jacobian=lambda u, p: np.array([[1.0, -3.0]]), solver=solver
+        line, np.array([0.0]), 0.0, (0.0, 1.0), slopes=lambda u, p: np.array([[1.0, -3.0]]), solver=solver
     ).parameters[[0, -1]]
     assert (begin, end) == (0.0, 1.0)
 
@@ -99,7 +104,7 @@ def test_an_exact_jacobian_saves_the_differences_and_places_folds_exactly():
     for jacobian in (None, exact):
         calls.clear()
         scales = np.array([2.0, 3.0])
-        branch = continue_branch(counted, np.array([-1.3]), 0.9, (-2.0, 3.0), jacobian=jacobian, scales=scales)
+        branch = continue_branch(counted, np.array([-1.3]), 0.9, (-2.0, 3.0), slopes=jacobian, scales=scales)
         counts.append(len(calls))
         folds.append(sorted(point.unknowns[0] for point in branch.of_kind("fold")))
     assert counts[1] < 0.5 * counts[0]

@@ -19,9 +19,9 @@ SAME_ORBIT = 1e-3
 """Largest difference of period and radial speed between the same orbit on both sides of a bracket."""
 SHRUNK = 1e-3
 """Radial speed, in ``c_r Ω``, below which an orbit in a bracket may vanish in the boundary equilibrium."""
-_OF_ORBITS = {"fold", "speed-fold", "grazing", "slip-stop", "contact-onset", "non-smooth-hopf"}
+_OF_ORBITS = {"fold", "speed-fold", "grazing", "slip-stop", "contact-onset", "non-smooth-hopf", "levitation-lost"}
 CHANGED_BY = {
-    "contact_free": {"boundary-equilibrium"},
+    "contact_free": {"boundary-equilibrium", "levitation-lost"},
     "rub": {"rub-fold", "boundary-equilibrium"},
     "rolling": {"rolling-limit"},
     "orbits": _OF_ORBITS,

@@ -233,6 +233,7 @@ TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "boundary-equilibrium": lambda n, period, speed: wall_condition(n),
     "rub-fold": lambda n, period, speed: rub_fold_condition(n),
     "rolling-limit": lambda n, period, speed: rolling_condition(n),
+    "levitation-lost": lambda n, period, speed: -n.gamma,
     "contact-onset": lambda n, period, speed: pressed_on(n, period, speed) if n.d == 0.0 else math.nan,
     **{
         kind: lambda n, period, speed, total=total: conditions_at(n, period, speed).pair_sum - total  # type: ignore[misc]

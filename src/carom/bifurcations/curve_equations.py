@@ -11,7 +11,7 @@ import numpy as np
 from carom.bifurcations.conditions import RESONANCES, TESTS
 from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
-from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
+from carom.continuation import Branch, Equations, Steps, Watch, continue_branch, refined_points
 from carom.models import Rotor
 from carom.orbits.names import CountedName, OrbitName
 from carom.parameters import Numbers
@@ -60,21 +60,19 @@ class CurveEquations(ABC):
         """The curve through the start, in both directions."""
         (first, second), sizes = self.plane.start_at(self.base)
         steps, known = steps or self.usual_steps, len(self.guess)
-        scales = np.array([*np.ones(known), *sizes])
+        equations = Equations(self.residual, None, np.array([*np.ones(known), *sizes]), steps)
         branch = continue_branch(
-            self.residual,
+            equations,
             np.array([*self.guess, first]),
             float(second),
             self.plane.second_range,
             watches=[self.plane.edge, *self.watches],
-            steps=steps,
-            scales=scales,
             reach=self.reach,
             # A fold in the second parameter is only a turning point of the curve.
             folds="turning point",
         )
         shown = np.array([*np.full(known, np.inf), *self.plane.widths])
-        rows = refined_points(self.residual, branch, scales=scales, widths=shown, bend=self.bend, steps=steps)
+        rows = refined_points(equations, branch, widths=shown, bend=self.bend)
         return self._curve(branch, [(row[:-1], float(row[-1])) for row in rows], rows[:, -2:])
 
     def _curve(self, branch: Branch, places: Sequence[Place], points: np.ndarray) -> Curve:

@@ -21,10 +21,9 @@ from carom.bifurcations.conditions import (
 from carom.bifurcations.curve_equations import CurveEquations, Place
 from carom.bifurcations.curve_results import Curve
 from carom.bifurcations.planes import Plane
-from carom.bifurcations.points import STEADY, Bifurcation
+from carom.bifurcations.points import STEADY, Bifurcation, happens_steadily
 from carom.bifurcations.simulated_curves import KINDS as SIMULATED_KINDS
 from carom.bifurcations.simulated_curves import SimulatedCurve
-from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Steps, Watch
 from carom.orbits.flow import FlowBudget
 from carom.orbits.names import OrbitName
@@ -51,13 +50,16 @@ KINDS = {
     "boundary-equilibrium": ("rub-fold",),
     "rub-fold": ("boundary-equilibrium",),
     "rolling-limit": ("boundary-equilibrium", "rub-fold"),
+    "levitation-lost": ("boundary-equilibrium",),
 }
 """Bifurcations that can be followed in two parameters, and the test functions that are watched along each curve."""
 
 
 def can_be_followed(point: Bifurcation) -> bool:
     """Whether :func:`continue_curve` knows equations for a bifurcation."""
-    return point.kind in (KINDS if point.shot is None else SIMULATED_KINDS)
+    if point.shot is None:
+        return point.kind in KINDS and isinstance(point.numbers, Numbers)
+    return point.kind in SIMULATED_KINDS
 
 
 @checked
@@ -113,8 +115,10 @@ class ClosedFormCurve(CurveEquations):
 
     def __init__(self, point: Bifurcation, plane: Plane, _: FlowBudget | None = None) -> None:
         self.kind, self.base, self.plane = point.kind, point.numbers, plane
-        if self.kind not in KINDS:
-            raise InputError("kind", self.kind, f"one of: {', '.join(KINDS)}")
+        if not can_be_followed(point):
+            raise InputError(
+                "kind", self.kind, f"one of: {', '.join(KINDS)}; of machines without closed forms of orbits alone"
+            )
         if self.base.mu < 0.0:
             raise InputError("bifurcation", f"{self.kind} of {point.name}", "one of an orbit with forward slip")
         plane.axes(self.base.parameters)
@@ -162,7 +166,7 @@ class ClosedFormCurve(CurveEquations):
         """Whether it happens to a motion of the machine."""
         at, period, speed = self._at(u, p)
         if self.kind in STEADY:
-            return self.kind != "rub-fold" or happens_to_rubs(at)
+            return happens_steadily(self.kind, at)
         slips = at.mu == 0.0 or conditions_at(at, period, speed).slip_stop > -slack
         return speed > -slack and slips and not profile_at(at, period, max(speed, 1e-4)).height >= slack
 

@@ -32,7 +32,7 @@ class Motions:
     Attributes
     ----------
     contact_free : bool
-        Whether levitation is admissible; it is stable then, as damping is positive.
+        Whether levitation is admissible and stable, which it is where damping is positive.
     orbits, stable_orbits : int
         Number of admissible single-impact orbits, and of the stable ones among them.
     rub : bool
@@ -83,7 +83,7 @@ class Motions:
             if names
         ]
         return (
-            f"{STEADY_WORDS['contact-free']}{'' if self.contact_free else ' virtual'}",
+            f"{'' if self.contact_free else 'no stable '}{STEADY_WORDS['contact-free']}",
             f"stable {STEADY_WORDS['rub']}" if self.rub else "no stable rub",
             " and ".join(orbits) if orbits else "no impacting orbit",
             STEADY_WORDS["rolling"] if self.rolling else "no lasting rolling",
@@ -109,7 +109,7 @@ def motions_at(machine: Subject, budget: FlowBudget | None = None) -> Motions:
     orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
     radii = spectral_radii([orbit[1:] for orbit in orbits])
     return Motions(
-        contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
+        contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY) and rotor.parameters.gamma > 0.0,
         orbits=len(orbits),
         stable_orbits=sum(radius < 1.0 for radius in radii),
         rub=has_stable_rub(rotor.parameters),

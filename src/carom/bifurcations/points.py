@@ -12,7 +12,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.bifurcations.conditions import orbit_of
-from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
+from carom.closed_forms.thresholds import FOLD, ROLLING, WALL, Values, happens_to_rubs, wall_condition
 from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
@@ -25,9 +25,16 @@ HALVING = "period-halving"
 """Where both halves of a period become equal: the orbit is one of half the period there, at its period doubling."""
 HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
 """Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
-ONSET, LOST = "contact-onset", "levitation-lost"
-STEADY: dict[str, MotionKind] = {WALL: "contact-free", FOLD: "rub", ROLLING: "rolling"}
+VANISHING, ONSET, LOST = "vanishing-impact", "contact-onset", "levitation-lost"
+STEADY: dict[str, MotionKind] = {WALL: "contact-free", FOLD: "rub", ROLLING: "rolling", LOST: "contact-free"}
 """Special points of steady motions, and the motion of each."""
+
+
+def happens_steadily(kind: str, at: Values) -> bool:
+    """Whether a special point of steady motions happens to a motion of the machine."""
+    if kind == FOLD:
+        return happens_to_rubs(at)
+    return kind != LOST or wall_condition(at) < 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,10 +52,10 @@ class Bifurcation(Result):
         ``"contact-change"`` (something else that happens in a period begins or ceases to), ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the
         period), or ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
         Of steady motions: ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl
-        begins or ceases to hold at every angle); of machines without closed forms ``"levitation-lost"``.
+        begins or ceases to hold at every angle) or ``"levitation-lost"`` (of the planar rotor where small vibrations grow).
     numbers : Numbers or None
         Parameters there, if the closed form gives it; with negative ``mu`` for orbits with backward slip.  ``None`` where
-        ``shot`` holds the orbit and its rotor.  Where levitation is lost, the rotor.
+        ``shot`` holds the orbit and its rotor.  Where a machine without closed forms loses levitation, the rotor.
     period, radial_speed : float
         Those of the orbit, in ``1/Ω`` and ``c_r Ω``; ``nan`` for steady motions.
     name : str
@@ -143,7 +150,7 @@ class Bifurcation(Result):
         """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
         if self.shot is not None and not self.shot.flies:
             return "rubbing"
-        return "contact-free" if self.kind == LOST else STEADY.get(self.kind, "orbit")
+        return STEADY.get(self.kind, "orbit")
 
     @cached_property
     def orbit(self) -> Orbit:

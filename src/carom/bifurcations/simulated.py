@@ -18,7 +18,7 @@ from carom.base.outcome import CaromError, InputError, Phase
 from carom.base.results import Result
 from carom.bifurcations.points import Bifurcation, kinds_in_a_line
 from carom.bifurcations.simulated_family import SimulatedFamily
-from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
+from carom.continuation import Branch, Equations, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.closing import multipliers_from, newton
 from carom.orbits.flow import Flow, FlowBudget
@@ -206,16 +206,8 @@ def continue_simulated(
     slopes = family.jacobian(start, present) * scales
     if np.isfinite(slopes).all() and np.linalg.svd(slopes, compute_uv=False)[-1] < NEUTRAL:
         return SimulatedBranch(along, orbit.name, orbit.rotor, np.array([present]), (orbit,), (), (CONTINUUM,) * 2)
-    branch = continue_branch(
-        family.residual,
-        start,
-        present,
-        limits,
-        jacobian=family.jacobian,
-        watches=family.watches(),
-        steps=steps or STEPS,
-        scales=scales,
-    )
+    equations = Equations(family.residual, family.jacobian, scales, steps or STEPS)
+    branch = continue_branch(equations, start, present, limits, watches=family.watches())
     points = zip(branch.unknowns, branch.parameters.tolist(), strict=True)
     found = [(p, each) for u, p in points if (each := family.orbit_at(u, p, orbit.name)) is not None]
     values, orbits = np.array([p for p, _ in found]), tuple(each for _, each in found)

@@ -12,10 +12,10 @@ from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 from carom.base.results import Result
 from carom.base.roots import bracketed_root
 from carom.bifurcations.conditions import TESTS
-from carom.bifurcations.points import LOST, STEADY, Bifurcation
+from carom.bifurcations.points import LOST, STEADY, Bifurcation, happens_steadily
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.sag import levitation
-from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
+from carom.closed_forms.thresholds import WALL, boundary_kind
 from carom.closed_forms.whirl import rolling
 from carom.models import Axis, Rotor
 from carom.parameters import Numbers, Parameters
@@ -78,8 +78,13 @@ def rolling_branch(rotor: Rotor, along: Axis, interval: tuple[float, float]) -> 
     return RollingBranch(grid, np.array(forces), np.array(holds, bool))
 
 
+def _lost(why: int = 0, *, below: bool) -> str:
+    """On which side of a value levitation is lost, and why."""
+    return f"{'below' if below else 'above'}: {WHY[why]}"
+
+
 def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> list[Bifurcation]:
-    """Boundary equilibria, folds of rubs and limits of rolling on an interval."""
+    """Boundary equilibria, folds of rubs, limits of rolling, and where vibrations about levitation begin to grow, on an interval."""
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES).tolist()
     points = []
@@ -89,11 +94,11 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
             return TESTS[kind](base.moved(along.name, value), 1.0, 0.0)
 
         values = np.array([function(value) for value in grid])
-        for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
+        for i in np.flatnonzero((values[:-1] < 0.0) != (values[1:] < 0.0)):
             root = bracketed_root(function, grid[i], grid[i + 1])
             at = base.moved(along.name, root)
-            real = kind != "rub-fold" or happens_to_rubs(at)
-            detail = boundary_kind(at) if kind == "boundary-equilibrium" else ""
+            detail = boundary_kind(at) if kind == WALL else _lost(below=values[i + 1] < 0.0) if kind == LOST else ""
+            real = happens_steadily(kind, at)
             points.append(Bifurcation(kind, at, math.nan, math.nan, name, along.name, root, real, detail))
     return points
 
@@ -159,7 +164,7 @@ def levitation_along(
     lost, points = rows.max(axis=1) >= 0.0, []
     for place in np.flatnonzero(lost[:-1] != lost[1:]).tolist():
         at = place + int(lost[place + 1])
-        detail, value = f"{'below' if lost[place] else 'above'}: {WHY[rows[at].argmax()]}", float(values[at])
+        detail, value = _lost(rows[at].argmax(), below=lost[place]), float(values[at])
         there = along.move(model, value)
         points.append(Bifurcation(LOST, there, name="contact-free", parameter=along.name, value=value, detail=detail))
     inside, stable = rows[:, 1] < 0.0, rows[:, ::2].max(axis=1) < 0.0

@@ -17,8 +17,7 @@ from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import crossings, passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
-from carom.continuation.branch import Steps
-from carom.continuation.equations import Equations
+from carom.continuation import Equations
 from carom.parameters import Numbers, Parameters
 
 INSET = 1e-3
@@ -105,7 +104,7 @@ class Survey:
             return np.array([at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted])
 
         scales = np.array([1.0, 1.0, *np.maximum(np.abs(place), 0.1 * plane.widths)])
-        equations = Equations(conditions, None, scales, Steps())
+        equations = Equations(conditions, None, scales)
         unknowns = np.array([point.period, point.radial_speed, *place]) / scales
         for _ in range(ITERATIONS):
             value = equations.value(unknowns)

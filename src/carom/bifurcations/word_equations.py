@@ -15,8 +15,7 @@ from carom.base.outcome import CaromError, InputError
 from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET
-from carom.continuation import Steps, Watch
-from carom.continuation.equations import Equations
+from carom.continuation import Equations, Steps, Watch
 from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
 from carom.core.variation import apply_impact

@@ -7,7 +7,7 @@ passes through grazing and goes on with orbits that are not motions of the machi
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, overload
+from typing import overload
 
 import numpy as np
 
@@ -15,13 +15,14 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.roots import bracketed_root, sign_change
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
-from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
+from carom.bifurcations.conditions import BOUNDLESS, corrected, is_admissible, name_of, with_slip
 from carom.bifurcations.neighbours import BORDERS
-from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET, Bifurcation
+from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET, VANISHING, Bifurcation
 from carom.bifurcations.simulated import SimulatedBranch, continue_simulated, switch_simulated
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import FAR_FROM_MOTION, WordFamily
-from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
+from carom.closed_forms.thresholds import wall_condition
+from carom.continuation import Branch, Equations, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
@@ -36,8 +37,10 @@ CLOSE_STEPS = replace(STEPS, largest=0.1)
 """For orbits with one impact, of which figures and documents show every orbit of a branch."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
-HIDING = dict.fromkeys(("grazing", ONSET, EXTREMUM), ("vanishing-impact", HOPF))
+HIDING = dict.fromkeys(("grazing", ONSET, EXTREMUM), (VANISHING, HOPF))
 """Special points at which others, of these kinds, mean nothing of their own."""
+OFF_WALL = 1e-6
+"""Distance of levitation from the wall beyond which an orbit does not shrink to it, in the square of its radius."""
 NEAR_HALVING = 1e-5
 """Half of the range in which the period doubling is located at which a branch ends, in sizes of the parameter."""
 BEYOND = 0.2
@@ -190,18 +193,10 @@ def _follow(
     virtual: bool,
 ) -> OrbitBranch:
     """Follow a branch through a point, in both directions."""
-    branch = continue_branch(
-        family.residual,
-        start,
-        present,
-        family.limits,
-        jacobian=family.jacobian,
-        watches=family.watches(start, virtual=virtual),
-        solver=family.solved,
-        steps=steps or (CLOSE_STEPS if isinstance(name, OrbitName) else STEPS),
-        scales=np.append(np.ones(len(start)), family.size),
-        reach=family.reach,
-    )
+    steps, sizes = steps or (CLOSE_STEPS if isinstance(name, OrbitName) else STEPS), np.ones(len(start))
+    equations = Equations(family.residual, family.jacobian, np.append(sizes, family.size), steps, family.solved)
+    watches = family.watches(start, virtual=virtual)
+    branch = continue_branch(equations, start, present, family.limits, watches=watches, reach=family.reach)
     wanted = [point for point in branch.special if _is_special(family, branch, point)]
     special = [found for point in wanted if (found := _special_point(family, branch, point, name)) is not None]
     return OrbitBranch(
@@ -220,12 +215,11 @@ def _special_point(
     family: WordFamily, branch: Branch, point: SpecialPoint, name: OrbitName | CountedName
 ) -> Bifurcation | None:
     """Special point of orbits of a name, those of the closed form without certified orbit; ``None`` if it is none."""
-    parameter, value = family.along.name, point.parameter
-    rotor: Any = family.along.move(family.rotor, value)
-    unknowns = point.unknowns
+    parameter, value, unknowns = family.along.name, point.parameter, point.unknowns
     if isinstance(name, OrbitName):
-        numbers, period = with_slip(Numbers.of(rotor.parameters), name.slip), float(unknowns[-1])
-        speed = float(speeds_at(unpack(unknowns, 1).nodes)[0].real)
+        numbers, period, speed = _closed(family, unknowns, value, name)
+        if point.kind == HOPF and abs(wall_condition(numbers)) > OFF_WALL:
+            return _without_damping(family, branch, point, name)
         if point.kind == HOPF:
             # Any period solves the equations there: it is the limit of those on both sides.
             period = float(np.interp(point.place, np.arange(len(branch)), branch.unknowns[:, -1]))
@@ -233,10 +227,30 @@ def _special_point(
         return special_orbit(point.kind, numbers, name.pair, period, speed, parameter, point.place)
     if point.kind == HALVING:
         value, unknowns = _halved(family, unknowns, value)
-        rotor = family.along.move(family.rotor, value)
-    orbit = orbit_at(rotor, family.word, unknowns, name)
+    orbit = orbit_at(family.along.move(family.rotor, value), family.word, unknowns, name)
     on_border = point.kind in (*BORDERS, HOPF) and min(orbit.margins.least, orbit.durations.min()) > -ON_BORDER
     return Bifurcation.of(point.kind, orbit, parameter, value, point.place, real=orbit.admissible or on_border)
+
+
+def _closed(family: WordFamily, unknowns: np.ndarray, value: float, name: OrbitName) -> tuple[Numbers, float, float]:
+    """Numbers, period and radial speed of an orbit with one impact."""
+    numbers = with_slip(Numbers.of(family.along.move(family.rotor, value).parameters), name.slip)
+    return numbers, float(unknowns[-1]), float(speeds_at(unpack(unknowns, 1).nodes)[0].real)
+
+
+def _without_damping(family: WordFamily, branch: Branch, point: SpecialPoint, name: OrbitName) -> Bifurcation | None:
+    """Where an orbit loses its only impact while levitation is not on the wall: there is no damping.
+
+    What is left of the orbit is a free vibration that just touches the wall; ``None`` if it does so from outside.
+    """
+    for i in (int(point.place), int(point.place) + 1):
+        numbers, period, speed = _closed(family, branch.unknowns[i], float(branch.parameters[i]), name)
+        if is_admissible(numbers, period, speed):
+            named = name_of(numbers, name.pair, period, speed)
+            at, parameter = numbers._replace(gamma=0.0), family.along.name
+            ends = float(point.unknowns[-1]), 0.0
+            return Bifurcation(VANISHING, at, *ends, named, parameter, at.value(parameter), place=point.place)
+    return None
 
 
 def _halved(family: WordFamily, unknowns: np.ndarray, value: float) -> tuple[float, np.ndarray]:

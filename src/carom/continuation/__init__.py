@@ -9,7 +9,8 @@
 """
 
 from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
+from carom.continuation.equations import Equations
 from carom.continuation.refinement import refined_points
 from carom.continuation.tracer import continue_branch
 
-__all__ = ["Branch", "SpecialPoint", "Steps", "Watch", "continue_branch", "refined_points"]
+__all__ = ["Branch", "Equations", "SpecialPoint", "Steps", "Watch", "continue_branch", "refined_points"]

@@ -37,12 +37,27 @@ class Point:
 
 @dataclass(frozen=True, eq=False)
 class Equations:
-    """Residual, derivatives and sizes of the unknowns; ``solver`` solves at fixed parameter where that is possible."""
+    """The equations of a branch, and how it is stepped along.
+
+    Attributes
+    ----------
+    residual : callable
+        ``F(u, p)`` with as many equations as unknowns; ``nan`` where it is not defined.
+    slopes : callable, optional
+        Exact derivatives of ``F`` by ``u`` and ``p``, shape (n, n + 1); ``nan`` where ``F`` is not defined.  By default
+        central differences are taken.
+    scales : ndarray, shape (n + 1,), or float
+        Typical sizes of the unknowns and the parameter, in which arclength is measured.
+    steps : Steps
+    solver : callable, optional
+        Of ``u`` and ``p``: the solution next to ``u`` at this parameter, or ``None``.  It is asked where the branch is not
+        close to a fold, and saves evaluations where the equations at another parameter take long to set up.
+    """
 
     residual: Function
-    slopes: Function | None
-    scales: np.ndarray
-    steps: Steps
+    slopes: Function | None = None
+    scales: np.ndarray | float = 1.0
+    steps: Steps = field(default_factory=Steps)
     solver: Solver | None = None
 
     def plain(self, x: np.ndarray) -> tuple[np.ndarray, float]:
@@ -91,7 +106,7 @@ class Equations:
         if self.solver is not None and (fixed or abs(here.tangent[-1]) >= UPRIGHT):
             found = self.solver(*self.plain(guess))
             if found is not None:
-                return np.append(found / self.scales[:-1], guess[-1])
+                return np.append((np.append(found, 0.0) / self.scales)[:-1], guess[-1])
         return self.correct(guess, here.tangent, here.inverse)
 
     def near_fold(self, guess: np.ndarray, here: Point) -> np.ndarray | None:

@@ -6,30 +6,19 @@ from itertools import pairwise
 
 import numpy as np
 
-from carom.continuation.branch import Branch, Steps
-from carom.continuation.equations import Equations, Function
+from carom.continuation.branch import Branch
+from carom.continuation.equations import Equations
 
 HALVINGS = 6
 """Largest number of times that a step is halved to insert points."""
 
 
-def refined_points(
-    residual: Function,
-    branch: Branch,
-    *,
-    scales: np.ndarray,
-    widths: np.ndarray,
-    bend: float,
-    steps: Steps | None = None,
-) -> np.ndarray:
+def refined_points(equations: Equations, branch: Branch, *, widths: np.ndarray, bend: float) -> np.ndarray:
     """Points and special points of a branch, and as many points in between as needed to draw it with straight lines.
 
     Parameters
     ----------
-    residual : callable
-        As for :func:`continue_branch`.
-    scales : ndarray, shape (n + 1,)
-        Typical sizes of the unknowns and the parameter.
+    equations : Equations
     widths : ndarray, shape (n + 1,)
         Ranges of the picture; ``inf`` for a quantity it does not show.
     bend : float
@@ -40,7 +29,7 @@ def refined_points(
     ndarray, shape (m, n + 1)
         Unknowns and parameter, in the order of the branch.
     """
-    equations = Equations(residual, None, scales, steps or Steps())
+    scales = equations.scales
     places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
     own = np.column_stack([branch.unknowns, branch.parameters])
     special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])

@@ -21,8 +21,8 @@ import numpy as np
 
 from carom.base.outcome import CaromError, InputError
 from carom.base.roots import HALVINGS, bracketed_root, narrowed, sign_change
-from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
-from carom.continuation.equations import DIFFERENCE, Equations, Function, Point, Solver, applied
+from carom.continuation.branch import Branch, SpecialPoint, Watch
+from carom.continuation.equations import DIFFERENCE, Equations, Point, applied
 
 STRAY = 0.3
 """Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""
@@ -43,42 +43,29 @@ At a jump more remains.
 
 
 def continue_branch(
-    residual: Function,
+    equations: Equations,
     unknowns: np.ndarray,
     parameter: float,
     interval: tuple[float, float],
     *,
-    jacobian: Function | None = None,
     watches: Sequence[Watch] = (),
-    steps: Steps | None = None,
-    scales: np.ndarray | None = None,
     reach: Callable[[np.ndarray], float] | None = None,
-    solver: Solver | None = None,
     folds: str = "fold",
 ) -> Branch:
     """Follow the branch of solutions through a point, in both directions.
 
     Parameters
     ----------
-    residual : callable
-        ``F(u, p)`` with as many equations as unknowns; ``nan`` where it is not defined.
+    equations : Equations
     unknowns : ndarray, shape (n,)
     parameter : float
         A solution or a point near one: it is corrected first, at fixed parameter where that is possible.
     interval : tuple of float
         Range of the parameter.  From a start on its edge the branch is followed inward only.
-    jacobian : callable, optional
-        Exact derivatives of ``F`` by ``u`` and ``p``, shape (n, n + 1); ``nan`` where ``F`` is not defined.  By default
-        central differences are taken.
     watches : sequence of Watch
         Functions whose zeros are located.
-    scales : ndarray, shape (n + 1,), optional
-        Typical sizes of the unknowns and the parameter, in which arclength is measured; ones by default.
     reach : callable, optional
         Of ``u``: the factor by which the largest step grows there; 1 by default.
-    solver : callable, optional
-        Of ``u`` and ``p``: the solution next to ``u`` at this parameter, or ``None``.  It is asked where the branch is not
-        close to a fold, and saves evaluations where the equations at another parameter take long to set up.
     folds : str
         Kind under which turning points of the parameter are listed; empty if these are not wanted.
 
@@ -91,12 +78,8 @@ def continue_branch(
     """
     if not interval[0] <= parameter <= interval[1] or interval[0] >= interval[1]:
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
-    start = np.append(np.asarray(unknowns, float), parameter)
-    sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    steps = steps or Steps()
-    equations = Equations(residual, jacobian, sizes, steps, solver)
-    tracer = Tracer(equations, interval, watches, steps, folds, reach)
-    first, tangent = tracer.begin(start / sizes)
+    tracer = Tracer(equations, interval, watches, folds, reach)
+    first, tangent = tracer.begin(np.append(np.asarray(unknowns, float), parameter) / equations.scales)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
     if ahead.stop != "closed loop":
@@ -120,7 +103,6 @@ class Tracer:
     equations: Equations
     interval: tuple[float, float]
     watches: Sequence[Watch]
-    steps: Steps
     folds: str
     reach: Callable[[np.ndarray], float] | None = None
 
@@ -156,8 +138,8 @@ class Tracer:
         path = _Path([start], [], "most points")
         here = Point(start, self.equations.jacobian(start), heading)
         here.watched = self._watched(here)
-        length = self.steps.first
-        while len(path.points) < self.steps.most_points:
+        length = self.equations.steps.first
+        while len(path.points) < self.equations.steps.most_points:
             to_limit = self._to_limit(here)
             length = min(length, to_limit)
             there, share, ending, known = self._step(here, length, length == to_limit), None, None, len(path.special)
@@ -178,7 +160,7 @@ class Tracer:
             if there is None or (there.watched[0] < 0.0 and not ending and not share):
                 del path.special[known:]
                 length *= 0.5
-                if length < self.steps.smallest:
+                if length < self.equations.steps.smallest:
                     path.stop = self._stuck(here)
                     return path
                 continue
@@ -187,7 +169,7 @@ class Tracer:
                 path.stop = ending or "closed loop"
                 return path
             path.points.append(there.x)
-            if here.tangent @ there.tangent > math.cos(0.5 * self.steps.sharpest_turn):
+            if here.tangent @ there.tangent > math.cos(0.5 * self.equations.steps.sharpest_turn):
                 length *= 1.5
             length = min(length, self._largest(there.x))
             here = there
@@ -198,11 +180,10 @@ class Tracer:
 
         Infinite where the tangent does not lead there, or there is no solver for points at fixed parameter.
         """
-        ahead, size = float(here.tangent[-1]), float(self.equations.scales[-1])
+        ahead, at = self.equations.plain(here.tangent)[1], self.equations.plain(here.x)[1]
         if self.equations.solver is None or ahead == 0.0:
             return math.inf
-        left = self.interval[ahead > 0.0] - float(here.x[-1]) * size
-        return left / (ahead * size) if here.watched[0] != 0.0 else math.inf
+        return (self.interval[ahead > 0.0] - at) / ahead if here.watched[0] != 0.0 else math.inf
 
     def _left(self, here: Point, there: Point) -> str:
         """The limit that a step leaves from a point on it; empty if there is none."""
@@ -212,7 +193,7 @@ class Tracer:
 
     def _largest(self, x: np.ndarray) -> float:
         """Length of the largest step at a point."""
-        return self.steps.largest * (1.0 if self.reach is None else self.reach(self.equations.plain(x)[0]))
+        return self.equations.steps.largest * (1.0 if self.reach is None else self.reach(self.equations.plain(x)[0]))
 
     def _step(self, here: Point, length: float, fixed: bool) -> Point | None:
         """Next point, on request at the parameter to which the tangent leads; ``None`` if the step is too long."""
@@ -222,7 +203,7 @@ class Tracer:
             return None
         jacobian = self.equations.jacobian(x)
         tangent = self.equations.tangent(jacobian, here.tangent)
-        if tangent is None or here.tangent @ tangent < math.cos(self.steps.sharpest_turn):
+        if tangent is None or here.tangent @ tangent < math.cos(self.equations.steps.sharpest_turn):
             return None
         return Point(x, jacobian, tangent)
 
@@ -322,7 +303,7 @@ class Tracer:
         if bracket is None:
             return None
         try:
-            distance = bracketed_root(rounded, *bracket, self.steps.resolution)
+            distance = bracketed_root(rounded, *bracket, self.equations.steps.resolution)
         except CaromError:
             return None
         if math.isnan(smaller + size):
@@ -333,7 +314,7 @@ class Tracer:
 
     def _return(self, path: _Path, here: Point, there: Point, heading: np.ndarray) -> float | None:
         """Share of the step at which the branch passes its start again, in the initial direction."""
-        if len(path.points) < 3 or there.tangent @ heading < math.cos(2.0 * self.steps.sharpest_turn):
+        if len(path.points) < 3 or there.tangent @ heading < math.cos(2.0 * self.equations.steps.sharpest_turn):
             return None
         step, back = there.x - here.x, path.points[0] - here.x
         share = float(back @ step / (step @ step))

@@ -57,6 +57,7 @@ _LINES: dict[str, Drawn] = {
     "rub-fold": {"line": "--", "width": 1.4},
     "contact-onset": {"line": "-", "width": 1.1},
     "rolling-limit": {"line": "-.", "width": 1.1},
+    "levitation-lost": {"line": ":", "width": 1.4},
 }
 CURVES = MappingProxyType({kind: replace(POINTS[kind], marker="none", **look) for kind, look in _LINES.items()})
 """Lines of curves in two parameters (read-only)."""

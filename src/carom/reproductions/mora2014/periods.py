@@ -9,7 +9,7 @@ import numpy as np
 from carom.base.results import Result
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
-from carom.continuation import Steps, continue_branch
+from carom.continuation import Equations, Steps, continue_branch
 from carom.models import Rotor, jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
@@ -108,14 +108,8 @@ def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
             return np.array([np.nan])
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
-    branch = continue_branch(
-        closing,
-        np.array([period]),
-        gamma,
-        (gamma, DAMPINGS[1]),
-        steps=Steps(0.005, largest=0.04),
-        scales=np.array([1, 0.1]),
-    )
+    equations = Equations(closing, None, np.array([1, 0.1]), Steps(0.005, largest=0.04))
+    branch = continue_branch(equations, np.array([period]), gamma, (gamma, DAMPINGS[1]))
     (fold,) = branch.of_kind("fold")
     at = float(fold.unknowns[0])
     # The fold itself is drawn too: it is where both halves meet.
