@@ -4,14 +4,20 @@ In the frame that turns ``z″ = iΩ(Jp−2)z′ − 2ζz′ + (Ω²(1−Jp) −
 a doubling at Ω = 4.8624 and a fold at 3.3526; with the ring as it is they are at 4.861960 and 3.354404.
 """
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import carom as cm
 from carom.base.outcome import InputError
+from carom.bifurcations.followed import Followed
 from carom.bifurcations.simulated import continue_simulated
 from carom.models import KelvinVoigt, LinearEquations, Rotor, Touchdown
 from carom.orbits.closing import close
+from carom.orbits.flow import FlowBudget
+from carom.orbits.names import CountedName
 
 MASS, ECCENTRICITY, POLAR, DAMPING, RING = 0.9, 0.353, 0.143, 0.01, 10.0
 
@@ -60,7 +66,17 @@ def test_a_family_is_followed_where_a_flight_vanishes_and_doubles():
     assert (doubling.kind, round(doubling.value, 5)) == ("period-doubling", 4.86196)
     assert any(point.kind == "grazing" and abs(point.value - 5.2787) < 1e-4 for point in branch.special)
     assert {each.impacts for each in branch.orbits} == {1, 2}
-    doubled = cm.bifurcations.switch(doubling, (4.85, 4.88))
+    names = CountedName(0, 1, "rolling"), CountedName(2 * doubling.orbit.impacts, 1)
+    known = [SimpleNamespace(name=name, passes=lambda *_: False) for name in names]
+    followed = Followed(branch.axis, (4.85, 4.88), 8, (), virtual=False, budget=FlowBudget(), found=known)
+    followed.leave([doubling])
+    doubled = followed.found[-1]
+    named = [doubled, *doubled.orbits, *doubled.special, *(point.orbit for point in doubled.special)]
+    assert {each.name for each in named} == {replace(names[1], number=2)}
+    assert [followed._numbered(replace(names[0], kind=kind)) for kind in ("rolling", "whirl")] == [
+        "rolling 2",
+        "whirl 1",
+    ]
     assert doubled.orbits[0].period == pytest.approx(2.0 * doubling.period, rel=0.02)
     grazing = next(point for point in branch.special if point.kind == "grazing")
     with pytest.raises(InputError, match="a period doubling"):

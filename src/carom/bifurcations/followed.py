@@ -21,7 +21,7 @@ from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, numbered, orbit_near
+from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.search import OrbitSearch
 from carom.orbits.searched import Searched
 from carom.orbits.simulated import SimulatedOrbit
@@ -72,8 +72,10 @@ class Followed:
         """All known branches."""
         return [*self.singles, *self.found]
 
-    def _name(self, impacts: int) -> CountedName:
-        return CountedName(impacts, 1 + sum(branch.name.impacts == impacts for branch in self.found))
+    def _numbered(self, name: CountedName) -> CountedName:
+        """The name with the next number among those of its impacts and kind."""
+        alike = sum(replace(branch.name, number=1) == replace(name, number=1) for branch in self.found)
+        return replace(name, number=1 + alike)
 
     def follow(self, orbit: Orbit | SimulatedOrbit, value: float) -> None:
         """Follow an orbit that lies on no branch, and the branches that begin on its own."""
@@ -81,9 +83,9 @@ class Followed:
             return
         if isinstance(orbit, Orbit):
             branch = continue_orbit(orbit, self.along.name, self.limits, virtual=self.virtual)
-            self._add(renamed(branch, self._name(orbit.impacts)))
+            self._add(renamed(branch, self._numbered(CountedName(orbit.impacts, 1))))
             return
-        named = numbered(orbit, self._name(orbit.impacts).number)
+        named = replace(orbit, name=self._numbered(orbit.name))
         # Where it cannot be followed the orbit is shown alone.
         shown = SimulatedBranch(self.along, named.name, orbit.rotor, np.array([value]), (named,), (), (ALONE, ALONE))
         if len(Flow.vector(orbit.start)) <= MOST_NUMBERS and not self.budget.spent:
@@ -106,13 +108,13 @@ class Followed:
     def _switch(self, point: Bifurcation) -> None:
         """Follow the branch that begins at a special point."""
         if not isinstance(point.shot, SimulatedOrbit):
-            branch: Any = switch(point, self.limits, virtual=self.virtual)
-            self._add(renamed(branch, self._name(branch.impacts)))
+            other = switch(point, self.limits, virtual=self.virtual)
+            self._add(renamed(other, self._numbered(CountedName(other.impacts, 1))))
             return
         branch = switch_simulated(point, self.limits, self.budget)
         middle = len(branch) // 2
         if not any(other.passes(branch.orbits[middle], float(branch.values[middle])) for other in self.found):
-            self.found.append(replace(branch, name=self._name(branch.impacts)))
+            self.found.append(renamed(branch, self._numbered(branch.name)))
 
     def _begins_another(self, point: Bifurcation) -> bool:
         """Whether a branch of orbits with so many impacts begins at a special point, which is not known."""

@@ -67,7 +67,7 @@ class SimulatedBranch(Result):
     shown: ClassVar[tuple[str, ...]] = ("parameter", "name", "word", "values", "period", "special", "stops")
 
     axis: Axis
-    name: Any
+    name: CountedName
     rotor: Any
     values: np.ndarray
     orbits: tuple[SimulatedOrbit, ...]
@@ -217,7 +217,7 @@ def continue_simulated(
     return SimulatedBranch(along, orbit.name, orbit.rotor, values, orbits, tuple(special), branch.stops)
 
 
-def _special(family: SimulatedFamily, point: SpecialPoint, name: Any) -> Bifurcation | None:
+def _special(family: SimulatedFamily, point: SpecialPoint, name: CountedName) -> Bifurcation | None:
     orbit = family.orbit_at(point.unknowns, point.parameter, name)
     if orbit is None:
         return None
@@ -228,7 +228,7 @@ def _special(family: SimulatedFamily, point: SpecialPoint, name: Any) -> Bifurca
     return Bifurcation.of(point.kind, orbit, family.along.name, point.parameter, point.place)
 
 
-def _changes(family: SimulatedFamily, branch: Branch, name: Any) -> list[Bifurcation]:
+def _changes(family: SimulatedFamily, branch: Branch, name: CountedName) -> list[Bifurcation]:
     """Points between which something joins or leaves the period, by bisection on the chord."""
     found = []
     known = [_word_at(family, u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
@@ -302,6 +302,6 @@ def switch_simulated(point: Bifurcation, interval: Ends, budget: FlowBudget | No
             if motion is None:
                 continue
             values = multipliers_from(flow.derivative(found[0], motion), free=free)
-            doubled = orbit.moved(flow, *found, values, CountedName(2 * orbit.impacts, 1))
+            doubled = orbit.moved(flow, *found, values, replace(orbit.name, impacts=2 * orbit.impacts, number=1))
             return continue_simulated(doubled, point.parameter, interval, budget=budget)
     raise CaromError("no orbit of twice the period was found beside the period doubling")

@@ -7,7 +7,7 @@ passes through grazing and goes on with orbits that are not motions of the machi
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import overload
+from typing import TypeVar, overload
 
 import numpy as np
 
@@ -51,11 +51,16 @@ MOST_UNKNOWNS = 1500
 """Most unknowns of an orbit that is followed: inverting their matrix takes a third of a second, a hundred times a branch."""
 
 
-def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
-    """A branch followed by multiple shooting, with another name."""
+Followed = TypeVar("Followed", OrbitBranch, SimulatedBranch)
+
+
+def renamed(branch: Followed, name: CountedName) -> Followed:
+    """A branch with another name, which its orbits and special points have too."""
     shots = [replace(point.shot, name=name) if point.shot else None for point in branch.special]
-    pairs = zip(branch.special, shots, strict=True)
-    return replace(branch, name=name, special=tuple(replace(point, name=name, shot=shot) for point, shot in pairs))
+    special = tuple(replace(point, name=name, shot=shot) for point, shot in zip(branch.special, shots, strict=True))
+    if isinstance(branch, SimulatedBranch):
+        branch = replace(branch, orbits=tuple(replace(orbit, name=name) for orbit in branch.orbits))
+    return replace(branch, name=name, special=special)
 
 
 @overload

@@ -21,6 +21,7 @@ from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.flow import TURN, Flow
 from carom.orbits.happenings import Happening, happenings, word_of
 from carom.orbits.maps import Section
+from carom.orbits.names import CountedName
 from carom.orbits.stability import Multipliers
 from carom.parameters import Scales
 
@@ -54,7 +55,7 @@ class SimulatedOrbit(Result):
     shown: ClassVar[tuple[str, ...]] = ("rotor", "name", "segments", "period", "turns", "start", "extremes", "stable")
 
     rotor: Any
-    name: Any
+    name: CountedName
     start: State
     period: float
     multipliers: Multipliers
@@ -184,7 +185,7 @@ class SimulatedOrbit(Result):
         return np.array([self.radial_speed])
 
     def moved(
-        self, flow: Flow, vector: np.ndarray, period: float, multipliers: np.ndarray, name: Any
+        self, flow: Flow, vector: np.ndarray, period: float, multipliers: np.ndarray, name: CountedName
     ) -> SimulatedOrbit:
         """Another closed path that repeats as this one does."""
         at = flow.state(vector), period, Multipliers(multipliers)
