@@ -7,7 +7,7 @@ import pytest
 
 from carom.base.outcome import Outcome
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
-from carom.bifurcations.neighbours import BORDERS
+from carom.bifurcations.word_equations import BORDERS
 from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import Orbit, find_orbits, impact_map, orbit_near

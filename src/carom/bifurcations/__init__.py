@@ -5,18 +5,14 @@
 ``steady``              levitation, synchronous rubs and rolling along it
 ``branches``            a branch of orbits of any word
 ``words``               following such a branch, and switching to others
-``word_equations``      equations of a word, and what vanishes at special points
-``single_impact``       what the closed form tells of orbits with one impact
+``word_equations``      equations of a word, and what vanishes at special points, and the word beyond
 ``followed``            orbits that searches and special points lead to, for diagrams
 ``points``              special points of branches
-``neighbours``          the word on the other side of a special point at which it changes
 ``boundary``            where levitation meets the wall
 ``windows``             ranges of a parameter in which orbits are motions
-``curve_results``       a curve of bifurcations in two parameters, and points on it
-``curve_equations``     what the equations of all such curves have in common
+``curve_results``       a curve of bifurcations in two parameters, points on it, and what the equations of all have in common
 ``curves``              following one of a bifurcation that has a closed form
 ``conditions``          orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
-``passing``             whether a known curve passes through a point
 ``planes``              the plane of two parameters
 ``regions``             regions of a plane with the same motions
 ``cells``               groups of neighbouring cells
@@ -26,7 +22,6 @@
 ``documents``           results as plain data for JSON
 ``simulated``           branches of orbits of any machine, closed on the flow of the simulator
 ``simulated_family``    their equations
-``simulated_curves``    their equations in the plane of two parameters
 ======================  ====================================================================================================
 """
 

@@ -15,11 +15,10 @@ from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.thresholds import rolling_condition, rub_fold_condition, wall_condition
 from carom.core import planar
 from carom.models import Subject, exact_rotor_of, jeffcott
-from carom.orbits.maps import Section
+from carom.orbits.maps import Section, multipliers
 from carom.orbits.names import OrbitName, Slip, in_order
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbit_at, orbits_of_roots
-from carom.orbits.stability import multipliers
 from carom.parameters import Numbers
 
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0

@@ -13,9 +13,9 @@ import numpy as np
 from carom.base.outcome import CaromError
 from carom.base.progress import Reporter
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.neighbours import BORDERS
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.simulated import MOST_NUMBERS, STEPS, SimulatedBranch, continue_simulated, switch_simulated
+from carom.bifurcations.word_equations import BORDERS
 from carom.bifurcations.words import continue_orbit, renamed, switch
 from carom.models import Rotor
 from carom.models.axes import Axis
@@ -108,7 +108,7 @@ class Followed:
     def _switch(self, point: Bifurcation) -> None:
         """Follow the branch that begins at a special point."""
         if not isinstance(point.shot, SimulatedOrbit):
-            other = switch(point, self.limits, virtual=self.virtual)
+            other: Any = switch(point, self.limits, virtual=self.virtual)
             self._add(renamed(other, self._numbered(CountedName(other.impacts, 1))))
             return
         branch = switch_simulated(point, self.limits, self.budget)

@@ -13,11 +13,10 @@ from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result
 from carom.bifurcations.cells import Region, regions_between, settled_cells
 from carom.bifurcations.changes import UnexplainedChange
-from carom.bifurcations.curve_results import Codimension2Point, Curve
+from carom.bifurcations.curve_results import Codimension2Point, Curve, passes, with_curve
 from carom.bifurcations.curves import can_be_followed, continue_curve
 from carom.bifurcations.diagrams import special_points
 from carom.bifurcations.motions import STARTS, Motions, motions_at
-from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Rotor, Subject, rotor_of

@@ -11,10 +11,9 @@ from carom.base.outcome import CaromError
 from carom.base.progress import Reporter
 from carom.bifurcations.changes import PlanePoint, UnexplainedChange, accounts_for, causes_between, change_between
 from carom.bifurcations.conditions import ENDING, RESONANCES, conditions_at
-from carom.bifurcations.curve_results import Codimension2Point, Curve
+from carom.bifurcations.curve_results import Codimension2Point, Curve, crossings, passes, with_curve
 from carom.bifurcations.curves import continue_curve
 from carom.bifurcations.motions import Motions, motions_at
-from carom.bifurcations.passing import crossings, passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.continuation import Equations

@@ -1,6 +1,6 @@
 """Branches of orbits of any word along a parameter, with their special points, and switching at period doublings.
 
-The equations are those of multiple shooting (:mod:`carom.orbits.shooting`).  Durations are among the unknowns, so a branch
+Of orbits with one impact the special points are those of the closed form.  The equations are those of multiple shooting (:mod:`carom.orbits.shooting`).  Durations are among the unknowns, so a branch
 passes through grazing and goes on with orbits that are not motions of the machine.
 """
 
@@ -15,22 +15,66 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.roots import bracketed_root, sign_change
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
-from carom.bifurcations.conditions import BOUNDLESS, corrected, is_admissible, name_of, with_slip
-from carom.bifurcations.neighbours import BORDERS
+from carom.bifurcations.conditions import (
+    BOUNDLESS,
+    conditions_at,
+    corrected,
+    is_admissible,
+    margins_of,
+    name_of,
+    orbits_joined_at,
+    profile_at,
+    with_slip,
+)
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, ONSET, VANISHING, Bifurcation
 from carom.bifurcations.simulated import SimulatedBranch, continue_simulated, switch_simulated
-from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import FAR_FROM_MOTION, WordFamily
+from carom.bifurcations.word_equations import BORDERS, FAR_FROM_MOTION, WordFamily
 from carom.closed_forms.thresholds import wall_condition
 from carom.continuation import Branch, Equations, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Ends, axis, interval_around
+from carom.orbits.maps import multipliers_of
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Links, converged, pack, unpack
 from carom.orbits.simulated import SimulatedOrbit
-from carom.orbits.stability import multipliers_of
 from carom.orbits.word import Word
 from carom.parameters import Numbers
+
+EMERGING = 1e-4
+"""Time of a maximum, in periods, below which its height is only rounding: the height grows with the cube of the time."""
+SMALL = 1e-4
+"""Radial speed of the orbit that represents those shrinking to a point."""
+
+
+def special_orbit(
+    kind: str, numbers: Numbers, pair: int, period: float, speed: float, parameter: str, place: float
+) -> Bifurcation | None:
+    """Special point from the parameters, the pair, the period and the radial speed of its orbit; ``None`` if it is none.
+
+    Of the folds, those of two radial speeds of one period are distinguished from those of two periods.  Without rebound a maximum of the
+    radius emerges from the impact, with its height zero, as lasting contact begins: no grazing.
+    """
+    at = numbers, period, speed
+    if kind == "grazing" and not profile_at(*at).top > EMERGING * period:
+        return None
+    if kind == "fold":
+        conditions = conditions_at(*at)
+        kind = "speed-fold" if abs(conditions.speed_fold) < abs(conditions.period_fold) else kind
+    name = orbits_joined_at(kind, name_of(numbers, pair, period, speed))[-1]
+    value, admissible = numbers.value(parameter), _bounds_admissible(kind, *at)
+    return Bifurcation(kind, *at, name, parameter, value, admissible, place=place)
+
+
+def _bounds_admissible(kind: str, numbers: Numbers, period: float, speed: float) -> bool:
+    """Whether the orbits on at least one side of a special point are motions of the machine."""
+    if kind == "non-smooth-hopf":
+        speed = SMALL
+    slips = kind == "slip-stop" or margins_of(numbers, period, speed)["slip-stop"] > 0.0
+    # At the onset of lasting contact the radius may have a maximum of zero height next to the impact.
+    slack = 1e-9 if kind == "contact-onset" else 0.0
+    inside = kind == "grazing" or not profile_at(numbers, period, speed).height >= slack
+    return speed > 0.0 and slips and inside
+
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
 CLOSE_STEPS = replace(STEPS, largest=0.1)

@@ -4,16 +4,12 @@
 ``equilibria``             contact-free and rubbing equilibria of any linear rotor
 ``sag``                    levitation with or without weight: a circle about the sag
 ``statics``                forces of rubs at rest, at one plane and at several
-``power_sums``             all positive roots of a sum of powers
-``rub_stability``          whether a rub at rest attracts sliding
 ``thresholds``             where motions begin and end
 ``contact_free``           disturbances of any linear rotor that never reach the wall
 ``unbalance``              rubs over the speed of the shaft, of a rotor with one mass
 ``whirl``                  backward whirl: runaway and rolling
-``fading``                 rolling in bounces, and when they certainly fade
 ``absorbing``              neighbourhoods of the rub that sliding never leaves
 ``periods``                periods of all orbits with one impact a period
-``piecewise``              motion next to a point of a wall that levitation touches
 ``small_cycles_at_walls``  what is born where levitation meets a wall, for any number of modes and both kinds of walls
 ``compliant_walls``        slipping whirl on compliant walls
 ``hertz``                  pressure between the balls and the race of a touchdown bearing
@@ -29,14 +25,13 @@ from carom.closed_forms.contact_free import (
     contact_free_shock,
 )
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
-from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.sag import Levitation, levitation
 from carom.closed_forms.small_cycles_at_walls import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import contact_changes, rub_angles
-from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
+from carom.closed_forms.whirl import Rolling, Runaway, fading_speed, rolling, runaway_speed
 
 __all__ = [
     "Equilibrium",

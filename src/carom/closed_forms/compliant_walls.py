@@ -13,7 +13,7 @@ Squared, that is a sum of real powers of ``δ``,
 
     1 − |y*|² + 2δ + δ² + 2 Re(h)κ(δⁿ + δ^{n+1}) + |h|²κ²δ^{2n} = 0.
 
-All its positive roots are found (:mod:`carom.closed_forms.power_sums`), of whatever powers; :func:`carom.find_equilibria` lists them.
+All its positive roots are found (:mod:`carom.closed_forms.statics`), of whatever powers; :func:`carom.find_equilibria` lists them.
 
 For the disc of an overhung rotor in a frictionless ring, with the natural frequency as the unit of time, polar inertia ``J_p``
 per diametral one, damping ``2ζ``, unbalance ``mε`` and the ring's stiffness ``β``, the receptance is
@@ -44,7 +44,7 @@ from scipy.linalg import eigvals  # type: ignore[import-untyped]
 
 from carom.base.arguments import ArgumentKind, Positive, Whole, checked
 from carom.base.outcome import InputError
-from carom.closed_forms.power_sums import positive_roots
+from carom.closed_forms.statics import positive_roots
 from carom.models import Subject, System, rotor_of
 
 Exponent = Annotated[float, ArgumentKind(lambda number: number >= 1.0, "a number of at least 1")]

@@ -12,9 +12,8 @@ import numpy as np
 
 from carom.closed_forms.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
-from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.thresholds import largest_response
-from carom.closed_forms.whirl import Rolling, Runaway, hastening_speed, rolling, runaway_speed
+from carom.closed_forms.whirl import Rolling, Runaway, fading_speed, hastening_speed, rolling, runaway_speed
 from carom.models import Rotor, jeffcott
 from carom.parameters import Parameters
 

@@ -6,7 +6,7 @@
   (:mod:`carom.closed_forms.absorbing`).
 - *Forward rub* or *backward whirl* that gains speed for ever: a rotor without friction and with negative damping.
 - *Rolling*: backward whirl slides faster than a threshold speed (:mod:`carom.closed_forms.whirl`), or an impact stops the slip and
-  leaves the wall so slowly that the bounces fade (:mod:`carom.closed_forms.fading`).
+  leaves the wall so slowly that the bounces fade (:mod:`carom.closed_forms.whirl`).
 """
 
 from __future__ import annotations

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.base.outcome import Outcome, Phase
+from carom.closed_forms.equilibria import rub_attracts
 from carom.closed_forms.exact_results import exact_results
-from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.advance import advance
 from carom.core.closing import PASSES, least_period
 from carom.core.contact_events import SHORTEST_LAP

@@ -9,26 +9,22 @@
 ``search``            orbits of the planar rotor with any number of impacts, from simulated starts
 ``searched``          what a search has tried
 ``flow``              the flow of any machine as a map, with derivatives by differences
-``happenings``        what happens along a motion, in order
+``happenings``        what happens along a motion, in order, and how far it goes
 ``simulated``         periodic motions of any machine
 ``closing``           closing them on that flow, by Newton's method
 ``simulated_search``  the search for these
-``flow_exponents``    Lyapunov exponents by the flow
-``extremes``          largest radius, depth and force
 ``recognising``       the orbit that a simulated motion repeats
 ``exponents``         Lyapunov exponents of motions and of orbits
 ``names``             names of orbits
-``maps``              the impact map, with its derivative
-``stability``         multipliers of an orbit
+``maps``              the impact map, with its derivative; multipliers
 ====================  ====================================================================
 """
 
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
-from carom.orbits.maps import ImpactMap, Section, impact_map
+from carom.orbits.maps import ImpactMap, Multipliers, Section, impact_map, multipliers
 from carom.orbits.orbit import Margins, Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
-from carom.orbits.stability import Multipliers, multipliers
 from carom.orbits.word import Kind, Word
 
 __all__ = [

@@ -10,9 +10,9 @@ from carom.base.outcome import Phase
 from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import Flow, FlowBudget, krylov, repeats_after
 from carom.orbits.happenings import happenings
+from carom.orbits.maps import Multipliers
 from carom.orbits.names import CountedName
 from carom.orbits.simulated import SimulatedOrbit
-from carom.orbits.stability import Multipliers
 
 ITERATIONS = 12
 TOLERANCE, CLOSED, ACCEPTED = 1e-15, 1e-11, 3e-9

@@ -20,12 +20,11 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.admissibility import departure, why_virtual
-from carom.orbits.extremes import Extremes, extremes_of
-from carom.orbits.maps import Section
+from carom.orbits.happenings import Extremes, extremes_of
+from carom.orbits.maps import Multipliers, Section, multipliers_of
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, ShootingStart, converged, links_of
 from carom.orbits.simulated import SimulatedOrbit, same_simulated
-from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
 from carom.parameters import Scales
 

@@ -17,12 +17,10 @@ from carom.base.outcome import Phase
 from carom.base.results import Result
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.flow import TURN, Flow
-from carom.orbits.happenings import Happening, happenings, word_of
-from carom.orbits.maps import Section
+from carom.orbits.happenings import Extremes, Happening, extremes_of, happenings, word_of
+from carom.orbits.maps import Multipliers, Section
 from carom.orbits.names import CountedName
-from carom.orbits.stability import Multipliers
 from carom.parameters import Scales
 
 SAME_ORBIT_RTOL = 1e-5

@@ -18,7 +18,7 @@ from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
 from carom.models import Rotor, Subject, exact_rotor_of, rotor_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
-from carom.orbits.maps import Section
+from carom.orbits.maps import Multipliers, Section, multipliers_of_all
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import Impacts, search_orbits
@@ -26,7 +26,6 @@ from carom.orbits.searched import Searched
 from carom.orbits.shooting import ShootingStart
 from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.simulated_search import search_simulated
-from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 
 _CLOSED_FORMS_ALONE = (

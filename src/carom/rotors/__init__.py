@@ -2,19 +2,16 @@
 
 ========================  =================================================================
 ``entries``               numbers of a part, in SI units or as text with a unit
-``sections``              :class:`ShaftSection`: a cylindrical section of a shaft; :class:`Material`
+``sections``              :class:`ShaftSection`: a cylindrical section of a shaft and its elements; :class:`Material`
 ``discs``                 :class:`Disc`: a rigid disc
 ``damping``               :class:`ModalDamping`, :class:`ProportionalDamping`
-``beams``                 matrices of an element of Timoshenko's beam
-``free_modes``            modes of a free body
 ``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
 ``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
 ``bearing_limits``        limits of magnetic bearings as those of a model
 ``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
 ``support``               :class:`Support`: a seal, a fluid-film bearing, a spring
-``free_rotor``            what all rotors have in common, however their matrices are made
+``free_rotor``            what all rotors have in common, however their matrices are made, and their free modes
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
-``matrix_checks``         what matrices of a rotor must be
 ``matrix_rotor``          :class:`MatrixRotor`: a rotor by its matrices
 ``rigid_body``            :class:`RigidRotor`: four degrees of freedom
 ``rotor_files``           :func:`read_rotor`, :func:`write_rotor`: files of matrices
@@ -24,22 +21,17 @@
 ``starter``               a machine file to start from, for an imported rotor
 ``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
 ``reduction``             few vectors in place of all coordinates
-``equations``             equations of motion in SI units
+``equations``             equations of motion in SI units, and free motions
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it; :func:`rigid_rotor`
-``free_motions``          free motions of a machine, and which of them grow
 ``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
 ``flexible_model``        :class:`FlexibleDefinition`: what defines its rotor, by the parameters of the machine
-``part_tables``           what each table of a machine file with ``[rotor]`` may hold, and the part that it makes
-``part_rows``             the parts of a machine in the units of people
-``machine_writer``        a machine -> tables of a machine file
+``part_tables``           what each table of a machine file with ``[rotor]`` may hold, and the part that it makes; written too
 ``machine_file``          :func:`load_machine`; tables of a machine file -> its case
-``branches``              exponents followed over the speed of the shaft
-``collocation``           whether sensors see a whirl as the magnet moves it
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
 ``synchronous``           :func:`synchronous_response`: contact-free response to unbalance at any speed, of any rotor
 ``reduction_errors``      by how much the vectors left out change a motion with contact
-``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings
+``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings, and whirls that their sensors miss
 ========================  =================================================================
 """
 

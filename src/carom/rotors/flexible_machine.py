@@ -1,9 +1,9 @@
-"""A flexible rotor on magnetic bearings, inside touchdown bearings."""
+"""A flexible rotor on magnetic bearings, inside touchdown bearings, and its parts in the units of people."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,19 +13,20 @@ import numpy as np
 from carom.base.arguments import Count, Positive, checked
 from carom.base.outcome import InputError, shown
 from carom.models import Rotor
-from carom.parameters import Gravity
+from carom.parameters import Field, Gravity
+from carom.parameters.fields import RPM
+from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.tables import read_entries
-from carom.rotors.attachments import TouchdownPlane, Unbalance
-from carom.rotors.equations import loops_of
-from carom.rotors.free_motions import Slowest, slowest_of
+from carom.rotors.attachments import PLANE_FIELDS, TouchdownPlane, Unbalance
+from carom.rotors.controllers import PID, PID_FIELDS
+from carom.rotors.equations import Slowest, loops_of, slowest_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import WHOLE, NamedParameters
-from carom.rotors.magnetic_bearing import MagneticBearing
-from carom.rotors.part_rows import part_rows
+from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
 from carom.rotors.rigid_body import RigidRotor
-from carom.rotors.support import Support
+from carom.rotors.support import SUPPORT_FIELDS, Support
 
 ACCURACY = 0.02
 """Error of contact forces by reduction that is accepted by default; it is that of one
@@ -230,3 +231,40 @@ def rigid_rotor(
     """
     rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
     return FlexibleMachine(rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports)
+
+
+_MILLIMETRES = 1e3
+
+
+def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
+    """The rotor and what stands around it, part by part; places along the shaft are from its beginning."""
+    places = _MILLIMETRES * machine.rotor.node_places
+
+    def at(*nodes: int) -> str:
+        return f"{' and '.join(number(float(places[node])) for node in nodes)} mm"
+
+    yield "rotor", machine.rotor.words
+    yield "speed", f"{number(machine.speed / RPM)} rpm"
+    for place, bearing in enumerate(machine.bearings, start=1):
+        controller = bearing.controller
+        law = _entries(controller, PID_FIELDS) if isinstance(controller, PID) else type(controller).__name__
+        seen = "" if bearing.sensor_nodes == (bearing.node,) else f", sensors at {at(*bearing.sensor_nodes)}"
+        yield f"magnetic bearing {place}", f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {law}"
+    for place, support in enumerate(machine.supports, start=1):
+        yield f"support {place}", f"at {at(support.node)}: {_entries(support, SUPPORT_FIELDS)}"
+    for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):
+        room = format_entry(PLANE_FIELDS["clearance"], clearance)
+        others = {name: field for name, field in PLANE_FIELDS.items() if name != "clearance"}
+        shown = f"clearance {room}, {_entries(plane, others)}; {plane.bearing.words}"
+        yield f"touchdown bearing {place}", f"at {at(plane.node)}: {shown}"
+    for place, unbalance in enumerate(machine.unbalances, start=1):
+        yield (
+            f"unbalance {place}",
+            f"at {at(unbalance.node)}: {number(1e6 * unbalance.size)} g mm, at {format_angle(unbalance.angle)}",
+        )
+
+
+def _entries(part: object, fields: Mapping[str, Field]) -> str:
+    """Entries of a part by their names in the file, without those that are zero or not there."""
+    given = ((name, getattr(part, name), field) for name, field in fields.items())
+    return ", ".join(f"{name.replace('_', ' ')} {format_entry(field, value)}" for name, value, field in given if value)

@@ -1,4 +1,4 @@
-"""Sensitivity of the loops of magnetic bearings, and the zones of ISO 14839-3 for its peak."""
+"""Sensitivity of the loops of magnetic bearings, the zones of ISO 14839-3 for its peak, and whirls that their sensors miss."""
 
 from __future__ import annotations
 
@@ -12,10 +12,9 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.rotors.equations import block, loops_of
+from carom.rotors.equations import block, loops_of, motions_at
 from carom.rotors.flexible_machine import FlexibleMachine
-from carom.rotors.free_motions import motions_at
-from carom.rotors.whirls import speeds_of
+from carom.rotors.whirls import WhirlMode, speeds_of
 
 LIMITS = {"A": 3.0, "B": 4.0, "C": 5.0}
 """Largest peak of the sensitivity in each zone of ISO 14839-3:2006; above lies zone D."""
@@ -168,3 +167,55 @@ class _Loop:
             place = int(sizes.argmax())
             best = max(best, (float(sizes[place]), float(frequencies[place])))
         return best
+
+
+HARDLY = 0.02
+"""Displacement, as a share of the largest of the shaft, at its sensors or its actuator, below which a whirl has a node there."""
+
+
+@dataclass(frozen=True)
+class Collocation:
+    """A whirl at a magnetic bearing.
+
+    Attributes
+    ----------
+    bearing : int
+        From 1.
+    whirl : WhirlMode
+    sensor, magnet : complex
+        Displacement that the sensors measure, and at the magnet; the largest of the shaft is 1.
+    """
+
+    bearing: int
+    whirl: WhirlMode
+    sensor: complex
+    magnet: complex
+
+    @property
+    def hardly(self) -> bool:
+        """Whether a node of the whirl lies at the sensors or at the magnet."""
+        return min(abs(self.sensor), abs(self.magnet)) < HARDLY
+
+    @property
+    def opposed(self) -> bool:
+        """Whether a node lies between: sensors and magnet move against each other, so damping by the controller feeds the whirl."""
+        return not self.hardly and (self.sensor * self.magnet.conjugate()).real < 0.0
+
+
+def collocations(machine: FlexibleMachine, whirls: tuple[WhirlMode, ...]) -> tuple[Collocation, ...]:
+    """How sensors and magnet of each bearing stand in each whirl, those of a bearing together."""
+    rotor = machine.rotor
+
+    def at(whirl: WhirlMode, node: int) -> complex:
+        return complex(whirl.widest[rotor.place_of(node)])
+
+    return tuple(
+        Collocation(
+            number,
+            whirl,
+            complex(np.mean([at(whirl, node) for node in bearing.sensor_nodes])),
+            at(whirl, bearing.node),
+        )
+        for number, bearing in enumerate(machine.bearings, start=1)
+        for whirl in whirls
+    )

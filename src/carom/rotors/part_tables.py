@@ -1,15 +1,19 @@
-"""Tables of a machine file with ``[rotor]``: what each may hold, what it must, and the part that it makes."""
+"""Tables of a machine file with ``[rotor]``: what each may hold, what it must, and the part that it makes; how a machine is written as such."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple
+import dataclasses
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
 
 from carom.base.outcome import InputError, together
 from carom.parameters import MACHINE_FIELDS, TOUCHDOWN_FIELDS, Field, TouchdownBearing
 from carom.parameters.fields import by_name
+from carom.parameters.tables import toml_line
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
-from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction
+from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction, state_space_of
 from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping, ProportionalDamping
 from carom.rotors.discs import DISC_FIELDS, Disc
 from carom.rotors.flexible_rotor import LONGEST
@@ -18,6 +22,9 @@ from carom.rotors.rigid_body import POSITION, RIGID_FIELDS
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, ShaftSection
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import SUPPORT_FIELDS, Support
+
+if TYPE_CHECKING:
+    from carom.rotors.flexible_machine import FlexibleMachine
 
 RENAMED = {"damping_ratio": "ratio", "damping_of_mass": "of_mass", "damping_of_stiffness": "of_stiffness"}
 """Entries of ``[rotor]``, and the numbers of a damping that they are."""
@@ -133,3 +140,55 @@ PARTS: Mapping[str, PartTable] = {
     "unbalance": PartTable({**_PLACE, **UNBALANCE_FIELDS}, ("node", "size"), lambda entry: Unbalance(**entry)),
 }  # fmt: skip
 """The table of each part."""
+
+
+def machine_toml(machine: FlexibleMachine, modes: int) -> str:
+    """Tables of a machine by so many modes of its rotor; empty if that has matrices which are in no file."""
+    rotor = machine.rotor
+    if rotor.entries is None:
+        return ""
+    damping = getattr(rotor, "own_damping", None)
+    own = {"speed": machine.speed, "clearance": machine.clearance, **({"modes": modes} if rotor.bends else {})}
+    own |= {entry: getattr(damping, name) for entry, name in RENAMED.items() if hasattr(damping, name)}
+    tables = [_table("[rotor]", own | dict(rotor.entries), ROTOR_ENTRIES)]
+    for kind, part in _parts(machine):
+        entries = _entries(part)
+        if not rotor.bends:
+            stations = rotor.node_places
+            entries = {
+                name: stations[entries.pop(node)].tolist() for name, node in PLACED.items() if node in entries
+            } | entries
+        tables.append(_table(f"[[{kind}]]", entries, PARTS[kind].entries))
+    return "\n".join(tables)
+
+
+def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, object]]:
+    """All parts, each with the name of its table."""
+    for kind in ("section", "disc"):
+        for part in getattr(machine.rotor, f"{kind}s", ()):
+            yield kind, part
+    for name, kind in ATTACHED.items():
+        for part in getattr(machine, name):
+            yield kind, part
+
+
+def _entries(part: Any) -> dict[str, Any]:
+    """Entries of the table of a part: its attributes that are stated, and those of its material, controller or touchdown bearing."""
+    found: dict[str, Any] = {}
+    for name in (field.name for field in dataclasses.fields(part)):
+        value = getattr(part, name)
+        if name == "controller" and not dataclasses.is_dataclass(value):
+            value = state_space_of(value)
+        if dataclasses.is_dataclass(value):
+            found |= _entries(value)
+        elif value is not None:
+            found[name] = value.tolist() if isinstance(value, np.ndarray) else value
+    return found
+
+
+def _table(head: str, entries: dict[str, Any], fields: Any) -> str:
+    units = {name: field.unit for name, field in fields.items() if isinstance(field, Field)}
+    if entries.get("exponent", 1.0) != 1.0:
+        units["stiffness"] += f"^{entries['exponent']:.6g}"
+    lines = [toml_line(name, value, units.get(name, "")) for name, value in entries.items()]
+    return "\n".join([head, *lines]) + "\n"

@@ -19,10 +19,9 @@ from carom.parameters.restitution import damping_ratio_of
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
-from carom.rotors.equations import RotorEquations, equations_of, loops_of
+from carom.rotors.equations import RotorEquations, equations_of, loops_of, slowest_of
 from carom.rotors.flexible_model import FlexibleDefinition
-from carom.rotors.free_motions import slowest_of
-from carom.rotors.machine_writer import machine_toml
+from carom.rotors.part_tables import machine_toml
 from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:

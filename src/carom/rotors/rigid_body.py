@@ -15,8 +15,7 @@ from carom.parameters.fields import by_name, length_field
 from carom.parameters.tables import read_entries
 from carom.rotors.discs import check_inertias
 from carom.rotors.entries import inertia_field
-from carom.rotors.free_modes import FreeModes
-from carom.rotors.free_rotor import FreeRotor, RotorMatrices
+from carom.rotors.free_rotor import FreeModes, FreeRotor, RotorMatrices
 
 RIGID_FIELDS: Mapping[str, Field] = by_name(
     MACHINE_FIELDS["mass"],

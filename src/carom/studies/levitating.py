@@ -31,8 +31,7 @@ from carom.rotors import (
     sensitivity,
     synchronous_response,
 )
-from carom.rotors.collocation import Collocation, collocations
-from carom.rotors.loop_sensitivity import zone_of
+from carom.rotors.loop_sensitivity import Collocation, collocations, zone_of
 from carom.rotors.whirls import turns
 from carom.studies.critical_speeds import Critical, response_curve, usual_range
 from carom.studies.questions import Fact

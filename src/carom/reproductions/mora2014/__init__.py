@@ -17,7 +17,7 @@
 """
 
 from carom.reproductions.mora2014.branches import first_pair
-from carom.reproductions.mora2014.document import paper_document
+from carom.reproductions.mora2014.document import paper_document, write_paper
 from carom.reproductions.mora2014.extrema import radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
 from carom.reproductions.mora2014.motions import shown_motions
@@ -27,7 +27,6 @@ from carom.reproductions.mora2014.plane import damping_stiffness_plane, four_cur
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
 from carom.reproductions.mora2014.reproduction import Reproduction, reproduce
 from carom.reproductions.mora2014.source import machine_at
-from carom.reproductions.mora2014.writing import write_paper
 
 __all__ = [
     "Misprint",
