@@ -38,7 +38,7 @@ def test_json_is_one_object_and_nothing_else(carom):
 
 
 def test_everything_to_a_directory(carom, tmp_path, monkeypatch):
-    # The others are drawn in tests/reproductions/mora2014/test_writing.py.
+    # The others are drawn in tests/reproductions/mora2014/test_drawing.py.
     for module in (mora2014, writing):
         monkeypatch.setattr(module, "figures", lambda found, all_of=module.figures: all_of(found)[-1:])
     code, out, err = carom("paper", "--out", tmp_path / "deep" / "out", "--json")
