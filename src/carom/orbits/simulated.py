@@ -53,7 +53,7 @@ class SimulatedOrbit(Result):
     shown: ClassVar[tuple[str, ...]] = ("rotor", "name", "segments", "period", "turns", "start", "extremes", "stable")
 
     rotor: Any
-    name: CountedName
+    name: Any
     start: State
     period: float
     multipliers: Multipliers
