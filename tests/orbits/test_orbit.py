@@ -9,8 +9,8 @@ from carom.motions import State, simulate
 from carom.orbits import Kind, Orbit, Word, find_orbits, impact_map, orbit_near, orbit_of_motion
 from carom.orbits.admissibility import why_virtual
 from carom.orbits.orbit import margins_of
-from carom.orbits.recognising import impacts_between
 from carom.orbits.shooting import ShootingStart, closed_flights, converged, links_of, pack, unpack
+from carom.orbits.simulated_search import impacts_between
 from tests.compilation import sized
 from tests.machines import PAPER, exact_matrix, random_parameters
 

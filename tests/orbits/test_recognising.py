@@ -6,7 +6,7 @@ from linear_rotors import touchdowns
 
 from carom.models import from_matrices
 from carom.motions import State, simulate
-from carom.orbits.recognising import orbit_of_motion
+from carom.orbits.simulated_search import orbit_of_motion
 from carom.parameters import Parameters
 
 pytestmark = pytest.mark.jit_only

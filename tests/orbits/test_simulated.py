@@ -10,8 +10,7 @@ from scipy.integrate import solve_ivp
 import carom as cm
 from carom.base.outcome import InputError
 from carom.orbits.closing import close
-from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.simulated_search import periodic_of
+from carom.orbits.simulated_search import orbit_of_motion, periodic_of
 
 EXAMPLE = Path("examples/keogh-cole.toml").read_text(encoding="utf-8").split("[zones]")[0]
 SOFT = EXAMPLE.replace("restitution", "# restitution").replace("1400 N s/m", "1000 N s/m")

@@ -52,7 +52,7 @@ class SettledMotion(Result):
 def settled_motion(motion: Trajectory) -> SettledMotion:
     """Determine from the end of a motion what it repeats.
 
-    Periodic bouncing and whirls that slide are closed to their orbits (:mod:`carom.orbits.recognising`).  Motions that approach one orbit
+    Periodic bouncing and whirls that slide are closed to their orbits (:mod:`carom.orbits.simulated_search`).  Motions that approach one orbit
     then have the same one, however far from it they were when found to be periodic.
     """
     outcome, count, motion = motion.outcome, motion.multiplicity, seen_in_contact(motion)

@@ -13,7 +13,6 @@
 ``simulated``         periodic motions of any machine
 ``closing``           closing them on that flow, by Newton's method
 ``simulated_search``  the search for these
-``recognising``       the orbit that a simulated motion repeats
 ``exponents``         Lyapunov exponents of motions and of orbits
 ``names``             names of orbits
 ``maps``              the impact map, with its derivative; multipliers
@@ -23,7 +22,7 @@
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.maps import ImpactMap, Multipliers, Section, impact_map, multipliers
 from carom.orbits.orbit import Margins, Orbit, orbit_near
-from carom.orbits.recognising import orbit_of_motion
+from carom.orbits.simulated_search import orbit_of_motion
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.word import Kind, Word
 

@@ -23,9 +23,9 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import Flow, FlowBudget
 from carom.orbits.happenings import happenings
 from carom.orbits.orbit import Orbit
-from carom.orbits.recognising import impacts_between
 from carom.orbits.shooting import links_of
 from carom.orbits.simulated import SimulatedOrbit
+from carom.orbits.simulated_search import impacts_between
 from carom.orbits.word import Kind, Word
 
 STRETCH = 2.0

@@ -20,10 +20,10 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, all_numbered, lasts, orbit_of_links, same_orbit
-from carom.orbits.recognising import orbit_of_motion, with_impacts
 from carom.orbits.searched import KIND, Searched, random_starts
 from carom.orbits.shooting import ShootingStart, closed_flights, links_of, pack
 from carom.orbits.simulated import SimulatedOrbit
+from carom.orbits.simulated_search import orbit_of_motion, with_impacts
 from carom.orbits.word import Word
 
 GUESSES, MOST_IMPACTS = 1500, 64

@@ -1,10 +1,7 @@
 """Flexible rotors by finite elements, in SI units.
 
 ========================  =================================================================
-``entries``               numbers of a part, in SI units or as text with a unit
-``sections``              :class:`ShaftSection`: a cylindrical section of a shaft and its elements; :class:`Material`
-``discs``                 :class:`Disc`: a rigid disc
-``damping``               :class:`ModalDamping`, :class:`ProportionalDamping`
+``shaft_parts``           :class:`ShaftSection`, its :class:`Material` and element; :class:`Disc`; :class:`ModalDamping`, :class:`ProportionalDamping`
 ``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
 ``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
 ``bearing_limits``        limits of magnetic bearings as those of a model
@@ -37,8 +34,6 @@
 
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, TransferFunction
-from carom.rotors.damping import ModalDamping, ProportionalDamping
-from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import FlexibleMachine, rigid_rotor
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.flexible_rotor import FlexibleRotor
@@ -50,7 +45,7 @@ from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.rigid_body import RigidRotor
 from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
-from carom.rotors.sections import Material, ShaftSection
+from carom.rotors.shaft_parts import Disc, Material, ModalDamping, ProportionalDamping, ShaftSection
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import Support
 from carom.rotors.synchronous import Ellipses, SynchronousResponse, synchronous_response

@@ -9,7 +9,7 @@ from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, Field, TouchdownBearing
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries
-from carom.rotors.entries import read_node
+from carom.rotors.shaft_parts import read_node
 
 UNBALANCE_FIELDS: Mapping[str, Field] = by_name(
     Field("size", "", "unbalance", "an unbalance", "kg m", 1e-15, 1e6, '"10 g mm"', True),

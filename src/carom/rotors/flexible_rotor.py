@@ -13,10 +13,8 @@ import numpy as np
 from carom.base.outcome import InputError, shown
 from carom.parameters import read_quantity
 from carom.parameters.fields import length_field
-from carom.rotors.damping import Damping
-from carom.rotors.discs import Disc
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices
-from carom.rotors.sections import ShaftSection, beam_element
+from carom.rotors.shaft_parts import Damping, Disc, ShaftSection, beam_element
 
 ELEMENTS = 32
 """Elements of a shaft of equal sections, unless a length is stated."""

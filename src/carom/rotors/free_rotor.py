@@ -12,8 +12,7 @@ import numpy as np
 from carom.base.outcome import InputError
 from carom.parameters import Field
 from carom.parameters.formats import number
-from carom.rotors.damping import Damping
-from carom.rotors.discs import Disc
+from carom.rotors.shaft_parts import Damping, Disc
 
 
 class FreeModes(NamedTuple):

@@ -18,7 +18,6 @@ from carom.parameters.machine import LEAST_RADIUS
 from carom.parameters.machine_file import Fields, read_beside, split_settings
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 from carom.parameters.touchdown_bearing import LAWS
-from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
 from carom.rotors.flexible_rotor import MOST_ELEMENTS, FlexibleRotor
 from carom.rotors.free_rotor import FreeRotor
@@ -26,7 +25,7 @@ from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.part_tables import ATTACHED, PARTS, PLACED, RENAMED, ROTOR_ENTRIES, damping_of, entries_in, require
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS, RigidRotor
 from carom.rotors.rotor_files import read_rotor
-from carom.rotors.sections import MATERIAL_FIELDS, Material
+from carom.rotors.shaft_parts import MATERIAL_FIELDS, Disc, Material
 
 OF_RIGID = ("speed", "clearance", *RIGID_FIELDS)
 """Entries of ``[rotor]`` where it states the mass of a rigid rotor."""

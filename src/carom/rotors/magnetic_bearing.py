@@ -16,7 +16,7 @@ from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries
 from carom.parameters.terms import HELPER_FIELDS
 from carom.rotors.controllers import state_space_of
-from carom.rotors.entries import read_node
+from carom.rotors.shaft_parts import read_node
 from carom.rotors.state_spaces import StateSpace, delay, lag
 
 SINGULAR = 1e12

@@ -10,9 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.base.outcome import InputError, shown
-from carom.rotors.damping import Damping
-from carom.rotors.discs import Disc
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices
+from carom.rotors.shaft_parts import Damping, Disc
 from carom.rotors.state_spaces import real_numbers
 
 ROUNDED = 1e-6

@@ -14,12 +14,21 @@ from carom.parameters.fields import by_name
 from carom.parameters.tables import toml_line
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction, state_space_of
-from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping, ProportionalDamping
-from carom.rotors.discs import DISC_FIELDS, Disc
 from carom.rotors.flexible_rotor import LONGEST
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS
-from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, ShaftSection
+from carom.rotors.shaft_parts import (
+    DISC_FIELDS,
+    MATERIAL_FIELDS,
+    MODAL_FIELDS,
+    PROPORTIONAL_FIELDS,
+    SECTION_FIELDS,
+    Disc,
+    Material,
+    ModalDamping,
+    ProportionalDamping,
+    ShaftSection,
+)
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import SUPPORT_FIELDS, Support
 

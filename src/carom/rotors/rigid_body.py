@@ -13,9 +13,8 @@ from carom.base.outcome import InputError, Problems, shown
 from carom.parameters import MACHINE_FIELDS, Field, read_quantity
 from carom.parameters.fields import by_name, length_field
 from carom.parameters.tables import read_entries
-from carom.rotors.discs import check_inertias
-from carom.rotors.entries import inertia_field
 from carom.rotors.free_rotor import FreeModes, FreeRotor, RotorMatrices
+from carom.rotors.shaft_parts import check_inertias, inertia_field
 
 RIGID_FIELDS: Mapping[str, Field] = by_name(
     MACHINE_FIELDS["mass"],

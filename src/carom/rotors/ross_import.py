@@ -14,9 +14,9 @@ from typing import Any
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
-from carom.rotors.damping import ModalDamping
 from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.rotor_files import read_rotor
+from carom.rotors.shaft_parts import ModalDamping
 
 USUAL = ModalDamping(0.005)
 """Damping of a rotor that brings none of its own, until the machine file says better."""

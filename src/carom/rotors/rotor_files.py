@@ -15,8 +15,8 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.files import write_whole
 from carom.base.outcome import InputError, shown
-from carom.rotors.discs import Disc
 from carom.rotors.matrix_rotor import MatrixRotor
+from carom.rotors.shaft_parts import Disc
 
 KEYS: Mapping[str, str] = {
     "M": "mass matrix",

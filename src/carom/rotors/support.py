@@ -9,7 +9,7 @@ from typing import NamedTuple
 from carom.parameters import Field
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries
-from carom.rotors.entries import read_node
+from carom.rotors.shaft_parts import read_node
 
 _AXES = ("xx", "xy", "yx", "yy")
 _ALONG = {"xx": "along x by a displacement along x", "xy": "along x by one along y", "yx": "along y by one along x", "yy": "along y by one along y"}  # fmt: skip

@@ -17,12 +17,11 @@
 """
 
 from carom.reproductions.mora2014.branches import first_pair
-from carom.reproductions.mora2014.document import paper_document, write_paper
+from carom.reproductions.mora2014.document import Picture, figures, paper_document, write_paper
 from carom.reproductions.mora2014.extrema import radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
 from carom.reproductions.mora2014.motions import shown_motions
 from carom.reproductions.mora2014.periods import birth, period_functions, period_pairs
-from carom.reproductions.mora2014.pictures import Picture, figures
 from carom.reproductions.mora2014.plane import damping_stiffness_plane, four_curves
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
 from carom.reproductions.mora2014.reproduction import Reproduction, reproduce

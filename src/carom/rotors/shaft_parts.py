@@ -1,7 +1,7 @@
-"""Sections of a shaft, what they are made of, and the matrices of their elements.
+"""What a shaft is made of: sections of a material, with the matrices of their elements, discs, and damping.
 
-An element is a beam by Timoshenko: bending, shear, rotary inertia and gyroscopic moments.  The shaft is round, so both planes of bending are one complex displacement ``w = x + iy`` and one tilt ``φ`` of the cross-section,
-which is ``dw/ds`` without shear.  Between the ends both follow the static course without loads, with
+An element is a beam by Timoshenko: bending, shear, rotary inertia and gyroscopic moments.  The shaft is round, so both planes of bending
+are one complex displacement ``w = x + iy`` and one tilt ``φ`` of the cross-section, which is ``dw/ds`` without shear.  Between the ends both follow the static course without loads, with
 ``Φ = 12EI/(κGA L²)`` and ``ξ = s/L``,
 
     (1 + Φ) w = (1 − 3ξ² + 2ξ³ + Φ(1 − ξ)) w₁ + L (ξ − 2ξ² + ξ³ + Φ(ξ − ξ²)/2) φ₁ + …,      φ = dw/ds − γ,
@@ -19,10 +19,24 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.fields import by_name, length_field
 from carom.parameters.tables import read_entries
+
+
+def read_node(name: str, given: object) -> int:
+    """The number of a node; whether the shaft has it is seen where both meet."""
+    if isinstance(given, bool) or not hasattr(given, "__index__") or given.__index__() < 0:
+        raise InputError(name, shown(given), "the number of a node: a whole number of at least 0")
+    return int(given.__index__())
+
+
+def inertia_field(name: str, symbol: str, words: str, example: str, zero: bool = True) -> Field:
+    """A moment of inertia."""
+    return Field(name, symbol, words, "a moment of inertia", "kg m^2", 1e-15, 1e9, example, zero)
+
 
 MATERIAL_FIELDS: Mapping[str, Field] = by_name(
     Field("elastic_modulus", "E", "elastic modulus", "a modulus", "Pa", 1e3, 1e15, '"211 GPa"'),
@@ -192,3 +206,133 @@ def _courses(at: np.ndarray, length: float, phi: float) -> tuple[np.ndarray, np.
     angle = np.array([-phi / length, -0.5 * phi, phi / length, -0.5 * phi])
     whole = 1.0 + phi
     return displacement / whole, tilt / whole, curvature / whole, angle / whole
+
+
+DISC_FIELDS: Mapping[str, Field] = by_name(
+    Field("mass", "", "mass of the disc", "a mass", "kg", 1e-12, 1e9, '"0.85 kg"', True),
+    inertia_field("diametral_inertia", "", "inertia of the disc about a diameter", '"4.8e-4 kg m^2"'),
+    inertia_field("polar_inertia", "", "inertia of the disc about the axis", '"4.0e-4 kg m^2"'),
+)
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A rigid disc at a node of a shaft.
+
+    Every value is a number in the SI unit below, or text with a unit.
+
+    Parameters
+    ----------
+    node : int
+        Boundary of the sections at which its centre of mass lies: 0 is the beginning of the first section.
+    mass : float or str
+        kg.
+    diametral_inertia, polar_inertia : float or str
+        Moments of inertia about a diameter through its centre of mass and about the axis of the shaft, kg m².
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or out of range, or the polar inertia is more than twice the diametral one.
+    """
+
+    node: int
+    mass: float
+    diametral_inertia: float
+    polar_inertia: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "node", read_node("disc node", self.node))
+        read_entries(self, DISC_FIELDS)
+        check_inertias(self.polar_inertia, self.diametral_inertia)
+
+    @classmethod
+    @checked
+    def of_body(cls, node: int, body: ShaftSection) -> Disc:
+        """Disc with the form of a hollow cylinder.
+
+        Parameters
+        ----------
+        node : int
+        body : ShaftSection
+            The cylinder; its length is the width of the disc.
+
+        Raises
+        ------
+        InputError
+            As for the disc itself.
+        """
+        polar = body.mass * (body.outer_diameter**2 + body.inner_diameter**2) / 8.0
+        return cls(node, body.mass, 0.5 * polar + body.mass * body.length**2 / 12.0, polar)
+
+
+def check_inertias(polar: float, diametral: float) -> None:
+    """Refuse what no body has: of a flat disc the polar inertia is twice the diametral one, of every other body less; data are rounded."""
+    if polar > 2.001 * diametral:
+        raise InputError("polar_inertia", polar, f"at most twice the diametral inertia, {diametral:g} kg m^2")
+
+
+PROPORTIONAL_FIELDS: Mapping[str, Field] = by_name(
+    Field("of_mass", "", "damping over mass", "a rate", "1/s", 1e-12, 1e9, '"10 1/s"', True),
+    Field("of_stiffness", "", "damping over stiffness", "a time", "s", 1e-15, 1e3, '"10 us"', True),
+)
+MODAL_FIELDS: Mapping[str, Field] = by_name(
+    Field("ratio", "", "damping ratio of the bending modes", "a number", "", 1e-9, 0.9, "0.005", True)
+)
+
+
+@dataclass(frozen=True)
+class ProportionalDamping:
+    """A damping matrix ``αM + βK``.
+
+    Parameters
+    ----------
+    of_mass : float or str
+        ``α``, 1/s.  It slows down the rotor as a whole too, as air would.
+    of_stiffness : float or str
+        ``β``, s.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or below zero.
+    """
+
+    of_mass: float = 0.0
+    of_stiffness: float = 0.0
+
+    def __post_init__(self) -> None:
+        read_entries(self, PROPORTIONAL_FIELDS)
+
+    def rate(self, frequency: float) -> float:
+        """Damping over mass, 1/s, of a mode of the free rotor at rest with this frequency, rad/s."""
+        return self.of_mass + self.of_stiffness * frequency**2
+
+
+@dataclass(frozen=True)
+class ModalDamping:
+    """One damping ratio of all bending modes of the free rotor at rest; the rotor as a whole is not damped.
+
+    Parameters
+    ----------
+    ratio : float or str
+        ``ζ``; measured ones of solid shafts lie between 0.001 and 0.01.
+
+    Raises
+    ------
+    InputError
+        It is not a number from 0 to 0.9.
+    """
+
+    ratio: float
+
+    def __post_init__(self) -> None:
+        read_entries(self, MODAL_FIELDS)
+
+    def rate(self, frequency: float) -> float:
+        """Damping over mass, 1/s, of a mode of the free rotor at rest with this frequency, rad/s."""
+        return 2.0 * self.ratio * frequency
+
+
+Damping = ProportionalDamping | ModalDamping
+"""What damps a shaft: each mode of the free rotor at rest by itself."""
