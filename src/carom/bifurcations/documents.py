@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -10,7 +10,7 @@ from carom.attractors import exact_interval
 from carom.base.outcome import STEADY_WORDS
 from carom.base.results import Column, keys_of, record
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.curve_results import Curve
+from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.planes import EDGE
 from carom.bifurcations.points import Bifurcation
@@ -53,7 +53,7 @@ def _place(found: RegionMap, point: Sequence[float]) -> str:
     return ", ".join(f"{axis.field.in_usual_unit(value):.6g}" for axis, value in pairs)
 
 
-def _coordinate(place: int) -> Any:
+def _coordinate(place: int) -> Callable[[Codimension2Point, RegionMap], str]:
     return lambda point, found: f"{found.axes[place].field.in_usual_unit(point.value[place]):.8g}"
 
 
@@ -61,7 +61,7 @@ def _curve_possible(curve: Curve, _: RegionMap) -> str:
     return "" if curve.admissible.all() else "partly virtual" if curve.admissible.any() else "virtual"
 
 
-def _period(point: Any, found: RegionMap) -> str:
+def _period(point: Codimension2Point, found: RegionMap) -> str:
     scales = found.plane.at(found.model.parameters, *point.value).scales
     return "" if point.period != point.period else format_quantity(point.period, "time", scales, 6)
 

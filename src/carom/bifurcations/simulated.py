@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from carom.base.results import Result
 from carom.bifurcations.points import Bifurcation, kinds_in_a_line
 from carom.bifurcations.simulated_family import SimulatedFamily
 from carom.continuation import Branch, Equations, SpecialPoint, Steps, continue_branch
+from carom.models import Rotor
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.closing import multipliers_from, newton
 from carom.orbits.flow import Flow, FlowBudget
@@ -68,7 +69,7 @@ class SimulatedBranch(Result):
 
     axis: Axis
     name: CountedName
-    rotor: Any
+    rotor: Rotor
     values: np.ndarray
     orbits: tuple[SimulatedOrbit, ...]
     special: tuple[Bifurcation, ...]

@@ -16,6 +16,7 @@ from carom.continuation import Watch
 from carom.motions.trajectories import Trajectory
 from carom.orbits.closing import multipliers_from
 from carom.orbits.flow import Flow, FlowBudget
+from carom.orbits.names import CountedName
 from carom.orbits.simulated import SimulatedOrbit
 
 DIFFERENCE = 1e-6
@@ -141,7 +142,7 @@ class SimulatedFamily:
         """Functions that vanish at period doublings and Neimark–Sacker bifurcations."""
         return [Watch("period-doubling", self.doubling), Watch("neimark-sacker", self.torus)]
 
-    def orbit_at(self, u: np.ndarray, p: Place, name: Any) -> SimulatedOrbit | None:
+    def orbit_at(self, u: np.ndarray, p: Place, name: CountedName) -> SimulatedOrbit | None:
         """The orbit of the unknowns."""
         flow, (vector, period) = self.flow(p), self.split(u)
         values = self.multipliers(u, p)

@@ -15,6 +15,7 @@ import numpy as np
 from carom.base.arguments import Reals
 from carom.base.outcome import Phase
 from carom.base.results import Result
+from carom.models import Rotor
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import TURN, Flow
@@ -52,7 +53,7 @@ class SimulatedOrbit(Result):
 
     shown: ClassVar[tuple[str, ...]] = ("rotor", "name", "segments", "period", "turns", "start", "extremes", "stable")
 
-    rotor: Any
+    rotor: Rotor
     name: Any
     start: State
     period: float
