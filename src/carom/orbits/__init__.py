@@ -12,7 +12,7 @@
 ``happenings``        what happens along a motion, in order, and how far it goes
 ``simulated``         periodic motions of any machine
 ``closing``           closing them on that flow, by Newton's method
-``simulated_search``  the search for these
+``simulated_search``  the search for these, and the orbit that a simulated motion repeats
 ``exponents``         Lyapunov exponents of motions and of orbits
 ``names``             names of orbits
 ``maps``              the impact map, with its derivative; multipliers
