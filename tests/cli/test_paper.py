@@ -5,7 +5,7 @@ import json
 import pytest
 
 from carom.reproductions import mora2014
-from carom.reproductions.mora2014 import writing
+from carom.reproductions.mora2014 import document as written
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def test_json_is_one_object_and_nothing_else(carom):
 
 def test_everything_to_a_directory(carom, tmp_path, monkeypatch):
     # The others are drawn in tests/reproductions/mora2014/test_drawing.py.
-    for module in (mora2014, writing):
+    for module in (mora2014, written):
         monkeypatch.setattr(module, "figures", lambda found, all_of=module.figures: all_of(found)[-1:])
     code, out, err = carom("paper", "--out", tmp_path / "deep" / "out", "--json")
     assert code == 0
