@@ -101,7 +101,7 @@ def _document(case: Case, motion: Trajectory) -> dict[str, object]:
         gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
         document |= rotor_of(case).document() | {"gravity": gravity}
     if case.touchdown:
-        document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
+        document["touchdown"] = case.touchdown.document()
     return document
 
 

@@ -12,7 +12,6 @@
 ``periods``                periods of all orbits with one impact a period
 ``small_cycles_at_walls``  what is born where levitation meets a wall, for any number of modes and both kinds of walls
 ``compliant_walls``        slipping whirl on compliant walls
-``hertz``                  pressure between the balls and the race of a touchdown bearing
 ``exact_results``          what general code may ask of any rotor
 =========================  ===================================================
 """
@@ -25,28 +24,29 @@ from carom.closed_forms.contact_free import (
     contact_free_shock,
 )
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
-from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.sag import Levitation, levitation
 from carom.closed_forms.small_cycles_at_walls import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import contact_changes, rub_angles
 from carom.closed_forms.whirl import Rolling, Runaway, fading_speed, rolling, runaway_speed
+from carom.parameters.balls import BallRing, PointContact, PowerLaw, load_integral, point_contact
 
 __all__ = [
+    "BallRing",
     "Equilibrium",
     "EquilibriumSet",
     "Levitation",
     "PeriodCondition",
     "PeriodRoots",
     "PointContact",
+    "PowerLaw",
     "Rolling",
     "RubNeighbourhood",
     "Runaway",
     "SlippingWhirl",
     "SmallCycle",
     "WallMeeting",
-    "ball_pressure",
     "contact_changes",
     "contact_free_blade_loss",
     "contact_free_kick",
@@ -54,6 +54,7 @@ __all__ = [
     "fading_speed",
     "find_equilibria",
     "levitation",
+    "load_integral",
     "point_contact",
     "rolling",
     "rub_angles",

@@ -28,7 +28,7 @@ from carom.models.touchdown import Touchdown
 from carom.models.turning import Race, Shaft
 from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
-from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
+from carom.parameters.touchdown_bearing import PREFIX
 
 RESTITUTION = ("restitution", "d")
 """Names of the restitution of a rigid wall."""
@@ -212,7 +212,7 @@ class Planar(Definition):
         bearing = {
             PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name)
             for name in self.bearing.given
-            if name not in BALL_FIELDS
+            if name in self.bearing.of_motion
         }
         return {**own, **bearing}
 
@@ -292,8 +292,8 @@ def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) 
     """Law of a bearing in the units of a rotor's equations; the restitution is that of a rigid wall."""
     if not bearing.is_compliant:
         return Rigid(restitution)
-    exponent = bearing.exponent
-    stiffness = (bearing.stiffness or 0.0) * scales.length ** (exponent - 1.0) / scales.stiffness
+    stated, exponent = bearing.spring
+    stiffness = stated * scales.length ** (exponent - 1.0) / scales.stiffness
     if bearing.law == "kelvin-voigt":
         if bearing.restitution is not None:
             return KelvinVoigt(stiffness, 2.0 * damping_ratio_of(bearing.restitution) * stiffness**0.5)

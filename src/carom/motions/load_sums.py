@@ -12,7 +12,6 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import Outcome, Phase
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.closed_forms.exact_results import exact_results
-from carom.closed_forms.hertz import ball_pressure
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
 from carom.motions.contacts import ContactLog, ContactWorks, contact_works, contacts_of
@@ -225,7 +224,9 @@ class _AtPlane:
             in_contact_since=self.since,
             whirl=_last_whirl(last, self.turned_back, self.since),
             first=_first(contacts),
-            pressure=None if bearing is None or scales is None else ball_pressure(bearing, force * scales.force),
+            pressure=None
+            if bearing is None or scales is None or bearing.ring is None
+            else bearing.ring.pressure(force * scales.force),
             scales=scales,
         )
 

@@ -36,6 +36,7 @@ _KINDS = {
     "N s/m": "a damping",
     "s/m": "a dissipation",
     "N m s": "a drag",
+    "kg/m^3": "a density",
 }
 """What is counted in an SI unit."""
 _ENTRIES: dict[type, dict[str, Field]] = {}

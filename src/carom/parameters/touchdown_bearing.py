@@ -3,28 +3,42 @@
 from __future__ import annotations
 
 import cmath
+import math
 import re
 from collections.abc import Set
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from carom.base.outcome import InputError, shown, together
 from carom.parameters.formats import number
 from carom.parameters.tables import DOWN, Table, entries_of, entry
 
+if TYPE_CHECKING:
+    from carom.parameters.balls import BallRing, PowerLaw
+
 LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
 """Laws of contact that a machine file may name."""
 OF_LAW = ("stiffness", "damping", "dissipation", "restitution", "restitution_speed", "exponent")
 """Entries that belong to the law of a compliant touchdown bearing; the others are of race, mount and place, or of the balls."""
-OF_BALLS = ("balls", "ball_diameter", "race_diameter", "conformity", "ball_modulus", "race_modulus")
-"""Entries that say how its balls are pressed on; they change no motion."""
+_NEEDED_OF_BALLS = ("balls", "ball_diameter", "race_diameter")
+OF_BALLS = (
+    *_NEEDED_OF_BALLS,
+    *("conformity", "outer_conformity", "contact_angle", "internal_clearance", "preload", "rows"),
+    *("ball_modulus", "race_modulus", "ball_density"),
+)
+"""Entries of its balls: they change motions where the stiffness is left out, or where a density adds their inertia to that of the race."""
+OF_LIFE = ("dynamic_rating", "static_rating")
+"""Ratings of the catalogue, which change no motion."""
 _MM = ("mm", 1e-3)
-_OF_MOUNT, _OF_BALLS = ("mount_mass", "mount_stiffness"), OF_BALLS[:3]
+_OF_MOUNT, _PER_ROW = ("mount_mass", "mount_stiffness"), 5
 _TOGETHER = (
     (("offset_direction",), ("offset",), "a direction needs the distance too"),
     (("race_drag",), ("race_inertia",), "a race with drag needs it"),
     ((*_OF_MOUNT, "mount_damping"), _OF_MOUNT, f"a mount needs {' and '.join(_OF_MOUNT)}"),
-    (OF_BALLS, _OF_BALLS, f"the pressure of balls needs {', '.join(_OF_BALLS)}"),
+    (OF_BALLS, _NEEDED_OF_BALLS, f"the data of balls need {', '.join(_NEEDED_OF_BALLS)}"),
+    (("preload",), ("contact_angle",), "an axial preload needs it"),
+    (("ball_density",), ("race_inertia",), "it adds the inertia of the balls to that of the race"),
 )
 """Entries any of which needs others, and why."""
 _ON_MOUNT = "it is that of the rotor on a fixed bearing; on a mount give the damping or dissipation of the bearing"
@@ -66,7 +80,8 @@ class TouchdownBearing(Table):
         ``"kelvin-voigt"``: the force ``kδ + cδ̇``, which cannot pull; ``"hunt-crossley"``: ``kδⁿ(1 + χδ̇)``; ``"rigid"``: a wall with
         this restitution, or by default that of the machine, which may have a race, a mount and an offset too.
     stiffness : float or str
-        ``k``, N/m, or N/mⁿ.
+        ``k``, N/m, or N/mⁿ.  A bearing with the law of Hunt–Crossley that states its balls may leave out stiffness and exponent: they
+        are then those of the power law nearest to the force of all balls (:class:`carom.closed_forms.BallRing`).
     damping : float or str, optional
         ``c``, N s/m.
     dissipation : float or str, optional
@@ -78,21 +93,33 @@ class TouchdownBearing(Table):
         ``n`` of Hunt–Crossley: 3/2 for balls, 10/9 for rollers, 1 by default.
     race_inertia, race_drag : float or str, optional
         Inner race that turns: moment of inertia with what turns with it, kg m², and torque that slows it down per speed, N m s.
-        Without an inertia it stands still.
+        Without an inertia it stands still.  With ``ball_density`` the balls are added to it.
     mount_mass, mount_stiffness, mount_damping : float or str, optional
         Mass on which the bearing sits, kg, and what holds that, N/m and N s/m.  Without these it is fixed.
     offset, offset_direction : float or str, optional
         Where the centre of the bearing lies, seen from the place at which levitation holds the rotor: distance, m, and angle in the
         fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.  Positions are counted from that centre.
     balls : int or str, optional
-        Number of the balls that share the force, in all rows.  With their data the peak force gives a pressure
-        (:func:`carom.closed_forms.ball_pressure`); no motion depends on them.
+        Number of the balls that share the force, in all rows: five or more in each.  The peak force then gives the largest load of a
+        ball and its pressure; ``balls`` needs both diameters.
     ball_diameter, race_diameter : float or str, optional
-        Diameter of a ball, and of the inner race at the bottom of its groove, m; ``balls`` needs both.
-    conformity : float or str, optional
-        Radius of the groove of the inner race over the diameter of a ball, 0.52 by default.
+        Diameter of a ball, and of the inner race at the bottom of its groove, m: the pitch diameter is the sum of both.
+    conformity, outer_conformity : float or str, optional
+        Radius of the groove of the inner and of the outer race over the diameter of a ball, 0.52 by default.
     ball_modulus, race_modulus : float or str, optional
         Elastic moduli, Pa; 208 GPa, that of steel, by default.
+    contact_angle : float or str, optional
+        Angle of the line through both contacts of a ball from the radial direction, rad; 0 by default.
+    internal_clearance : float or str, optional
+        Diametral clearance of the balls, m.  Depths count from where the first ball is pressed: the clearance of the rotor stays as stated.
+    preload : float or str, optional
+        Axial force on each row, N, in place of a clearance.
+    rows : int or str, optional
+        1 by default, or 2 with opposite contact angles.
+    ball_density : float or str, optional
+        Density of the balls, kg/m³: their inertia, rolling on the outer race, is added to ``race_inertia``, which then is that of the race alone.
+    dynamic_rating, static_rating : float or str, optional
+        Dynamic and static load rating ``C`` and ``C_0`` of the catalogue, N: a landing has a share of the life, and a static limit.
 
     Raises
     ------
@@ -116,14 +143,26 @@ class TouchdownBearing(Table):
     mount_damping: float | None = entry("", "damping of the mount", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True)
     offset: float | None = entry("", "distance of the bearing's centre", "m", 1e-12, 1e3, '"0.05 mm"', True)
     offset_direction: float | None = entry("", "direction of the bearing's centre", "rad", -1e6, 1e6, '"-90 deg"')
-    balls: float | None = entry("Z", "balls that share the force", "", 3, 1000, "12", whole=True)
+    balls: float | None = entry("Z", "balls that share the force", "", 5, 1000, "12", whole=True)
     ball_diameter: float | None = entry("D", "diameter of a ball", "m", 1e-5, 10.0, '"6.35 mm"', usual=_MM)
     race_diameter: float | None = entry(
         "d_i", "diameter of the inner race's groove", "m", 1e-4, 100.0, '"42 mm"', usual=_MM
     )
     conformity: float | None = entry("f", "radius of the groove over the ball diameter", "", 0.501, 1.0, "0.52")
     ball_modulus: float | None = entry("", "elastic modulus of the balls", "Pa", 1e6, 1e13, '"208 GPa"')
-    race_modulus: float | None = entry("", "elastic modulus of the inner race", "Pa", 1e6, 1e13, '"208 GPa"')
+    race_modulus: float | None = entry("", "elastic modulus of the races", "Pa", 1e6, 1e13, '"208 GPa"')
+    outer_conformity: float | None = entry("f_o", "the same of the outer race", "", 0.501, 1.0, "0.53")
+    contact_angle: float | None = entry("α", "contact angle of the balls", "rad", 1e-3, 1.4, '"15 deg"', True)
+    internal_clearance: float | None = entry(
+        "P_d", "diametral clearance of the balls", "m", 1e-9, 1e-2, '"10 um"', True, usual=_MM
+    )
+    preload: float | None = entry("F_a", "axial preload of each row", "N", 1e-6, 1e9, '"100 N"', True)
+    rows: float | None = entry("", "rows of balls", "", 1, 2, "2", whole=True)
+    ball_density: float | None = entry(
+        "", "density of the balls, added to race_inertia", "kg/m^3", 100.0, 1e5, '"7800 kg/m^3"'
+    )
+    dynamic_rating: float | None = entry("C", "dynamic load rating", "N", 1.0, 1e12, '"20 kN"')
+    static_rating: float | None = entry("C_0", "static load rating", "N", 1.0, 1e12, '"12 kN"')
 
     heading: ClassVar = "touchdown"
     texts: ClassVar = ("law",)
@@ -149,20 +188,37 @@ class TouchdownBearing(Table):
         needed += [
             (name, words, not present.isdisjoint(others)) for others, names, words in _TOGETHER for name in names
         ]
-        return [
+        wrong = [
             InputError(name, getattr(self, name), f"must be left out: {words}")
             for name, words, applies in refused
             if applies and name in present
         ] + [InputError(name, None, words) for name, words, applies in needed if applies and name not in present]
+        return wrong or self._wrong_balls()
+
+    def _wrong_balls(self) -> list[InputError]:
+        """What balls cannot be: too few or too many in a row, or pressed too hard by the preload alone."""
+        ring = self.ring
+        if ring is None:
+            return []
+        most = int(math.pi * ring.pitch_diameter / ring.ball_diameter)
+        if ring.balls % ring.rows or not _PER_ROW <= ring.balls // ring.rows <= most:
+            allowed = f"as many in each row, {_PER_ROW} to the {most} that have room on its pitch circle"
+            return [InputError("balls", ring.balls, allowed)]
+        if ring.preload and not ring.contact_angle:
+            return [InputError("contact_angle", 0.0, "above 0 with an axial preload")]
+        if ring.preload and ring.is_overloaded:
+            return [InputError("preload", ring.preload, "less: it alone presses the balls with more than 4.2 GPa")]
+        return []
 
     def _rules(self, present: Set[str]) -> tuple[list[_Rule], list[_Rule]]:
         """Entries that a bearing of this law must not have, and those that it needs."""
         if not self.is_compliant:
-            others = sorted({*OF_LAW, *OF_BALLS} - {"restitution"})
+            others = sorted({*OF_LAW, *OF_BALLS, *OF_LIFE} - {"restitution"})
             return [(name, "the law of a rigid wall has none", True) for name in others], []
         law, is_linear = self.law, self.law == "kelvin-voigt"
         own, other = ("damping", "dissipation") if is_linear else ("dissipation", "damping")
         restitutes, speed = "restitution" in present, "restitution_speed"
+        by_balls = not is_linear and "balls" in present and "stiffness" not in present
         refused = [
             (other, f"the law {law} has a {own}", True),
             ("restitution", f"give {own} or restitution, not both", own in present),
@@ -170,9 +226,15 @@ class TouchdownBearing(Table):
             (speed, "it belongs to a restitution", not restitutes),
             (speed, "the restitution of kelvin-voigt is the same at all speeds", is_linear and restitutes),
             ("restitution", _ON_MOUNT, not present.isdisjoint(_OF_MOUNT)),
+            ("exponent", "it belongs to a stiffness; without one both come from the balls", by_balls),
+            ("internal_clearance", "give it or a preload, not both", "preload" in present),
         ]
         needed = [
-            ("stiffness", f"the law {law} needs it, such as stiffness = '1e8 N/m'", True),
+            (
+                "stiffness",
+                f"the law {law} needs it, such as stiffness = '1e8 N/m'{'' if is_linear else ', or balls'}",
+                not by_balls,
+            ),
             (own, f"the law {law} needs it, or a restitution", not restitutes),
             (speed, _AT_WHICH_SPEED, restitutes and not is_linear),
         ]
@@ -190,8 +252,47 @@ class TouchdownBearing(Table):
 
     @property
     def race(self) -> TurningRace | None:
-        """Its race; ``None`` if that stands still."""
-        return None if self.race_inertia is None else TurningRace(self.race_inertia, self.race_drag or 0.0)
+        """Its race, with balls whose density is stated; ``None`` if that stands still."""
+        if self.race_inertia is None:
+            return None
+        rolling = self.ring.inertia(self.ball_density) if self.ring and self.ball_density else 0.0
+        return TurningRace(self.race_inertia + rolling, self.race_drag or 0.0)
+
+    @cached_property
+    def ring(self) -> BallRing | None:
+        """Its balls; ``None`` if it does not state them."""
+        if self.balls is None or self.ball_diameter is None or self.race_diameter is None:
+            return None
+        from carom.parameters.balls import CONFORMITY, STEEL, BallRing  # which loads SciPy
+
+        return BallRing(
+            balls=int(self.balls),
+            ball_diameter=self.ball_diameter,
+            race_diameter=self.race_diameter,
+            contact_angle=self.contact_angle or 0.0,
+            conformities=(self.conformity or CONFORMITY, self.outer_conformity or CONFORMITY),
+            internal_clearance=self.internal_clearance or 0.0,
+            preload=self.preload or 0.0,
+            rows=int(self.rows or 1),
+            moduli=(self.ball_modulus or STEEL, self.race_modulus or STEEL),
+        )
+
+    @property
+    def law_of_balls(self) -> PowerLaw | None:
+        """The law that its stiffness and exponent are taken from; ``None`` if these are stated."""
+        return self.ring.law if self.ring and self.is_compliant and self.stiffness is None else None
+
+    @property
+    def spring(self) -> tuple[float, float]:
+        """Stiffness, N/mⁿ, and exponent, as stated or of its balls."""
+        found = self.law_of_balls
+        return (self.stiffness or 0.0, self.exponent) if found is None else found[:2]
+
+    @property
+    def of_motion(self) -> Set[str]:
+        """Names of the entries that change motions, where they are stated."""
+        left_out = {*OF_LIFE, *(() if self.law_of_balls or self.ball_density else OF_BALLS)}
+        return TOUCHDOWN_FIELDS.keys() - left_out
 
     @property
     def mount(self) -> Mount | None:
@@ -213,11 +314,23 @@ class TouchdownBearing(Table):
 
     @property
     def words(self) -> str:
-        """Law and entries in the units of people."""
-        shown_now = (
+        """Law and entries in the units of people, and what comes from the balls."""
+        shown_now = [
             f"{name.replace('_', ' ')} {number(value)} {self.unit(name)}".rstrip() for name, value in self.given.items()
-        )
+        ]
+        if found := self.law_of_balls:
+            shown_now.append(
+                f"of its balls: stiffness {number(found.stiffness, 4)} N/m^{number(found.exponent, 4)}, within {number(100.0 * found.error, 2)} % "
+                f"of the force from {number(found.lowest, 3)} to {number(found.highest, 3)} N"
+            )
+        if (race := self.race) and self.ball_density:
+            shown_now.append(f"race with balls {number(race.inertia, 4)} kg m^2")
         return ", ".join([self.law, *shown_now])
+
+    def document(self) -> dict[str, object]:
+        """As plain data for JSON: law, entries, and what comes from the balls, in SI units."""
+        found = self.law_of_balls
+        return {"law": self.law, **self.given, **({} if found is None else {"of_balls": found._asdict()})}
 
     def unit(self, name: str) -> str:
         """SI unit of an entry."""
@@ -228,7 +341,6 @@ class TouchdownBearing(Table):
 
 TOUCHDOWN_FIELDS = entries_of(TouchdownBearing)
 """Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
-BALL_FIELDS = {name: field for name, field in TOUCHDOWN_FIELDS.items() if name in OF_BALLS}
 
 
 def _without_power(given: object) -> object:

@@ -138,7 +138,7 @@ _ORBIT = (
 _SOFT = "Distance from the centre, contact forces, slip velocity and surface speed of the race."
 _RIGID = "Distance from the centre, forces in lasting contact, the impulse of each impact, and slip velocity."
 _WALLS = {
-    True: "Ball pressure, where stated, is the Hertz pressure at the peak force, of which the most loaded ball carries 5/Z (Stribeck).",
+    True: "Ball pressure, where stated, is the Hertz pressure of the most loaded ball at the peak force, by the sum over all balls.",
     False: "The wall is rigid: an impact has an impulse but no duration, so no peak force can be stated.",
 }
 

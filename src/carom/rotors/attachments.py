@@ -93,6 +93,6 @@ class TouchdownPlane:
 
     def stiffness(self, energy: float) -> float:
         """Stiffness, N/m, at the depth to which this energy, J, presses it in."""
-        n, stiffness = self.bearing.exponent, self.bearing.stiffness or 0.0
+        stiffness, n = self.bearing.spring
         depth: float = ((n + 1.0) * energy / stiffness) ** (1.0 / (n + 1.0))
         return stiffness * n * depth ** (n - 1.0)

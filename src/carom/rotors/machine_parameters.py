@@ -17,7 +17,7 @@ from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, Gravity, read_quantity
 from carom.parameters.fields import nearest_name
 from carom.parameters.machine_file import GRAVITY_NAME
-from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
+from carom.parameters.touchdown_bearing import PREFIX
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
 from carom.rotors.controllers import PID_FIELDS
 from carom.rotors.free_rotor import FreeRotor
@@ -44,12 +44,7 @@ _KINDS: Mapping[str, tuple[str, _Paths]] = {
     "supports": ("support", _own(SUPPORT_FIELDS)),
     "touchdowns": (
         "touchdown bearing",
-        _own(PLANE_FIELDS)
-        | {
-            PREFIX + name: (("bearing", name), SETTINGS[PREFIX + name])
-            for name in TOUCHDOWN_FIELDS
-            if name not in BALL_FIELDS
-        },
+        _own(PLANE_FIELDS) | {PREFIX + name: (("bearing", name), SETTINGS[PREFIX + name]) for name in TOUCHDOWN_FIELDS},
     ),
     "unbalances": ("[[unbalance]]", {"unbalance": (("size",), UNBALANCE_FIELDS["size"])}),
 }
@@ -57,7 +52,9 @@ _KINDS: Mapping[str, tuple[str, _Paths]] = {
 
 
 def _read(part: object, path: Sequence[str]) -> Any:
-    """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth."""
+    """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth, or changes no motion."""
+    if path[0] == "bearing" and path[1] not in getattr(part, path[0]).of_motion:
+        return None
     for name in path:
         part = getattr(part, name, None)
     return None if path[-1] == "exponent" and part == 1.0 else part

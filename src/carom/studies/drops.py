@@ -295,7 +295,7 @@ class DropStudy(Result):
             **rotor_of(case).document(),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
             "gravity_assumed": self.assumed,
-            "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
+            "touchdown": case.touchdown.document() if case.touchdown else {"law": "rigid"},
             **record(loads, DROP, scales),
             **record(self, "reduction"),
             "shaft": loads.shaft and record(loads.shaft, SHAFT, scales),
