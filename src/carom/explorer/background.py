@@ -31,7 +31,7 @@ class Job:
         Seconds for which the worker waits for a newer or more urgent job before it begins with this one.
     """
 
-    work: Callable[[Callable[[Progress], None]], Any]
+    work: Callable[[Callable[[Progress], None]], object]
     done: Callable[[Any], None]
     pause: float = 0.0
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Literal, cast
 
 import numpy as np
 
@@ -111,7 +111,7 @@ class GridAxis:
         """Words, symbol and unit of the parameter."""
         return self.own or SETTINGS[self.name]
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, object]:
         """Return what identifies the axis, as plain data for JSON."""
         return {"name": self.name, "spacing": self.spacing, "values": list(self.given), "count": self.count}
 

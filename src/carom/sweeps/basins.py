@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -74,7 +74,7 @@ class BasinsTask:
         """Estimated computing time of a point, in seconds."""
         return _COST + _COST_OF_START * self.starts
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, object]:
         """Return what identifies the task, as plain data for JSON."""
         number = (
             {"cells": list(self.tried.shape), "instant": self.tried.instant}

@@ -148,7 +148,7 @@ class SweepPlan:
         number = int(np.ravel_multi_index(point, self.shape))
         return np.random.SeedSequence(self.seed, spawn_key=(number,))
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, object]:
         """Return what identifies the plan: two plans with the same description have the same results."""
         machine: dict[str, Any] = {}
         if isinstance(self.case, Case):

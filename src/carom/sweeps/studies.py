@@ -91,7 +91,7 @@ class StudyTask:
         """Number of motions simulated at each point."""
         return self.disturbances
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, object]:
         """Return what identifies the task, as plain data for JSON."""
         return record(self, "kind disturbances zone_limits")
 

@@ -9,7 +9,6 @@ import math
 import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -185,6 +184,6 @@ def _disturbance(rotor: Rotor, kick: Kick) -> tuple[str, str, str, str]:
     )
 
 
-def _numbers(given: Any) -> str:
+def _numbers(given: complex | np.ndarray) -> str:
     """A complex number, or an array of them, in a program."""
-    return repr(given.tolist() if np.ndim(given) else given)
+    return repr(given.tolist() if isinstance(given, np.ndarray) else given)

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from bokeh.core.types import ID
+from bokeh.model import Model
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
 from bokeh.models.annotations import Span
 from bokeh.plotting import figure
@@ -18,6 +19,8 @@ from bokeh.plotting import figure
 from carom.plots.style import LOOKS, REGIMES
 
 HEIGHT = 270
+Parts: TypeAlias = dict[str, Any]
+"""Sources, marks and ranges of figures, by their names."""
 
 
 @dataclass(frozen=True)
@@ -32,28 +35,28 @@ class Figures:
         Sources, marks and ranges by name; none of them is sent back to the server when the browser changes it.
     """
 
-    plots: dict[str, Any]
-    parts: dict[str, Any]
+    plots: dict[str, Model]
+    parts: Parts
 
 
 def make_figures(names: Sequence[str]) -> Figures:
     """Make figures by their names, empty."""
-    parts: dict[str, Any] = {}
-    plots = {name: FIGURES[name](parts) for name in names}
+    parts: Parts = {}
+    plots: dict[str, Model] = {name: FIGURES[name](parts) for name in names}
     for name, plot in plots.items():
-        plot._id = ID(name)  # Bokeh has no public way to name an object; the text of the page refers to these
+        plot._id = ID(name)  # type: ignore[attr-defined]  # Bokeh has no public way to name an object; the text of the page refers to these
         for model in plot.references():
             model.syncable = False  # what the browser draws is not sent back
     return Figures(plots, parts)
 
 
-def _source(parts: dict[str, object], name: str, *columns: str) -> ColumnDataSource:
+def _source(parts: Parts, name: str, *columns: str) -> ColumnDataSource:
     source = ColumnDataSource({column: [] for column in columns})
     parts[name] = source
     return source
 
 
-def _plot(name: str, x_range: Any, y_range: Any) -> Any:
+def _plot(name: str, x_range: Range1d, y_range: Range1d) -> figure:
     """Plot without any ink of its own: labels and colours come with the page, and differ between light and dark."""
     plot = figure(
         name=name,
@@ -73,7 +76,7 @@ def _plot(name: str, x_range: Any, y_range: Any) -> Any:
     return plot
 
 
-def _range(parts: dict[str, Any], name: str, low: float, high: float) -> Range1d:
+def _range(parts: Parts, name: str, low: float, high: float) -> Range1d:
     parts[name] = Range1d(start=low, end=high)
     return parts[name]
 
@@ -83,7 +86,7 @@ def _moving_line(**look: Any) -> Span:
     return Span(location=0.0, dimension="height", level="overlay", **look)
 
 
-def _distances(parts: dict[str, object]) -> Any:
+def _distances(parts: Parts) -> figure:
     """Distance from the centre over time at each touchdown bearing, with its lasting contact shaded and impacts as marks on the wall, which is at one."""
     plot = _plot("distances", _range(parts, "distances_x", 0, 1), _range(parts, "distances_y", 0, 1.06))
     plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
@@ -97,7 +100,7 @@ def _distances(parts: dict[str, object]) -> Any:
     return plot
 
 
-def _section(parts: dict[str, object]) -> Any:
+def _section(parts: Parts) -> figure:
     """Section at the impacts: angle and radial speed just before each."""
     plot = _plot("section", _range(parts, "section_x", -180, 180), _range(parts, "section_y", 0, 1))
     plot.xaxis.ticker = [-180, -90, 0, 90, 180]
@@ -106,7 +109,7 @@ def _section(parts: dict[str, object]) -> Any:
     return plot
 
 
-def _diagram(parts: dict[str, object]) -> Any:
+def _diagram(parts: Parts) -> figure:
     """Impact speeds of all single-impact orbits along the slider moved last."""
     plot = _plot("diagram", _range(parts, "diagram_x", 0, 1), _range(parts, "diagram_y", -0.1, 1))
     bars = _source(parts, "bars", "left", "right", "bottom", "top", "colour", "words")
@@ -132,13 +135,13 @@ def _diagram(parts: dict[str, object]) -> Any:
     return plot
 
 
-def _curves(plot: Any, parts: dict[str, object], name: str, **look: object) -> None:
+def _curves(plot: figure, parts: Parts, name: str, **look: Any) -> None:
     """Several lines, each with a colour of its own."""
     source = _source(parts, name, "xs", "ys", "colour")
     plot.multi_line("xs", "ys", source=source, line_color="colour", line_width=1.6, name=name, **look)
 
 
-def _response(parts: dict[str, object]) -> Any:
+def _response(parts: Parts) -> figure:
     """Radius of the whirl by unbalance over the speed: at the touchdown bearings, dashed at the sensors; clearances, and the present speed."""
     plot = _plot("response", _range(parts, "response_x", 0, 1), _range(parts, "response_y", 0, 1))
     _curves(plot, parts, "sensors", line_dash="dashed")
@@ -150,7 +153,7 @@ def _response(parts: dict[str, object]) -> Any:
     return plot
 
 
-def _forces(parts: dict[str, object]) -> Any:
+def _forces(parts: Parts) -> figure:
     """Normal force over time in each touchdown bearing."""
     plot = _plot("forces", _range(parts, "forces_x", 0, 1), _range(parts, "forces_y", 0, 1))
     _curves(plot, parts, "forces", line_alpha=0.85)
@@ -159,7 +162,7 @@ def _forces(parts: dict[str, object]) -> Any:
     return plot
 
 
-FIGURES: Mapping[str, Callable[[dict[str, Any]], Any]] = {
+FIGURES: Mapping[str, Callable[[Parts], figure]] = {
     "distances": _distances,
     "section": _section,
     "diagram": _diagram,

@@ -157,7 +157,7 @@ class Session:
         def send(message: Message) -> None:
             self._answer(answer, {**message, "number": shown.number})
 
-        def run(report: Callable[[Progress], None]) -> Any:
+        def run(report: Callable[[Progress], None]) -> object:
             if name != FIRST:
                 self._wait_for_kernels()
             if task is not None:
