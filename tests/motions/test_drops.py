@@ -1,6 +1,7 @@
 """Levitation lost: free fall with the whirl at the release, in closed form, and levitation that is back."""
 
 import cmath
+import dataclasses
 import math
 
 import numpy as np
@@ -41,6 +42,21 @@ def test_from_the_centre_it_touches_after_the_time_of_free_fall():
     first = motion.contacts.time[0] * motion.rotor.scales.time
     assert first == pytest.approx(7.139215615e-3, abs=5e-13)
     assert motion.position(motion.contacts.time[0], "fixed") == pytest.approx(-1j, abs=1e-12)
+
+
+@pytest.mark.parametrize("start", [None, cm.State(0.2 + 0.1j, 0.3 - 0.2j)])
+def test_a_vertical_rotor_is_pulled_to_no_side(start):
+    """Its centre of mass goes on straight, and what whirls goes round it, until the wall is reached."""
+    vertical = dataclasses.replace(HEAVY, gravity=cm.parameters.Gravity(direction="axial"))
+    motion = cm.simulate(vertical, cm.drop(start, phase=0.0), until=800.0)
+    assert motion.rotor.weight is None
+    whirl = ROTOR.unforced.equilibrium * -1j
+    place, speed = (whirl, 0.0) if start is None else (start.position, start.velocity)
+    touched = motion.contacts.time[0]
+    times = np.linspace(0.0, touched, 11)
+    expected = fallen(times, place, speed + 1j * place, HEAVY.parameters.rho, -0.5 * math.pi, 0.0)
+    assert motion.position(times, "fixed") == pytest.approx(expected, abs=1e-10)  # over 100 turns, 1e-12 over the first ones
+    assert abs(expected[-1]) == pytest.approx(1.0, abs=1e-10)
 
 
 def test_the_rotor_that_falls_has_its_weight_and_no_levitation():

@@ -1,11 +1,13 @@
 """The table ``[gravity]`` of a machine file, and the setting beside it."""
 
 import math
+import tomllib
 
 import pytest
 
 from carom.base.outcome import InputError
 from carom.loading import load
+from carom.models import rotor_from, rotor_of
 from carom.parameters import Case, Gravity, Zones
 
 REAL, PURE, HEAVY = "examples/keogh-cole.toml", "examples/source-paper.toml", "examples/dropped-rotor.toml"
@@ -18,6 +20,15 @@ def test_values_with_units_and_their_defaults(write):
     gravity = load(write(text)).gravity
     assert (gravity.acceleration, gravity.direction) == pytest.approx((1.62, -math.pi / 3))
     assert gravity.words == "1.62 m/s² at -60°"
+
+
+def test_along_the_axis_of_a_vertical_shaft(write):
+    vertical = load(write('[gravity]\ndirection = "axial"'))
+    assert vertical.gravity.words == "9.81 m/s² along the axis"
+    assert vertical.gravity == Gravity(9.81, "axial") == Gravity.of(tomllib.loads(vertical.gravity.to_toml())["gravity"])
+    rotor = rotor_of(vertical.replace(gravity=1.62))
+    assert rotor.is_vertical and rotor.weight is None and rotor.has_closed_forms
+    assert rotor_from(rotor.attributes()) == rotor.replace(gamma=0.5).replace(gamma=rotor.value("gamma"))
 
 
 def test_it_is_set_like_other_values(write):
@@ -36,6 +47,7 @@ def test_it_is_set_like_other_values(write):
         ('[gravity]\nacceleration = "9.81 m/s"', "acceleration = 9.81 m/s: must be an acceleration in m/s^2"),
         ("[gravity]\nacceleration = -9.81", "acceleration = -9.81: must be an acceleration in m/s^2, >= 0"),
         ('[gravity]\ndirection = "down"', "direction = down: must be an angle in rad"),
+        ('[gravity]\ndirection = "Axial"', "direction = Axial: must be an angle in rad"),
     ],
 )
 def test_what_cannot_be_gravity(write, gravity, words):

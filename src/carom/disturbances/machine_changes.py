@@ -144,6 +144,7 @@ def levitating_before(rotor: Rotor, turned: np.ndarray, instants: np.ndarray) ->
 
 ASSUMED = Gravity()
 """Weight of a rotor that states none: 9.81 m/s² downward."""
+AXIAL_LANDING = "Nothing pulls the rotor to a side; what the axial touchdown bearing does to it is left out"
 
 
 @checked
@@ -190,7 +191,8 @@ class Drop(Disturbance):
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """Return the rotor that falls, and levitates again if levitation is regained, and its start.
 
-        A rotor that states no weight falls by :data:`ASSUMED`, which the bias currents of its bearings carry while it levitates.
+        A rotor that states no weight falls by :data:`ASSUMED`, which the bias currents of its bearings carry while it levitates.  A vertical one is
+        pulled to no side: it drifts with the velocity that its centre of mass has in its whirl.
 
         Raises
         ------
@@ -202,7 +204,7 @@ class Drop(Disturbance):
         from carom.models.stages import stages_of
 
         rotor = rotor_of(machine)
-        if rotor.weight is None and rotor.scales is None:
+        if not (rotor.is_vertical or rotor.weight is not None or rotor.scales):
             raise InputError("gravity", None, "a drop needs weight, in m/s^2: a machine with mass, clearance and speed")
         if stages_of(rotor)[0].rotor is not rotor:
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
@@ -210,7 +212,7 @@ class Drop(Disturbance):
             rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
         falling = rotor.without_levitation()
-        if rotor.weight is None:
+        if rotor.weight is None and not rotor.is_vertical:
             falling = falling.under_gravity(ASSUMED)
         if self.regained_after is None:
             return falling, start
@@ -284,6 +286,8 @@ class Drop(Disturbance):
             f"sense of rotation (unbalance at the release: {format_angle(phase)}){back}"
         )
         assumed = "" if gravity else f". The file has no [gravity]: {ASSUMED.words} is assumed"
+        if rotor.is_vertical:
+            assumed = f". {AXIAL_LANDING}"
         return Echo(self.kind, words + assumed, sizes)
 
 

@@ -61,6 +61,8 @@ class Rotor(Result):
     limits : carom.parameters.ControlLimit, or tuple of Limit
         Of its magnetic bearings, beyond which these give no more and the states of controllers wind up: of the planar rotor in SI units, or
         in units of its equations.
+    is_vertical : bool
+        Whether its weight acts along its axis, so that nothing pulls it to a side when levitation is lost.
     stages : tuple of Stage
         Where it changes while it moves, its stages (:func:`carom.models.in_stages`): it is the rotor of the first one.
 
@@ -74,6 +76,7 @@ class Rotor(Result):
     forces: tuple[Force, ...] = ()
     limits: ControlLimit | tuple[Limit, ...] = ()
     stages: tuple[Stage, ...] = ()
+    is_vertical: bool = False
 
     def __post_init__(self) -> None:
         if self.forces != ():
@@ -92,8 +95,8 @@ class Rotor(Result):
         return hash(self._outline)
 
     @property
-    def _outline(self) -> tuple[Definition, int, ControlLimit | tuple[Limit, ...]]:
-        return self.definition, len(self.forces), self.limits
+    def _outline(self) -> tuple[Definition, int, ControlLimit | tuple[Limit, ...], bool]:
+        return self.definition, len(self.forces), self.limits, self.is_vertical
 
     def rows(self) -> list[tuple[str, str]]:
         """What defines it, and what acts on it."""
@@ -262,7 +265,7 @@ class Rotor(Result):
         return rotor
 
     def under_gravity(self, gravity: Gravity) -> Rotor:
-        """The rotor with its weight: all its masses fall alike, along the translation.
+        """The rotor with its weight: all its masses fall alike, along the translation, or along the axis, where that moves no place.
 
         Raises
         ------
@@ -272,6 +275,8 @@ class Rotor(Result):
         if self.scales is None:
             allowed = "a rotor with mass, clearance and speed: without them nothing is in m/s^2"
             raise InputError("gravity", gravity.words, allowed)
+        if gravity.is_axial:
+            return dataclasses.replace(self, is_vertical=True)
         return self.under(Force(STEADY, gravity.pull(self.scales) * self.definition.system.translated))
 
     @property
@@ -284,7 +289,7 @@ class Rotor(Result):
 
         One of several coordinates is refused where it does not say what is left then, which does not follow from its shaft.
         """
-        return Rotor(self.definition.without_levitation(), self.forces)
+        return Rotor(self.definition.without_levitation(), self.forces, is_vertical=self.is_vertical)
 
     # Named parameters.
 
@@ -325,7 +330,7 @@ class Rotor(Result):
         if self.stages:
             return self._in_all_stages(lambda rotor: rotor.replace(**changes))
         if not self.forces and not self.limits:
-            return Rotor(self.definition.replace(**changes))
+            return dataclasses.replace(self, definition=self.definition.replace(**changes))
         forces, limits, before = list(self.forces), self.limits, self.scales
         if self._gravity is not None and GRAVITY_NAME in changes:
             place, present = self._gravity
@@ -341,7 +346,8 @@ class Rotor(Result):
                 limits = definition.limits
             elif before is not None and after is not None and before != after:
                 limits = tuple(each.at_speed(before.speed / after.speed) for each in limits)
-        return Rotor(definition, tuple(in_scales(force, before, after) for force in forces), limits)
+        moved = tuple(in_scales(force, before, after) for force in forces)
+        return dataclasses.replace(self, definition=definition, forces=moved, limits=limits)
 
     def _in_all_stages(self, change: Callable[[Rotor], Rotor]) -> Rotor:
         """The rotor with a change in all its stages."""
@@ -351,7 +357,7 @@ class Rotor(Result):
     @property
     def stored(self) -> tuple[str, ...]:
         """Names of the attributes from which it is made again."""
-        return ("stages",) if self.stages else ("definition", "forces", "limits")
+        return ("stages",) if self.stages else ("definition", "forces", "limits", "is_vertical")
 
     @staticmethod
     def from_stored(stages: tuple[Stage, ...] = (), **others: Any) -> Rotor:
@@ -360,7 +366,7 @@ class Rotor(Result):
 
     def attributes(self) -> dict[str, str]:
         """Texts from which :func:`~carom.models.subjects.rotor_from` makes the same rotor again, exact to the last bit."""
-        numbers = self.planar if self.has_closed_forms else None
+        numbers = self.planar if self.has_closed_forms and not self.is_vertical else None
         return {"rotor": json.dumps(document_of(self))} if numbers is None else numbers.attributes()
 
     def document(self) -> dict[str, object]:

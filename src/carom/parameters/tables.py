@@ -18,6 +18,8 @@ from carom.parameters.scaling import Scales
 
 DOWN = -0.5 * math.pi
 """Down the y axis, as an angle from the x axis."""
+AXIAL = "axial"
+"""Direction of the weight of a vertical shaft."""
 _KINDS = {
     "": "a number",
     "rad": "an angle",
@@ -164,14 +166,15 @@ class Table:
 
 @dataclasses.dataclass(frozen=True)
 class Gravity(Table):
-    """Gravity in the plane in which the rotor moves, as that of a horizontal shaft.
+    """Gravity in the plane in which the rotor moves, as that of a horizontal shaft, or along the axis of a vertical one.
 
     Parameters
     ----------
     acceleration : float or str, optional
         Part of the acceleration of free fall that lies in that plane, m/s²; 9.81 by default.
     direction : float or str, optional
-        Where it points, as an angle in the fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.
+        Where it points, as an angle in the fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.  With
+        ``"axial"`` it points along the axis: nothing pulls the rotor to a side, neither while it levitates nor in a drop.
 
     Raises
     ------
@@ -186,18 +189,38 @@ class Gravity(Table):
     """
 
     acceleration: float = entry("g", "acceleration of free fall", "m/s^2", 1e-9, 1e9, '"9.81 m/s^2"', True, 9.81)
-    direction: float = entry("", "direction of the fall, from the x axis", "rad", -1e6, 1e6, '"-90 deg"', False, DOWN)
+    direction: float | str = entry(
+        "", "direction of the fall, from the x axis", "rad", -1e6, 1e6, '"-90 deg", or "axial"', False, DOWN
+    )
 
     heading: ClassVar = "gravity"
 
+    @property
+    def is_axial(self) -> bool:
+        """Whether it points along the axis, as that of a vertical shaft."""
+        return self.direction == AXIAL
+
+    @property
+    def entries(self) -> Mapping[str, Field]:
+        """Its numbers by their names; of a vertical shaft the direction is none."""
+        own = entries_of(type(self))
+        return {"acceleration": own["acceleration"]} if self.is_axial else own
+
+    def to_toml(self) -> str:
+        """Return the text of a table that is read as this value."""
+        return super().to_toml() + (toml_line("direction", AXIAL) + "\n" if self.is_axial else "")
+
     def pull(self, scales: Scales) -> complex:
-        """Return the acceleration in the fixed frame, in ``c_r Ω²``."""
+        """Return the acceleration in the plane of the motion, in the fixed frame, in ``c_r Ω²``."""
+        if isinstance(self.direction, str):
+            return 0j
         return cmath.rect(self.acceleration / scales.acceleration, self.direction)
 
     @property
     def words(self) -> str:
         """Both in the units of people."""
-        return f"{number(self.acceleration)} m/s\N{SUPERSCRIPT TWO} at {format_angle(self.direction)}"
+        where = "along the axis" if isinstance(self.direction, str) else f"at {format_angle(self.direction)}"
+        return f"{number(self.acceleration)} m/s\N{SUPERSCRIPT TWO} {where}"
 
 
 @dataclasses.dataclass(frozen=True)

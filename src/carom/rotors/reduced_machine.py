@@ -155,7 +155,7 @@ class ReducedMachine(Result):
         rotor = self.unchecked
         if self.machine.bearings or self.machine.supports:
             self._check_levitation()
-        if self.machine.gravity is not None:
+        if self.machine.gravity is not None and not self.machine.gravity.is_axial:
             self._check_integrators(rotor)
         return rotor
 

@@ -213,7 +213,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
     first, resting = np.eye(len(held.mass))[0], np.zeros(len(held.mass), complex)
     if gravity is not None and gravity.acceleration:
         # The translation of the whole rotor is the first vector; mounts have no weight.
-        pull = gravity.acceleration * np.exp(1j * gravity.direction) * np.sqrt(scales.mass) * first
+        pull = gravity.pull(scales) * scales.acceleration * np.sqrt(scales.mass) * first
         both = held.both if held.is_anisotropic else held
         resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
     seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
