@@ -15,21 +15,21 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3401,
-    "models": 2100,
-    "core": 6600,
-    "motions disturbances": 3383,
+    "parameters base": 3441,
+    "models": 2130,
+    "core": 6610,
+    "motions disturbances": 3611,
     "orbits bifurcations closed_forms continuation": 6415,
     "basins attractors": 2195,
-    "studies": 3210,
-    "cli plots report": 5284,
+    "studies": 3260,
+    "cli plots report": 5344,
     "rotors": 3193,
     "proofs": 5900,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 36_150, 287
+TESTS, ANY = 36_300, 287
 LONGEST_FILE, LONGEST_FUNCTION = 400, 80
 SKIPPED = (
     tokenize.COMMENT,
