@@ -213,7 +213,8 @@ def time_limit(rotor: Rotor, trigger: Trigger) -> float:
 def longest_time(rotor: Rotor) -> float:
     """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds; else :data:`FALLING_TURNS`."""
     decay = rotor.system.decay
-    if rotor.weight is not None and not rotor.system.levitates and rotor.system.shaft is None:
+    weighs = rotor.weight is not None or rotor.is_vertical
+    if weighs and not rotor.system.levitates and rotor.system.shaft is None:
         return 2.0 * math.pi * FALLING_TURNS
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT
 
