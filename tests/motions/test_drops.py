@@ -55,7 +55,9 @@ def test_a_vertical_rotor_is_pulled_to_no_side(start):
     touched = motion.contacts.time[0]
     times = np.linspace(0.0, touched, 11)
     expected = fallen(times, place, speed + 1j * place, HEAVY.parameters.rho, -0.5 * math.pi, 0.0)
-    assert motion.position(times, "fixed") == pytest.approx(expected, abs=1e-10)  # over 100 turns, 1e-12 over the first ones
+    assert motion.position(times, "fixed") == pytest.approx(
+        expected, abs=1e-10
+    )  # over 100 turns, 1e-12 over the first ones
     assert abs(expected[-1]) == pytest.approx(1.0, abs=1e-10)
 
 

@@ -25,9 +25,13 @@ def test_values_with_units_and_their_defaults(write):
 def test_along_the_axis_of_a_vertical_shaft(write):
     vertical = load(write('[gravity]\ndirection = "axial"'))
     assert vertical.gravity.words == "9.81 m/s² along the axis"
-    assert vertical.gravity == Gravity(9.81, "axial") == Gravity.of(tomllib.loads(vertical.gravity.to_toml())["gravity"])
+    assert (
+        vertical.gravity == Gravity(9.81, "axial") == Gravity.of(tomllib.loads(vertical.gravity.to_toml())["gravity"])
+    )
     rotor = rotor_of(vertical.replace(gravity=1.62))
-    assert rotor.is_vertical and rotor.weight is None and rotor.has_closed_forms
+    assert rotor.is_vertical
+    assert rotor.weight is None
+    assert rotor.has_closed_forms
     assert rotor_from(rotor.attributes()) == rotor.replace(gamma=0.5).replace(gamma=rotor.value("gamma"))
 
 

@@ -329,8 +329,6 @@ class Rotor(Result):
         """
         if self.stages:
             return self._in_all_stages(lambda rotor: rotor.replace(**changes))
-        if not self.forces and not self.limits:
-            return dataclasses.replace(self, definition=self.definition.replace(**changes))
         forces, limits, before = list(self.forces), self.limits, self.scales
         if self._gravity is not None and GRAVITY_NAME in changes:
             place, present = self._gravity
@@ -373,8 +371,6 @@ class Rotor(Result):
         """What describes it in a document: the parameters of the planar rotor, the attributes of any other."""
         return {"parameters": self.numbers} if self.numbers else {"rotor": self.attributes()}
 
-    # Its unbalance.
-
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Rotor, float]:
         """The rotor with another unbalance, and the angle by which its frame has turned, so that the phase stays what it was.
 
@@ -386,8 +382,6 @@ class Rotor(Result):
         if self.stages:
             return self._in_all_stages(lambda rotor: rotor.with_changed_unbalance(change, node)[0]), turned
         return dataclasses.replace(self, definition=definition), turned
-
-    # What is known exactly.
 
     @property
     def has_closed_forms(self) -> bool:
