@@ -15,14 +15,14 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3441,
+    "parameters base": 3460,
     "models": 2130,
-    "core": 6610,
-    "motions disturbances": 3611,
+    "core": 6613,
+    "motions disturbances": 3647,
     "orbits bifurcations closed_forms continuation": 6415,
-    "basins attractors": 2195,
-    "studies": 3260,
-    "cli plots report": 5344,
+    "basins attractors": 2197,
+    "studies": 3270,
+    "cli plots report": 5346,
     "rotors": 3193,
     "proofs": 5900,
     "explorer": 2300,

@@ -6,7 +6,7 @@ import pytest
 
 import carom as cm
 from carom.cli.app import BAD_INPUT, main
-from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS
+from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, LoadLimits
 from carom.parameters.terms import ENTRIES
 from carom.rotors.part_tables import PARTS, ROTOR_ENTRIES
 from carom.rotors.rigid_body import RIGID_FIELDS
@@ -45,7 +45,7 @@ def test_it_explains_every_entry(text):
     ("kind", "entries"),
     [
         ("rigid", {*RIGID_FIELDS, "position", "sensor_positions", "speed", "at_regain"}),
-        ("planar", {*ENTRIES, *DRIVE_FIELDS, *GRAVITY_FIELDS, *LIMIT_FIELDS} - {"depth", "pressure"}),
+        ("planar", {*ENTRIES, *DRIVE_FIELDS, *GRAVITY_FIELDS, *LIMIT_FIELDS} - {"depth", *LoadLimits.needed}),
     ],
 )
 def test_the_other_kinds_load_and_explain_their_entries(tmp_path, kind, entries):
@@ -97,6 +97,7 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
         "contact_angle",
         "internal_clearance",
         "preload",
+        "dynamic",
         "rows",
         "mount",
         "exponent",

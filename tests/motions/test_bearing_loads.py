@@ -1,13 +1,16 @@
 """Loads of drops over all stages: against closed forms of a mass on a spring, momentum of the race, the ledger and rolling."""
 
 import math
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 import carom as cm
 from carom.base.outcome import Outcome
 from carom.disturbances import whirl
 from carom.motions import drop_loads, energy_ledger, follow_loads, simulation
+from carom.motions.kinematics import race_speed
 from carom.motions.loads import MEASURED
 
 pytestmark = pytest.mark.jit_only
@@ -60,6 +63,40 @@ def test_a_fall_on_a_spring_in_closed_form(tmp_path):
     assert (plane.contacts, plane.bounces, plane.is_compliant) == (1, 1, True)
     assert si["heat"] == 0.0
     assert (plane.in_contact_since, plane.race_at_end, plane.pressure) == (None, None, None)
+
+
+RATED = 'dynamic_rating = "9 kN"\nstatic_rating = "4 kN"\nrace_inertia = "2e-6 kg m^2"\n'
+
+
+@pytest.mark.parametrize("name", ["touchdown-balls", "tum-flexible-rotor"])
+def test_the_life_that_a_landing_uses(tmp_path, name):
+    """The cube of the force over the turns of the race, integrated in SI units over each segment of the recorded motion."""
+    path, clearances = tmp_path / "machine.toml", iter(("0.2 mm", "0.26 mm"))
+    lines = Path(f"examples/{name}.toml").read_text(encoding="utf-8").splitlines()
+    text = [line for line in lines if not line.startswith("race_inertia")]
+    if "tum" in name:
+        text = [f'clearance = "{next(clearances)}"' if line.startswith("clearance") else line for line in text]
+    path.write_text("".join(f"{line}\n{RATED if line.startswith('law =') else ''}" for line in text), encoding="utf-8")
+    case = cm.load(path)
+    motion = cm.simulate(case, cm.drop(), "25 ms")
+    nodes, weights = np.polynomial.legendre.leggauss(14)
+    starts, lasted = np.array(motion.segment_starts), motion.durations
+    times = (starts[:, None] + 0.5 * lasted[:, None] * (1.0 + nodes)).ravel()
+    for seen, plane in zip(motion.at_each, drop_loads(motion).planes, strict=True):
+        scales, race = seen.scales, seen.rotor.races[seen.plane]
+        force = seen.history(times).normal_force * scales.force
+        turning = race_speed(seen.rotor.system, seen.plane, motion.amplitudes_at(times)[0]) / race.radius * scales.speed
+        rolled = ((force**3 * np.abs(turning)).reshape(-1, 14) @ weights) @ (0.5 * lasted) * scales.time
+        assert rolled > 0.0
+        # Nodes at the ends of segments, where the force sets in, lose digits.
+        assert plane.catalogue.life_share == pytest.approx(rolled / (2e6 * math.pi * 9e3**3), rel=1e-8)
+        assert plane.landings == 1.0 / plane.catalogue.life_share
+        assert plane.catalogue.static_share == pytest.approx(plane.si()["force"] / 4e3, rel=1e-14)
+        checks = {
+            check.name: check for check in cm.studies.check_loads(plane, cm.parameters.LoadLimits(life_share=1e-14))
+        }
+        assert checks["life_share"].exceeded
+        assert checks["static_share"].limit == 1.0
 
 
 def test_friction_gives_the_race_its_momentum():

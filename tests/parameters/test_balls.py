@@ -233,6 +233,7 @@ def test_a_bearing_without_a_stiffness_has_that_of_its_balls(tmp_path, name):
         ({"preload": 1.0, "contact_angle": 0.2, "internal_clearance": 1e-5}, "internal_clearance = 1e-05: must be left out: give it or a preload"),
         ({"rows": 2, "balls": 11}, "balls = 11: as many in each row, 5 to the 25 that have room"),
         ({"balls": 30}, "balls = 30: as many in each row, 5 to the 25"),
+        ({"dynamic_rating": 2e4}, "race_inertia = nothing given: a share of the life needs a race that turns"),
         ({"ball_density": 7800.0}, "race_inertia = nothing given: it adds the inertia of the balls"),
     ],
 )  # fmt: skip

@@ -65,6 +65,8 @@ def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
         ("restitution = 0.9\nrestitution_speed = 0.1", "restitution_speed = 0.1: must be left out: the restitution of kelvin-voigt"),
         ("restitution = 0.9\nmount_mass = 2\nmount_stiffness = 1e7", "restitution = 0.9: must be left out: it is that of the rotor on a fixed"),
         ("damping = 500\nstiffnes = 3", "stiffnes = 3"),
+        ("damping = 500\nstarting_torque = 0.1", "starting_torque = 0.1: not modelled: of a bearing only race_drag"),
+        ("damping = 500\nstribeck_speed = 0.1", "stribeck_speed = 0.1: not modelled: friction is the same at all slip speeds"),
         ("damping = 500\nballs = 8", "ball_diameter = nothing given: the data of balls need balls, ball_diameter, race_diameter"),
         ("damping = 500\nconformity = 0.52", "balls = nothing given: the data of balls need"),
         ("damping = 500\nconformity = 0.5", "conformity = 0.5: must be a number, > 0 (0.501 to 1)"),

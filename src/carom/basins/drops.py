@@ -41,6 +41,8 @@ MEASURES = {
     "heat": Quantity("J", "slip energy, turned into heat"),
     "power": Quantity("W", "largest friction power"),
     "pressure": Quantity("Pa", "ball pressure"),
+    "static_share": Quantity("1", "force over the static rating"),
+    "life_share": Quantity("1", "share of the bearing life"),
     "contacts": Quantity("1", "contacts, or impacts on a rigid wall"),
     "contact_time": Quantity("s", "time in contact"),
     "settled_at": Quantity("s", "time after the release from which the rotor rests or whirls"),
@@ -300,7 +302,7 @@ def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     """Numbers of a drop by the names of :data:`MEASURES`, in SI units."""
     si = [plane.si() or {} for plane in found.planes]
     soft = any(plane.is_compliant for plane in found.planes)
-    largest = ("impulse", "power", "pressure", *(("force", "depth") if soft else ()))
+    largest = ("impulse", "power", "pressure", "static_share", "life_share", *(("force", "depth") if soft else ()))
     whirls = [plane.whirl for plane in found.planes if plane.whirl is not None and plane.whirl.direction]
     turning = max((whirl.angular_speed for whirl in whirls), key=abs, default=math.nan)
     return dict.fromkeys(MEASURES, math.nan) | {

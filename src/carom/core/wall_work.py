@@ -12,10 +12,11 @@ from carom.core.layout import ORDER
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
 from carom.core.wall import is_compliant, wall_of
 
-COLUMNS = 9
-NORMAL, FRICTION, HEAT, DAMPED, DRIVEN, FORCE, FORCE_TIME, DEPTH, POWER = range(COLUMNS)
+COLUMNS = 10
+NORMAL, FRICTION, HEAT, DAMPED, DRIVEN, FORCE, FORCE_TIME, DEPTH, POWER, ROLLED = range(COLUMNS)
 """What is found of a step: impulses of normal force and friction, heat of friction, work lost in the wall's damper, integral of the friction times
-the speed of the shaft; largest normal force and its time, largest depth and largest power of friction."""
+the speed of the shaft; largest normal force and its time, largest depth and largest power of friction; integral of the cube of the normal
+force times the surface speed of a race that turns."""
 _COUNT = 8
 """Nodes of a step: its series fall by a factor of thirty from one Legendre term to the next, so that products of two are exact to rounding."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_COUNT)
@@ -51,6 +52,7 @@ def contact_works_all(rotor, segments, amplitudes, phases, limited, clocks, dura
 def _contact(rotor, station, phase, duration, work, found):
     """Add up what a station in contact does in a step."""
     wall, mass, soft = wall_of(rotor, station), rotor.masses[station], is_compliant(rotor, station)
+    race = rotor.race[station]
     if phase != ROLLING:
         ratio = friction_ratio(sense_of_phase(phase), wall)
         for k in range(ORDER + 1):
@@ -66,6 +68,8 @@ def _contact(rotor, station, phase, duration, work, found):
         found[DRIVEN] += share * grip * shaft
         if phase != ROLLING:
             found[HEAT] -= share * grip * _sum(work.slip[station], time)
+        if race >= 0:
+            found[ROLLED] += duration * SHARES[j] * (mass * push) ** 3 * abs(_sum(work.series[:, race], time).real)
         if soft:
             lost = push - force(_sum(work.depth[station], time), 0.0, wall)
             found[DAMPED] += share * lost * _sum(work.rate[station], time)

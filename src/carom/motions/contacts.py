@@ -337,7 +337,7 @@ class ContactWorks(NamedTuple):
     segments: np.ndarray
     """Numbers of these segments, shape (k,)."""
     found: np.ndarray
-    """For each of them and each plane, shape (k, P, 9)."""
+    """For each of them and each plane, shape (k, P, 10)."""
 
 
 def contact_works(motion: Trajectory) -> ContactWorks:

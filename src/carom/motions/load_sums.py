@@ -12,20 +12,32 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import Outcome, Phase
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.closed_forms.exact_results import exact_results
-from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
+from carom.core.wall_work import COLUMNS, DEPTH, FORCE, HEAT, POWER, ROLLED
 from carom.models import Subject
 from carom.motions.contacts import ContactLog, ContactWorks, contact_works, contacts_of
 from carom.motions.kinematics import presses, race_speed
-from carom.motions.loads import GOING_ROUND, Braking, DropLoads, FirstContact, LastWhirl, TouchdownLoads, reach_with
+from carom.motions.loads import (
+    GOING_ROUND,
+    Braking,
+    CatalogueLoads,
+    DropLoads,
+    FirstContact,
+    LastWhirl,
+    TouchdownLoads,
+    reach_with,
+)
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import Following, stretches
 from carom.motions.starts import Beginning, State, Until
 from carom.motions.trajectories import Trajectory, joined
+from carom.parameters import TouchdownBearing
 
 RECENT = 10
 """Impacts over which the power of bouncing is averaged, at least."""
 AT_THE_END = 0.98
 """Share of the time of a motion after which its largest force came at its end, in contact: a slow whirl may still speed up."""
+PER_LIFE = 1e6
+"""Turns of a bearing under its dynamic load rating (ISO 281)."""
 LAST_TURNS = 8.0
 """Turns of the shaft at the end over which the whirl is averaged."""
 PER_RADIAN = 2.0
@@ -143,7 +155,8 @@ class _AtPlane:
     contact_time: float = 0.0
     heat: float = 0.0
     restitution_loss: float = 0.0
-    largest: np.ndarray = field(default_factory=lambda: np.zeros(9))
+    rolled: float = 0.0
+    largest: np.ndarray = field(default_factory=lambda: np.zeros(COLUMNS))
     logs: list[tuple[float, ContactLog]] = field(default_factory=list)
     race: float = 0.0
     since: float | None = None
@@ -154,6 +167,7 @@ class _AtPlane:
         self.contact_time += float(seen.durations[presses(seen.segment_phases[:, seen.plane])].sum())
         steps = works.found[:, seen.plane]
         self.heat += float(steps[:, HEAT].sum())
+        self.rolled += float(steps[:, ROLLED].sum())
         self.largest = np.maximum(self.largest, steps.max(axis=0, initial=0.0))
         log = contacts_of(seen, works)
         loss = float(log.normal_loss.sum())
@@ -224,11 +238,25 @@ class _AtPlane:
             in_contact_since=self.since,
             whirl=_last_whirl(last, self.turned_back, self.since),
             first=_first(contacts),
-            pressure=None
-            if bearing is None or scales is None or bearing.ring is None
-            else bearing.ring.pressure(force * scales.force),
+            catalogue=CatalogueLoads()
+            if bearing is None or scales is None
+            else _catalogue(
+                bearing, force * scales.force, self.rolled * scales.force**3 / race.radius if race else 0.0
+            ),
             scales=scales,
         )
+
+
+def _catalogue(bearing: TouchdownBearing, force: float, rolled: float) -> CatalogueLoads:
+    """What the balls bear at a peak force, N, and the shares of the ratings; ``rolled`` is the integral of its cube over the angle of the race, N³."""
+    ring, dynamic, static = bearing.ring, bearing.dynamic_rating, bearing.static_rating
+    load = None if ring is None else ring.largest_load(force)
+    return CatalogueLoads(
+        ball_load=load,
+        pressure=None if ring is None or load is None else ring.pressure_of(load),
+        static_share=static and force / static,
+        life_share=dynamic and rolled / (2.0 * math.pi * PER_LIFE * dynamic**3),
+    )
 
 
 def _largest(values: np.ndarray) -> int | None:

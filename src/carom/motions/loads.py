@@ -69,6 +69,19 @@ class FirstContact(NamedTuple):
     """Whether the plane has left it."""
 
 
+class CatalogueLoads(NamedTuple):
+    """What a landing asks of a bearing of the catalogue; ``None`` where the touchdown bearing does not state what that needs."""
+
+    ball_load: float | None = None
+    """Largest load of a ball, N, by the sum over all balls (:class:`carom.closed_forms.BallRing`)."""
+    pressure: float | None = None
+    """Its pressure, Pa."""
+    static_share: float | None = None
+    """Peak force over the static load rating."""
+    life_share: float | None = None
+    """Share of the life of a million turns under the dynamic load rating, by Palmgren and Miner: the mean cube of the radial force over that, times the turns of the race."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class TouchdownLoads(Result):
     """What the touchdown bearing at a plane bears in a motion, in units of the equations; ``si`` gives its loads in SI units.
@@ -121,9 +134,7 @@ class TouchdownLoads(Result):
         ``None`` if it did not touch in the last turns.
     first : FirstContact or None
         ``None`` without one, or of a rigid wall, whose impacts have no force.
-    pressure : float or None
-        Largest pressure of the most loaded ball on the race, in Pa (:func:`carom.closed_forms.ball_pressure`), if the touchdown bearing
-        states its balls.
+    catalogue : CatalogueLoads
     scales : Scales or None
     """
 
@@ -149,7 +160,7 @@ class TouchdownLoads(Result):
     in_contact_since: float | None
     whirl: LastWhirl | None
     first: FirstContact | None
-    pressure: float | None
+    catalogue: CatalogueLoads
     scales: Scales | None = None
 
     @property
@@ -162,7 +173,18 @@ class TouchdownLoads(Result):
         if self.scales is None:
             return None
         si = {name: getattr(self, name) * getattr(self.scales, KINDS[name]) for name in MEASURED}
-        return si if self.pressure is None else {**si, "pressure": self.pressure}
+        return si | {name: value for name, value in self.catalogue._asdict().items() if value is not None}
+
+    @property
+    def pressure(self) -> float | None:
+        """Pressure of the most loaded ball, Pa; ``None`` if the touchdown bearing does not state its balls."""
+        return self.catalogue.pressure
+
+    @property
+    def landings(self) -> float | None:
+        """Such landings in the life of the touchdown bearing; ``None`` where its share of the life is not known or zero."""
+        share = self.catalogue.life_share
+        return 1.0 / share if share else None
 
 
 @dataclass(frozen=True, repr=False)

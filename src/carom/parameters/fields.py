@@ -191,6 +191,17 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 }
 """The machine field that is set by each dimensionless number while mass, speed and clearance are fixed."""
 
+NOT_MODELLED: Mapping[str, str] = {
+    "torque": "of a bearing only race_drag, a torque per speed; none at start and none that grows with the load",
+    "temperature": "heat of slip is computed, no temperatures and no growth of parts",
+    "thermal": "heat of slip is computed, no temperatures and no growth of parts",
+    "stribeck": "friction is the same at all slip speeds",
+    "static_friction": "friction is the same at all slip speeds, and at rest",
+    "cage": "balls stay evenly spaced, without cage, cage slip and skidding",
+    "viscosity": "races and balls without lubricant, but for race_drag",
+    "misalignment": "races stay parallel: no tilt stiffness of a touchdown bearing",
+}
+"""What is asked for and not modelled, by a part of its name, and what is."""
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
 _MISSPELT = 0.66
 """Likeness from which a name counts as misspelt: one wrong letter of three."""
@@ -205,9 +216,12 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     """Error for a name that does not exist, with the nearest name that does.
 
     ``where`` says where the name stood, for example ``"[machine]"``.  Of the known names, those allowed there, the symbol or the
-    partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds them to the message, without numbered ones such as
+    partner (``gamma`` for ``damping``) is recognised too; one of what is not modelled says so; ``listed`` adds them to the message, without numbered ones such as
     ``friction_2`` where ``friction`` is known.
     """
+    for part, why in NOT_MODELLED.items():
+        if part in name:
+            return InputError(shown(name), given, f"not modelled: {why}", "is no parameter here")
     advice = [f"did you mean {best}?"] if (best := nearest_name(name, known)) else []
     allowed = [each for each in known if not (part := _NUMBERED.fullmatch(each)) or part[1] not in known]
     remedy = " ".join(advice + ([f"allowed: {', '.join(allowed)}"] if listed else []))

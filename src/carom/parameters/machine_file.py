@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar, cast
 
@@ -109,7 +109,7 @@ class Case(Tabular):
             if table is not None and self.parameters.scales is None:
                 raise table.without_scales(table.words)
         if self.machine is not None:
-            _check_limits(self.limits, self.touchdown)
+            check_limits(self.limits, [self.touchdown])
 
     @property
     def heading(self) -> str:
@@ -246,12 +246,14 @@ class Case(Tabular):
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
-def _check_limits(limits: LoadLimits, bearing: TouchdownBearing | None) -> None:
-    """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have."""
-    if limits.depth is not None and (bearing is None or not bearing.is_compliant):
+def check_limits(limits: LoadLimits, bearings: Sequence[TouchdownBearing | None]) -> None:
+    """Refuse limits of what a machine with these touchdown bearings, ``None`` for one that is rigid, does not have."""
+    if limits.depth is not None and not all(each and each.is_compliant for each in bearings):
         raise InputError("depth", limits.depth, "a limit needs a table [touchdown] of a compliant bearing")
-    if limits.pressure is not None and (bearing is None or bearing.balls is None):
-        raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
+    for name, entry in limits.needed.items():
+        if name in limits.given and not all(each and entry in each.given for each in bearings):
+            where = "the table [touchdown]" if len(bearings) == 1 else "all tables [[touchdown]]"
+            raise InputError(name, limits.given[name], f"a limit needs {entry} in {where}")
 
 
 Fields = dict[str, Any]

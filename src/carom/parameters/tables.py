@@ -276,6 +276,10 @@ class LoadLimits(Table):
         Depth in a compliant bearing, m.
     pressure : float or str, optional
         Largest pressure between a ball and the inner race, Pa; the bearing has to state its balls.
+    static_share : float or str, optional
+        Peak force over the static load rating; 1 for a bearing that states that rating.
+    life_share : float or str, optional
+        Share of the life that a touchdown may use; the bearing has to state its dynamic load rating.
     impacts : int or str, optional
         Number of impacts of the whole touchdown.
 
@@ -292,8 +296,12 @@ class LoadLimits(Table):
     impacts: float | None = entry("", "impacts of a touchdown", "", 1, 1e9, "20", True, whole=True)
     depth: float | None = entry("", "depth in the bearing", "m", 1e-12, 1.0, '"20 um"', True, usual=("µm", 1e-6))
     pressure: float | None = entry("", "ball pressure", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual=("GPa", 1e9))
+    static_share: float | None = entry("", "force over the static rating", "", 1e-12, 1e6, "0.5", True)
+    life_share: float | None = entry("", "share of the bearing life", "", 1e-15, 1e6, "0.01", True)
 
     heading: ClassVar = "limits"
+    needed: ClassVar = {"pressure": "balls", "static_share": "static_rating", "life_share": "dynamic_rating"}
+    """Entries of a touchdown bearing that limits need."""
 
     @staticmethod
     @checked

@@ -37,6 +37,7 @@ _TOGETHER = (
     (("race_drag",), ("race_inertia",), "a race with drag needs it"),
     ((*_OF_MOUNT, "mount_damping"), _OF_MOUNT, f"a mount needs {' and '.join(_OF_MOUNT)}"),
     (OF_BALLS, _NEEDED_OF_BALLS, f"the data of balls need {', '.join(_NEEDED_OF_BALLS)}"),
+    (("dynamic_rating",), ("race_inertia",), "a share of the life needs a race that turns"),
     (("preload",), ("contact_angle",), "an axial preload needs it"),
     (("ball_density",), ("race_inertia",), "it adds the inertia of the balls to that of the race"),
 )

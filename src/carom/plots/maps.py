@@ -186,6 +186,8 @@ _SHOWN = {
     "heat": (1.0, "J"),
     "power": (1e-3, "kW"),
     "pressure": (1e-9, "GPa"),
+    "static_share": (100.0, "%"),
+    "life_share": (100.0, "%"),
     "contacts": (1.0, ""),
     "contact_time": (1e3, "ms"),
     "settled_at": (1e3, "ms"),

@@ -15,7 +15,7 @@ from carom.base.outcome import CaromWarning, InputError, Problems, shown
 from carom.parameters import Gravity, read_quantity
 from carom.parameters.fields import unknown_name
 from carom.parameters.machine import LEAST_RADIUS
-from carom.parameters.machine_file import Fields, read_beside, split_settings
+from carom.parameters.machine_file import Fields, check_limits, read_beside, split_settings
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 from carom.parameters.touchdown_bearing import LAWS
 from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
@@ -55,8 +55,7 @@ def read_rotor_tables(tables: MachineTables, settings: Mapping[str, str], beside
     name = next((name for name in REDUCED if name in stated), "accuracy")
     wanted = problems.attempt(read_quantity, ROTOR_ENTRIES[name], stated.get(name, ACCURACY))
     machine = _read_machine(tables, settings, beside["gravity"], problems)
-    if beside["limits"].pressure is not None and any(each.bearing.balls is None for each in machine.touchdowns):
-        raise InputError("pressure", beside["limits"].pressure, "a limit needs balls in all tables [[touchdown]]")
+    check_limits(beside["limits"], [each.bearing for each in machine.touchdowns])
     reduced = machine.with_modes(int(wanted or 1)) if name == "modes" else machine.reduce(wanted or ACCURACY)
     return {"parameters": reduced.limited, "machine": None, "gravity": machine.gravity}
 

@@ -35,7 +35,9 @@ _IN_BOTH = (
 COMPLIANT = (
     ("peak force", "{force}, {force_at:time} after {since}"),
     ("depth", "{depth}"),
-    ("ball pressure", "{pressure:pressure} on the most loaded ball"),
+    ("ball pressure", "{pressure:pressure} on the most loaded ball, which bears {catalogue.ball_load:newton}"),
+    ("static rating", "{catalogue.static_share:percent} of it at the peak force"),
+    ("rolling fatigue", "{catalogue.life_share:percent} of the life L10, {landings} such landings"),
     ("largest impulse", "{impulse} in one contact, {impulse_at:time} after {since}"),
     ("contacts", "{contacts:contact}, {contact_time} in contact"),
     ("lift-offs", "{bounces:bounce}"),
@@ -48,6 +50,7 @@ RIGID = (
     *_IN_BOTH,
 )
 """Loads of a touchdown bearing as shown to people: labels, and attributes by name and kind; zero or unknown ones are left out."""
+_KEYS = {"ball_load": "ball_load_si", "pressure": "pressure_si"}
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
@@ -64,7 +67,7 @@ class LoadCheck:
 
     Attributes
     ----------
-    name : {"impulse", "force", "power", "heat", "depth", "pressure", "impacts"}
+    name : {"impulse", "force", "power", "heat", "depth", "pressure", "static_share", "life_share", "impacts"}
     value : float
         Load of the motion, up to where its end was known.
     limit : float
@@ -122,22 +125,26 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     Raises
     ------
     InputError
-        There is a limit of the pressure, but the touchdown bearing does not state its balls.
+        There is a limit of what the touchdown bearing does not state: the pressure of its balls, or a share of a rating.
     """
     si = loads.si()
     if si is None:
         return ()
-    if limits.pressure is not None and loads.pressure is None:
-        raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
-    values = {**si, "impacts": float(loads.contacts)}
-    found = []
-    for name, limit in limits.given.items():
-        grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.outcome in REPEATING}
+    values, found = {**si, "impacts": float(loads.contacts)}, []
+    grows = {
+        "heat": loads.goes_on and si["lasting_power"] > 0.0,
+        "impacts": loads.outcome in REPEATING,
+        "life_share": loads.goes_on and si.get("life_share", 0.0) > 0.0 and loads.race_at_end != 0.0,
+    }
+    rated = {"static_share": 1.0} if "static_share" in si else {}
+    for name, limit in {**rated, **limits.given}.items():
+        if name not in values:
+            raise InputError(name, limit, f"a limit needs {limits.needed[name]} in the table [touchdown]")
         endless, value = grows.get(name, False), values[name]
         after = 0.0 if value > limit else math.inf
         if endless and name == "heat" and value <= limit:
             after = (limit - value) / si["lasting_power"]
-        growing = loads.still_growing and name in ("force", "depth", "pressure")
+        growing = loads.still_growing and name in ("force", "depth", "pressure", "static_share")
         found.append(LoadCheck(name, value, limit, endless, growing, loads.outcome.settled, after))
     return tuple(found)
 
@@ -199,8 +206,10 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
 
 def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, object]:
     whirl, loads = plane.whirl, record(plane, LOADS, plane.scales)
-    if plane.pressure is not None:
-        loads["pressure_si"] = plane.pressure
+    found = plane.catalogue._asdict().items()
+    loads |= {_KEYS.get(name, name): value for name, value in found if value is not None}
+    if plane.landings is not None:
+        loads["landings"] = plane.landings
     if not plane.is_compliant:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
         loads["force_is_of_lasting_contact"] = True

@@ -149,10 +149,11 @@ OTHER_KINDS: dict[str, Callable[[Scales | None, float], str]] = {
     "rate": _rate,
     "speed": _speed,
     "pressure": lambda _, value: f"{number(1e-9 * value, 3)} GPa",
+    "newton": lambda _, value: f"{number(value, 3)} N",
     "percent": lambda _, value: f"{number(100.0 * value, 2)} %",
 }
 """A radius in clearances and in mm, how often an event with a period comes, angular speed in rpm, a pressure
-in Pa, and a share."""
+in Pa, a force in N, and a share."""
 
 
 @checked
