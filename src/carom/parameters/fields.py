@@ -212,6 +212,11 @@ _OTHER_WORDS = 0.2
 
 
 @checked
+def why_not_modelled(name: str) -> str | None:
+    """What is modelled in place of what a name asks for; ``None`` of any other name."""
+    return next((f"not modelled: {why}" for part, why in NOT_MODELLED.items() if part in name), None)
+
+
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str, listed: bool = True) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 
@@ -219,9 +224,8 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     partner (``gamma`` for ``damping``) is recognised too; one of what is not modelled says so; ``listed`` adds them to the message, without numbered ones such as
     ``friction_2`` where ``friction`` is known.
     """
-    for part, why in NOT_MODELLED.items():
-        if part in name:
-            return InputError(shown(name), given, f"not modelled: {why}", "is no parameter here")
+    if why := why_not_modelled(name):
+        return InputError(shown(name), given, why, "is no parameter here")
     advice = [f"did you mean {best}?"] if (best := nearest_name(name, known)) else []
     allowed = [each for each in known if not (part := _NUMBERED.fullmatch(each)) or part[1] not in known]
     remedy = " ".join(advice + ([f"allowed: {', '.join(allowed)}"] if listed else []))

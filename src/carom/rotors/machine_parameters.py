@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Self
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, Gravity, read_quantity
-from carom.parameters.fields import nearest_name
+from carom.parameters.fields import nearest_name, why_not_modelled
 from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import PREFIX
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
@@ -199,6 +199,8 @@ class NamedParameters:
 
     def unknown(self, name: str, given: object, besides: Mapping[str, object] | None = None) -> InputError:
         """Error for a name that does not exist: allowed are listed without those of single parts; ``besides`` has names of other things."""
+        if why := why_not_modelled(name):
+            return InputError(shown(name), shown(given), why)
         known = {**self.varied, **(besides or {})}
         nearest = nearest_name(name, known)
         advice = f"did you mean {nearest}? " if nearest else ""
