@@ -107,7 +107,7 @@ def test_where_the_word_is_not_what_the_machine_does():
     one = find_orbits(PAPER)["B1,d"]
     start = ShootingStart(one.nodes, one.durations)
     assert why_virtual(one.rotor, one.word, start) == ""
-    assert "other way" in why_virtual(one.rotor, Word.of(Kind.IMPACT_BACKWARD), start)
+    assert "opposite direction" in why_virtual(one.rotor, Word.of(Kind.IMPACT_BACKWARD), start)
     assert "not stop" in why_virtual(one.rotor, Word.of(Kind.IMPACT_STOPPED), start)
     doubled = why_virtual(one.rotor, one.word, ShootingStart(one.nodes, 2.0 * one.durations))
     assert "before its period is over" in doubled

@@ -158,11 +158,11 @@ def expected_reason(orbit: Orbit) -> str:
     """Why an orbit cannot be a motion of the machine, from the laws of contact and from its path."""
     parameters = orbit.rotor.parameters
     if orbit.radial_speed <= 0.0:
-        return "meet the wall from outside"
+        return "reach the wall from outside"
     if parameters.mu > 0.0:
         slip = orbit.slip * (parameters.radius_ratio + 1.0 + orbit.angular_speed)
         if slip < 0.0:
-            return "slip would run the other way"
+            return "slip, and so friction, would"
         if parameters.mu * (1.0 + parameters.d) * orbit.radial_speed >= slip:
             return "friction would stop the slip"
     highest, first = highest_radius(orbit)
@@ -176,7 +176,7 @@ def expected_reason(orbit: Orbit) -> str:
 def test_reasons_agree_with_the_laws_of_contact_and_dense_sampling():
     random = np.random.default_rng(12)
     seen = dict.fromkeys(
-        ["", "meet the wall", "slip would", "friction would", "cross the wall", "stay on", "undecided"], 0
+        ["", "reach the wall", "slip, and", "friction would", "cross the wall", "stay on", "undecided"], 0
     )
     machines = [random_parameters(random) for _ in range(SETS)]
     machines += [PAPER.replace(radius_ratio=ratio, mu=mu) for ratio in (0.05, 0.3, 1.0) for mu in (0.3, 1.0, 2.0)]

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.base.outcome import Phase
 from carom.motions.trajectories import Trajectory
-from carom.orbits.flow import Flow, FlowBudget, krylov, repeats_after
+from carom.orbits.flow import BEND, Flow, FlowBudget, krylov, repeats_after
 from carom.orbits.happenings import happenings
 from carom.orbits.maps import Multipliers
 from carom.orbits.names import CountedName
@@ -64,10 +64,7 @@ def close(motion: Trajectory, begin: float, period: float, budget: FlowBudget | 
         period = count * known
     flow, vector = Flow.at(whole, quietest(whole), budget)
     found = newton(flow, vector, period, free=known is None)
-    if found is None:
-        return None
-    vector, period = found
-    return _orbit(flow, vector, period, known)
+    return None if found is None else _orbit(flow, *found, known)
 
 
 def quietest(motion: Trajectory) -> float:
@@ -180,7 +177,7 @@ def _orbit(flow: Flow, vector: np.ndarray, period: float, repeats: float | None)
         return None
     name = CountedName(contacts_begun, 1, "" if contacts_begun else _in_contact(motion))
     state = flow.state(vector)
-    return SimulatedOrbit(flow.rotor, name, state, period, Multipliers(values), complete, repeats, flow.rests)
+    return SimulatedOrbit(flow.rotor, name, state, period, Multipliers(values, BEND**2), complete, repeats, flow.rests)
 
 
 def _in_contact(motion: Trajectory) -> str:
@@ -201,16 +198,13 @@ def _touches(motion: Trajectory) -> bool:
 
 def _multipliers(flow: Flow, vector: np.ndarray, motion: Trajectory, *, free: bool) -> tuple[np.ndarray | None, bool]:
     """Non-trivial multipliers, the largest first, and whether these are all."""
-    if len(vector) <= DENSE:
+    complete = len(vector) <= DENSE
+    if complete:
         slopes = flow.derivative(vector, motion)
-        complete = True
     else:
         random = np.random.default_rng(0).normal(size=len(vector))
-        _, matrix = krylov(lambda change: flow.change(vector, change, motion), random, DIRECTIONS)
-        slopes, complete = matrix[:-1], False
-    if not np.isfinite(slopes).all():
-        return None, False
-    return multipliers_from(slopes, free=free), complete
+        slopes = krylov(lambda change: flow.change(vector, change, motion), random, DIRECTIONS)[1][:-1]
+    return multipliers_from(slopes, free=free) if np.isfinite(slopes).all() else None, complete
 
 
 def multipliers_from(slopes: np.ndarray, *, free: bool) -> np.ndarray:

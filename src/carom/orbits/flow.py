@@ -177,9 +177,8 @@ class Flow:
         motion = self.follow(vector, duration + step)
         if motion is None:
             return np.full(len(vector), np.nan)
-        system, times = self.rotor.system, np.array([duration - step, duration + step])
-        if duration < step:
-            times = np.array([duration, duration + step])
+        before = duration if duration < step else duration - step
+        system, times = self.rotor.system, np.array([before, duration + step])
         amplitudes, _ = motion.amplitudes_at(times)
         ends = [self.vector(State.of(*system.state(each), system.race_speeds(each))) for each in amplitudes]
         return (ends[1] - ends[0]) / float(np.ptp(times))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -19,6 +20,10 @@ from carom.motions.simulation import follow, tools
 from carom.motions.starts import LARGEST_SPEED, State
 from carom.orbits.shooting import Links
 
+Stability = Literal["stable", "neutral", "unstable"]
+ROUNDING = 1e-9
+"""Error of multipliers from closed forms and exact derivatives."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Multipliers(Result):
@@ -28,9 +33,12 @@ class Multipliers(Result):
     ----------
     values : ndarray of complex, shape (n,)
         Largest modulus first; of a conjugate pair the one with positive imaginary part first.
+    error : float
+        Of the largest modulus.
     """
 
     values: np.ndarray
+    error: float = ROUNDING
 
     @property
     def spectral_radius(self) -> float:
@@ -38,14 +46,20 @@ class Multipliers(Result):
         return float(np.abs(self.values).max())
 
     @property
+    def stability(self) -> Stability:
+        """Stable where all multipliers lie inside the unit circle, unstable where one lies outside, neutral where the largest modulus is one within its error."""
+        growth = self.spectral_radius - 1.0
+        return "neutral" if abs(growth) <= self.error else "stable" if growth < 0.0 else "unstable"
+
+    @property
     def stable(self) -> bool:
         """Whether all multipliers lie inside the unit circle."""
-        return self.spectral_radius < 1.0
+        return self.stability == "stable"
 
     @property
     def instability(self) -> str:
         """How small disturbances grow, in words; ``""`` if they do not."""
-        if self.stable:
+        if self.stability != "unstable":
             return ""
         leader = self.values[0]
         if abs(leader.imag) > 1e-9 * abs(leader):
@@ -76,18 +90,13 @@ def multipliers_of_all(jacobians: Sequence[np.ndarray]) -> list[Multipliers]:
 
 
 def multipliers_of(links: Links) -> Multipliers:
-    """Non-trivial Floquet multipliers: those of the return map on the section at the first node."""
-    return multipliers(on_section(links))
-
-
-def on_section(links: Links) -> np.ndarray:
-    """Derivative of the return map in an orthonormal basis of the section at the first node, shape (2N − 1, 2N − 1)."""
+    """Non-trivial Floquet multipliers: those of the return map, in an orthonormal basis of the section at the first node."""
     monodromy = links.monodromy
     if not np.isfinite(monodromy).all():
-        return np.full((len(monodromy) - 1,) * 2, np.inf)
+        return multipliers(np.full((len(monodromy) - 1,) * 2, np.inf))
     # Its range is the section: the last passage ends there.
     basis = np.linalg.svd(links.passages[-1])[0][:, :-1]
-    return basis.T @ monodromy @ basis
+    return multipliers(basis.T @ monodromy @ basis)
 
 
 @checked

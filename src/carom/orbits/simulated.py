@@ -18,7 +18,7 @@ from carom.base.results import Result
 from carom.models import Rotor
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.flow import TURN, Flow
+from carom.orbits.flow import BEND, TURN, Flow
 from carom.orbits.happenings import Extremes, Happening, extremes_of, happenings, word_of
 from carom.orbits.maps import Multipliers, Section
 from carom.orbits.names import CountedName
@@ -187,7 +187,7 @@ class SimulatedOrbit(Result):
         self, flow: Flow, vector: np.ndarray, period: float, multipliers: np.ndarray, name: CountedName
     ) -> SimulatedOrbit:
         """Another closed path that repeats as this one does."""
-        at = flow.state(vector), period, Multipliers(multipliers)
+        at = flow.state(vector), period, Multipliers(multipliers, BEND**2)
         return SimulatedOrbit(flow.rotor, name, *at, complete=True, repeats=self.repeats, rests=flow.rests)
 
     @property

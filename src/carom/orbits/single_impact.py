@@ -92,7 +92,7 @@ class OrbitSet(Members[Orbit]):
         """Each orbit, and whether the list is complete or how much was searched."""
         shown = []
         for orbit in self:
-            stable = "stable" if orbit.stable else "unstable"
+            stable = orbit.multipliers.stability
             period, speed = (self.line_of(name, getattr(orbit, name)) for name in ("period", "radial_speed"))
             words = f"{stable}, {orbit.segments}"
             if self.search is None:

@@ -9,6 +9,7 @@ key of :data:`LOOKS`   drawn as                    means
 =====================  ==========================  ====================================================
 ``"stable"``           blue, solid, disc           periodic orbit: admissible, stable
 ``"unstable"``         vermilion, dashed, diamond  periodic orbit: admissible, unstable
+``"neutral"``          blue, dotted, hexagon       periodic orbit: admissible, neither stable nor unstable
 ``"virtual"``          grey, thin, cross           not physical: violates the wall or the contact law
 ``"outside"``          pale grey, dotted           the part of a virtual orbit beyond the wall
 ``"wall"``             near-black, solid           clearance circle: the touchdown bearing
@@ -95,6 +96,7 @@ LOOKS = MappingProxyType(
     {
         "stable": Look("#0072b2", "admissible, stable", line="-", width=1.1, marker="o"),
         "unstable": Look("#d55e00", "admissible, unstable", line="--", width=0.9, marker="D"),
+        "neutral": Look("#0072b2", "admissible, neutral", line=":", width=1.1, marker="h"),
         "virtual": Look("#808080", "virtual, not physical", line="-", width=0.6, marker="x"),
         "outside": Look("#a6a6a6", "virtual part, outside the clearance", line=":", width=0.8),
         "wall": Look("#1a1a1a", "clearance circle (touchdown bearing)", line="-", width=1.0),

@@ -39,9 +39,7 @@ def with_symbols(text: str) -> str:
 
 def orbit_look(orbit: Orbit | SimulatedOrbit) -> str:
     """Return the key of :data:`carom.plots.style.LOOKS` for the kind of an orbit."""
-    if not orbit.admissible:
-        return "virtual"
-    return "stable" if orbit.stable else "unstable"
+    return orbit.multipliers.stability if orbit.admissible else "virtual"
 
 
 def orbit_words(orbit: Orbit | SimulatedOrbit) -> str:

@@ -61,7 +61,7 @@ def _multipliers(orbit: Orbit | SimulatedOrbit, _: object) -> str:
 FOUND_ORBIT = (
     Column("", "orbit", lambda orbit, _: orbit.name),
     Column("", "period", _period_of_found),
-    Column("", "state", lambda orbit, _: "stable" if orbit.stable else "unstable"),
+    Column("", "state", lambda orbit, _: orbit.multipliers.stability),
     Column("word=segments", "word"),
     Column("all_multipliers=complete"),
 )
@@ -73,6 +73,7 @@ ORBIT = (
     Column("angle", "θ", _number("angle")),
     Column("angular_speed", "θ̇", _number("angular_speed")),
     Column("stable"),
+    Column("stability=multipliers.stability"),
     Column("admissible"),
     Column("reason"),
 )

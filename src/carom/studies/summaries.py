@@ -22,7 +22,7 @@ from carom.studies.study_data import StudyData
 from carom.studies.verdict import SURVIVED, condition_of, is_proven, survived_cells
 from carom.studies.wording import Wording, counted, indentation_of_steel, motion_words, no_rigid_wall
 
-State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
+State = Literal["stable", "neutral", "unstable", "not possible", "seen", "transient", "undecided"]
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class MotionRow:
     name: str
     state: State
     """Seen: disturbances ended there, its stability was not computed; transient: it ends; undecided: its end was not
-    found.  One of "stable", "unstable", "not possible", "seen", "transient", "undecided"."""
+    found.  One of "stable", "neutral", "unstable", "not possible", "seen", "transient", "undecided"."""
     _: KW_ONLY
     period: str = ""
     size: str = ""
@@ -159,9 +159,10 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     impulse, force = say.impulse(orbit.impulse), f"{say.force(orbit.impulse / orbit.period)} mean"
     if math.isnan(orbit.impulse):  # contact that never ends
         size, impulse, force = "", "", ""
-    grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
+    how = orbit.multipliers.instability
+    grows = f"disturbances grow {how}" if how else ""
     remark = _joined(grows, no_rigid_wall(indentation_of_impact(orbit.rotor.in_rigid_wall, orbit.radial_speed)))
-    state: State = "stable" if orbit.stable else "unstable"
+    state: State = orbit.multipliers.stability
     return MotionRow(name, state, period=period, size=size, impulse=impulse, force=force, trials=share, remark=remark)
 
 
