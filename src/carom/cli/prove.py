@@ -188,13 +188,13 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
 def _print_proof(proof: Proof, checked: bool) -> None:
     """Print the theorem, all claims, and what is not claimed."""
     from carom.cli.screen import print_table
-    from carom.proofs.headlines import chief_of, headline, numbers_of
+    from carom.proofs.headlines import chief_of, headline, numbers_of, scales_of
     from carom.proofs.levitation_claims import THEOREM
 
-    screen, chief = console(), chief_of(proof)
+    screen, chief, scales = console(), chief_of(proof), scales_of(proof)
     screen.print(headline(proof), style="bold")
     screen.print()
-    rows = [(claim.about, claim.kind, claim.status, claim.reason or numbers_of(claim)) for claim in proof]
+    rows = [(claim.about, claim.kind, claim.status, claim.reason or numbers_of(claim, scales)) for claim in proof]
     print_table(screen, "Claims", ("about", "claim", "status", "value or reason"), rows)
     for claim in proof:
         if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven" and claim is not chief:

@@ -88,10 +88,7 @@ def _applied(squares: dict[tuple[int, int], arb], one: list[arb], other: list[ar
 
 
 def _sum(numbers: Iterable[arb]) -> arb:
-    total = arb(0)
-    for number in numbers:
-        total = total + abs(number)
-    return total
+    return sum(map(abs, numbers), arb(0))
 
 
 def _few(columns: list[list[arb]]) -> list[list[arb]]:

@@ -8,15 +8,20 @@ from __future__ import annotations
 
 from decimal import ROUND_FLOOR, Context, Decimal
 
+from carom.base.results import KINDS
+from carom.parameters import UNITS, Scales
+from carom.parameters.formats import shown_from_si, shown_in
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.families import FAMILIES, at_most
+from carom.proofs.hypotheses import Hypotheses
+from carom.proofs.seeds import doubles_of
 
 CHIEF = ("all recover", "recover", "asked never touch", "never touch", "all-single-impact-orbits", "orbits")
 """Kinds of claims that are the theorem, the first that a proof has; the others lead to it."""
-_UNITS = {"speed": ("1e3", "mm/s", "c_r Ω"), "peak": ("1", "m/s²", "c_r Ω²"), "change": ("1e6", "µm", "c_r")}
-"""Of each size: what one SI unit counts, in which unit people read it, and its unit where scales are not known."""
-_SHAFT_SPEED = ("1", "rad/s", "Ω")
-"""The same of a claim about the speed of the shaft."""
+_BOUNDS = {"speed": "velocity", "peak": "acceleration", "change": "length"}
+"""Kinds of the sizes below which claims hold."""
+_KINDS = {**KINDS, **_BOUNDS, "slip_after": "velocity", "least_normal_force": "force", "spare_friction": "force"}
+"""Kinds of all numbers that have a unit."""
 _NAMES = {"spare_friction": "least friction margin"}
 """What people read for the names of numbers in certificates, where that differs."""
 _PERCENT, _BELOW, _ASKED = Decimal(100), Context(prec=4, rounding=ROUND_FLOOR), Context(prec=12)
@@ -40,14 +45,21 @@ def headline(proof: Proof) -> str:
     return f"The theorem was not proven; {proven} of {len(proof)} claims were.{why}"
 
 
-def numbers_of(claim: Claim) -> str:
-    """Its numbers: sizes with their units, shares in percent, all others with the digits that are proven."""
+def scales_of(proof: Proof) -> Scales | None:
+    """Scales of the one machine that a proof is about, where they are known and its claims do not state SI units themselves."""
+    given = proof.hypotheses
+    known = isinstance(given, Hypotheses) and given.exact and not {"along", "box"} & set(proof.options)
+    return doubles_of(given).scales if known else None
+
+
+def numbers_of(claim: Claim, scales: Scales | None) -> str:
+    """Its numbers: shares in percent, those with a unit in SI units where scales are known, all others with the digits that are proven."""
     named = [(name, name.removesuffix("_si")) for name in claim.enclosures if f"{name}_si" not in claim.enclosures]
     shown = []
     for name, plain in named:
         entry, words = claim.enclosures[name], _NAMES.get(plain, plain.replace("_", " "))
-        if plain in _UNITS:
-            shown.append(f"{words} {_size(claim, plain)}")
+        if any(word in _KINDS for word in plain.split()):  # "B1,d period", "radial_speed 2"
+            shown.append(f"{words} {_size(claim, plain, scales)}")
         elif plain.startswith("share_"):
             shown.append(f"{plain.removeprefix('share_')} share {_share(entry.low)} %")
         else:
@@ -56,7 +68,8 @@ def numbers_of(claim: Claim) -> str:
 
 
 def _sentence(claim: Claim, proof: Proof) -> str:
-    below = next((_size(claim, name) for name in _UNITS if name in claim.enclosures), "")
+    scales = scales_of(proof)
+    below = next((_size(claim, name, scales) for name in _BOUNDS if name in claim.enclosures), "")
     if claim.kind in ("never touch", "asked never touch") and claim.about == "kicks":
         bounded = proof["levitation clear"].enclosures
         limits = " or a magnetic bearing reach a limit" if "limit_1" in bounded else ""
@@ -70,17 +83,20 @@ def _sentence(claim: Claim, proof: Proof) -> str:
             f"Of all {family.about} up to {largest}, {_share(numbers['share_proven'].low)} % (by area of the disc of sizes and "
             f"directions) return to levitation {how}{among}."
         )
-    shown = numbers_of(claim)
+    shown = numbers_of(claim, scales)
     return f"{claim.statement}{shown and f' ({shown})'}"
 
 
-def _size(claim: Claim, name: str) -> str:
-    """Lower end of a size with its unit."""
-    factor, unit, own = _SHAFT_SPEED if claim.kind == "absent below" else _UNITS[name]
-    given = claim.enclosures.get(f"{name}_si")
-    if given is None:
-        return f"{_rounded(Decimal(claim.enclosures[name].low))} {own}"
-    return f"{_rounded(Decimal(given.low) * Decimal(factor))} {unit}"
+def _size(claim: Claim, name: str, scales: Scales | None) -> str:
+    """A number with its unit: of a bound the lower end; without scales the digits that are proven."""
+    kind = "speed" if claim.kind == "absent below" else next(_KINDS[word] for word in name.split() if word in _KINDS)
+    entry, (factor, unit) = claim.enclosures.get(f"{name}_si"), shown_from_si(UNITS[kind][1])
+    if entry is None:
+        entry, (factor, unit) = claim.enclosures[name], shown_in(kind, scales)
+    ends = [_rounded(Decimal(end) * Decimal(factor)) for end in (entry.low, entry.high)]
+    shown = entry.short if scales is None else " to ".join(dict.fromkeys(ends))
+    text = ends[0] if name in _BOUNDS else shown
+    return f"{text}{unit[1:] if unit.startswith('1/') else f' {unit}'}"
 
 
 def _share(low: str) -> str:
@@ -90,4 +106,4 @@ def _share(low: str) -> str:
 def _rounded(number: Decimal) -> str:
     """At most four digits, rounded down, without an exponent; a size that was asked for with its own."""
     asked = _ASKED.plus(number).normalize()
-    return f"{asked if len(asked.as_tuple().digits) <= _BELOW.prec else _BELOW.plus(number).normalize():f}"
+    return f"{asked if len(asked.as_tuple().digits) <= _BELOW.prec else _BELOW.plus(number).normalize():,f}"

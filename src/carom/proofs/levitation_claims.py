@@ -214,10 +214,7 @@ def _parts(answer: acb_mat, has_mass: np.ndarray, n: int, double: bool) -> tuple
 
 def _size(matrix: acb_mat) -> arb:
     """Euclidean size of a row or a column."""
-    total = arb(0)
-    for entry in matrix.entries():
-        total += entry.real**2 + entry.imag**2
-    return total.sqrt()
+    return sum((entry.real**2 + entry.imag**2 for entry in matrix.entries()), arb(0)).sqrt()
 
 
 def _generator(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, has_mass: np.ndarray) -> acb_mat:

@@ -275,7 +275,4 @@ def cross(one: Complex[Real], other: Complex[Real]) -> Real:
 
 def spread(columns: list[arb]) -> arb:
     """All sums of numbers of the columns, each with a factor from −1 to 1."""
-    total = arb(0)
-    for column in columns:
-        total = total + abs(column)
-    return UNIT * total
+    return UNIT * sum(map(abs, columns), arb(0))

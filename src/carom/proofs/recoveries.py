@@ -158,12 +158,8 @@ def patch_of(centre: list[arb], columns: Columns, drift: list[arb], first: int) 
     rest = []
     for j, x in enumerate(centre):
         # Half widths of the balls of the spans count once for each: a factor of at most 1 stands before them.
-        total = arb(x.rad()) + abs(drift[j])
-        for column in kept:
-            total = total + arb(column[j].rad())
-        for column in small:
-            total = total + abs(column[j])
-        rest.append(total.upper().mid())
+        total = sum((arb(column[j].rad()) for column in kept), arb(x.rad()) + abs(drift[j]))
+        rest.append(sum((abs(column[j]) for column in small), total).upper().mid())
     return Patch([x.mid() for x in centre], [[x.mid() for x in column] for column in kept], rest)
 
 
