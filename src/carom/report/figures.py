@@ -180,7 +180,7 @@ BEYOND = 1.5
 """Largest disturbance of a basin relative to the smallest that does not come back, where all that must be survived came back."""
 
 _MISSING = {
-    "no-change-needed": "No change is needed: all that was tried of what it must survive came back.",
+    "no-change-needed": "No change is indicated: all that was tried of what it must survive came back.",
     "no-change-found": "No change is advised: no damping or stiffness tried brings all back.",
     "not-decided": "No change is advised: too few of the disturbances that it must survive could be followed.",
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -13,7 +14,7 @@ from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.motions import Trajectory
 from carom.motions.courses import shown_until
 from carom.parameters.formats import number
-from carom.plots.figure import Purpose, drawing, made_for
+from carom.plots.figure import drawing, made_for
 from carom.report.figures import drawable, pictures
 from carom.report.film import Film, film_of, film_script
 from carom.report.html import InlineFigure, ReportPicture, draw_figures, page_template, versions
@@ -48,13 +49,17 @@ def write_report(study: Study, directory: str, *, progress: ShowProgress = None)
     tell = Reporter.of(progress, "drawing")
     wanted = pictures(study)
     named = plots.heading(machine_heading(study.case))
-    purpose: Purpose = "slide" if made_for.get() == "slide" else "column"
-    with staged_directory(directory, "--out") as place, drawing(), named, plots.figures_for(purpose):
+    with staged_directory(directory, "--out") as place, drawing(), named, _in_columns():
         inline, names = draw_figures(wanted, place, tell)
         document = {**study.to_dict(), "figures": names}
         write_json(place / MANIFEST, document)
         (place / REPORT).write_text(report_page(study, inline), encoding="utf-8")
     return Path(directory) / REPORT
+
+
+def _in_columns() -> AbstractContextManager[None]:
+    """Figures of one column, which can be read on a telephone too, unless slides are asked for."""
+    return plots.figures_for("slide" if made_for.get() == "slide" else "column")
 
 
 @checked
@@ -174,7 +179,7 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
         wanted.append(
             ReportPicture(f"drop-loads{mark}", "drop", (_SOFT if plane.is_compliant else _RIGID) + which, loads)
         )
-    with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
+    with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)), _in_columns():
         inline, names = draw_figures(wanted, place, Reporter.of(progress, "drawing"))
         write_json(place / DROP_NUMBERS, {**found.document(), "figures": names})
         page = page_template("drop.html.jinja").render(
