@@ -13,7 +13,7 @@ def test_pointing_and_clicking_fly_what_comes_back_as_1_and_what_is_lost_as_2(pa
     before = said(page, "carom.flights[0].message.kick")
     point(page, 0.0, 0.6, click=True)
     flown(page, 1, 0.0, 0.6)
-    expect(page.locator("#beside-title")).to_have_text("is lost")
+    expect(page.locator("#beside-title")).to_have_text("does not come back")
     assert said(page, "carom.flights[0].message.kick") == before
     point(page, 0.05, -0.1)
     flown(page, 0, 0.05, -0.1)

@@ -134,7 +134,7 @@ class Questions:
         self.long: Mapping[str, PageTask] = {
             "fine": PageTask("following disturbances", self._fine, "basin"),
             **({"response": response} if shown["response"] else {}),
-            "loss": PageTask("looking for the smallest that is lost", self._loss, "loss"),
+            "loss": PageTask("looking for the smallest that does not come back", self._loss, "loss"),
             "hardest": PageTask("looking for the hardest impact", self._hardest, "hardest"),
             **({"diagram": diagram} if self.exact else {}),
             "verdict": PageTask("writing the verdict", self._verdict, "verdict"),

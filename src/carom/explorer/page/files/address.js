@@ -22,7 +22,7 @@ carom.address = {};
   const read = () => {
     const kept = new URLSearchParams(location.hash.slice(1));
     if ((kept.get("of") || machine) !== machine) {
-      carom.controls.notice = "The address holds values that were set for another machine. They are left out.";
+      carom.controls.notice = "The address contains values for another machine; they are ignored.";
       for (const name of [...kept.keys()]) kept.delete(name);
     }
     const texts = Object.fromEntries([...kept].filter(([name]) => name !== "of" && !views.includes(name)));

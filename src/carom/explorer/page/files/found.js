@@ -46,7 +46,7 @@
     carom.panels.tile("hardest", message.refused ? "–" : message.value, message.refused || message.remark);
   });
   // Proven is only what is asked for: the picture of another machine, range or kind of disturbance shows nothing of it.
-  const asks = "Which kicks come back as a theorem: takes up to half a minute.";
+  const asks = "Proves which kicks come back; takes up to half a minute.";
   let wishes = 0;
   if (at("prove")) {
     at("proven").textContent = asks;

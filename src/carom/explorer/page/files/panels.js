@@ -45,12 +45,12 @@ carom.panels = { exports: null };
   });
   carom.on("exports", (message) => { carom.panels.exports = message; });
 
-  const words = { toml: "machine file", options: "options of the command line", command: "command", python: "program", link: "address of this machine and these kicks" };
+  const words = { toml: "machine file", options: "list of command-line options", command: "command", python: "program", link: "address of this machine and these kicks" };
   for (const button of document.querySelectorAll("[data-copy]")) {
     button.addEventListener("click", async () => {
       const text = button.dataset.copy === "link" ? location.href : carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
       const place = at("copy-text");
-      if (!text) { at("copied").textContent = button.dataset.copy === "command" ? "No option of the command line says this start: copy the program." : "Nothing differs from the file."; return; }
+      if (!text) { at("copied").textContent = button.dataset.copy === "command" ? "No command-line option describes this start: copy the program instead." : "Nothing differs from the file."; return; }
       place.value = text;
       try {
         await navigator.clipboard.writeText(text);
@@ -59,7 +59,7 @@ carom.panels = { exports: null };
       } catch {
         place.hidden = false;
         place.select();
-        at("copied").textContent = `The browser does not let the page copy: the ${words[button.dataset.copy]} is selected below.`;
+        at("copied").textContent = `The browser does not allow copying: the ${words[button.dataset.copy]} is selected below.`;
       }
     });
   }
@@ -75,7 +75,7 @@ carom.panels = { exports: null };
       at("gone").hidden = true;
     } catch {
       at("gone").hidden = false;
-      at("gone").textContent = "The server has stopped. This page waits for it, and begins again as soon as it is there; what you set is kept.";
+      at("gone").textContent = "The server has stopped. This page reconnects as soon as it runs again; your settings are kept.";
     }
     setTimeout(look, 1500);
   };

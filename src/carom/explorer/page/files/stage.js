@@ -84,7 +84,7 @@ carom.stage = {};
     const message = basin.message, [one, many] = message.nouns, [share, cells] = basin.ring ? basin.shareWithin(basin.ring) : [1, 0];
     at("ring-note").textContent = basin.ring
       ? `${message.coarse ? "Coarse so far: about " : ""}${share > 0.999 && share < 1 ? "almost 100" : short(100 * share, 3)} % of the ${many} inside the ring come back${cells < 30 ? " (few cells; narrow the range)" : ""}. Drag the ring to ask about another size.`
-      : message.coarse ? "The picture is coarse: what is lost, and what comes back inside a ring, is stated when it is fine." : `None of the ${many} tried is lost.`;
+      : message.coarse ? "The picture is still coarse: what comes back inside a ring is stated when it is fine." : `All of the ${many} tried come back.`;
     legend(message);
   };
   const ringed = () => { basin.setRing(ringOf(basin.message)); note(); };
@@ -132,7 +132,7 @@ carom.stage = {};
     all.forEach((each, place) => each.show(message.planes ? { ...message, ...message.planes[place] } : message));
     carom.panels.shown(slots[slot], message);
     at(`${slots[slot]}-words`).textContent = message.refused || message.words + (message.whole ? "" : " Its beginning is shown.");
-    at(`${slots[slot]}-title`).textContent = message.refused ? "not possible" : message.outcome === "levitated" ? "comes back" : "is lost";
+    at(`${slots[slot]}-title`).textContent = message.refused ? "not possible" : message.outcome === "levitated" ? "comes back" : "does not come back";
     at(`${slots[slot]}-sign`).style.background = message.refused ? "" : message.colour;
     if (message.refused) return;
     if (!state.kicks || newest) basin.mark(marked(), state.active);
