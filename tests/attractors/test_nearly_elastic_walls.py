@@ -53,7 +53,7 @@ def test_what_is_not_proven_to_fade_is_undecided_and_neither_survives_nor_comes_
     share = share_of_kicks(found)
     assert share is None or share.count == sum(ending.attractor == "levitation" for ending in found.endings)
     for one in undecided:
-        assert ending_phrase(one.name) == "unresolved: low-bounces"
+        assert ending_phrase(one.name) == "low bounces along the wall, undecided"
         assert ending_words(one.name.outcome) == "its end was not found: low bounces along the wall, undecided"
     assert exponents_of(found.rotor, undecided[0]) is None
 

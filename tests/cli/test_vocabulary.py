@@ -74,6 +74,7 @@ def test_each_outcome_has_one_name_on_every_surface(outcome):
     name = MotionName(outcome)
     if not outcome.settled:
         assert name == f"unresolved: {outcome.label}"
+        assert name.words == outcome.words
         begins = "it goes" if outcome is Outcome.BEYOND_MODEL else "its end was not found"
         assert ending_words(outcome).startswith(begins)
         return

@@ -77,9 +77,9 @@ class MotionName(Name):
 
     @property
     def words(self) -> str:
-        """The name for people: that of :attr:`OrbitName.words <carom.orbits.names.OrbitName.words>` for an orbit; else the name itself."""
+        """The name for people: that of :attr:`OrbitName.words <carom.orbits.names.OrbitName.words>` for an orbit; else the name itself, or why there is none."""
         if self.orbit is None:
-            return str(self)
+            return str(self) if self.outcome.settled else self.outcome.words
         return f"{self.orbit.words} ({self.number})" if self.number > 1 else self.orbit.words
 
     @property

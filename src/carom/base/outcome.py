@@ -87,7 +87,7 @@ _WORDS = {
     Outcome.CLEAR: "flight without contact",
     Outcome.CONTACT: "contact",
     Outcome.GRAZING: "grazes the wall, undecided",
-    Outcome.TIME_REACHED: "time reached",
+    Outcome.TIME_REACHED: "not settled",
     Outcome.EVENT_LIMIT: "limit of events reached",
     Outcome.CHATTER: "chatter, ends in lasting contact",
     Outcome.LOW_BOUNCES: "low bounces along the wall, undecided",

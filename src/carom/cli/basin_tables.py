@@ -101,4 +101,5 @@ def _where(smallest: SmallestUnrecovered) -> str:
     if smallest.kind == "blade-loss":
         return f"{where} from the unbalance before it"
     turned = smallest.instant
-    return where if turned is None else f"{where} when the shaft has turned by {format_angle(turned)}"
+    after = "" if turned is None else f" when the shaft has turned by {format_angle(turned)}"
+    return f"{where} from the x axis that turns with the shaft{after}"

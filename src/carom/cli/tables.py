@@ -252,11 +252,11 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
         console.print()
         _print_contacts(console, motion)
-    final = motion.final
-    if motion.rotor.weight is not None or len(motion.rotor.system.rest) > 1:
+    if motion.scales or motion.rotor.weight is not None or len(motion.rotor.system.rest) > 1:
         for seen in motion.at_each:
             console.print(_final_words(say, seen))
         return
+    final = motion.final
     console.print(
         f"At the end: U = {complex_words(final.position)} c_r, U' = {complex_words(final.velocity)} c_r Ω (co-rotating frame), "
         f"r = {say.radius(abs(final.position))}"
@@ -284,7 +284,7 @@ def _counts(motion: Trajectory) -> str:
 
 
 def _final_words(say: Wording, seen: Trajectory) -> str:
-    """Where a rotor that weighs something, or one with several coordinates, is in a bearing at the end, and how fast, in the fixed frame."""
+    """Where the rotor is in a bearing at the end, and how fast, in the fixed frame."""
     place, speed = seen.end()
     say = dataclasses.replace(say, scales=seen.scales)
     return (

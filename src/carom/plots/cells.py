@@ -53,7 +53,7 @@ class MotionLook:
     @property
     def words(self) -> str:
         """Words of the legend."""
-        return self.name.words if self.name.outcome.settled else self.look.words
+        return self.name.words
 
     def patch(self, *, share: bool = True) -> Patch:
         """Entry of the legend of a figure, by default with the share."""

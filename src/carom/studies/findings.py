@@ -58,7 +58,7 @@ AT_LIMITS = "Disturbances at other angles of the unbalance than that in the mach
 CHANGES = ("Change", "Or")
 """Labels of the changes that help."""
 _NO_CHANGE = {
-    "no-change-needed": "none needed to survive the requirement",
+    "no-change-needed": "none indicated: all disturbances tried up to the requirement came back",
     "not-decided": "undecided: too few of the required disturbances could be followed to their end",
     "no-change-found": f"none found that brings back every required disturbance and changes no gain by more than a factor of {number(GAIN_FACTOR)}",
 }
@@ -267,8 +267,7 @@ def drop_headline(study: StudyData) -> Iterator[Fact]:
     ]
     limits = "" if study.case.limits.given else "; the file states no limits of the touchdown bearing"
     loads = drop.loads
-    ending = "not settled" if loads.outcome is Outcome.TIME_REACHED else loads.outcome.words
-    text = f"{ending} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
+    text = f"{loads.outcome.words} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
     yield Fact("Verdict", f"{text}{ASSUMED if drop.assumed else ''}", "Drop", "sampled")
 
 

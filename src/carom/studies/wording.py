@@ -70,7 +70,7 @@ def micrometres(length: float) -> str:
 
 
 def ending_phrase(motion: MotionName) -> str:
-    """Return the words of a motion to follow a verb: (ends) ``in regular bouncing``, (ends) ``unresolved: grazing``."""
+    """Return the words of a motion to follow a verb: (ends) ``in regular bouncing``, ``not settled``."""
     words = motion.words
     return f"in {words}" if motion.outcome.settled else words
 
