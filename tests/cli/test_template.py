@@ -38,7 +38,14 @@ def named_in(text):
 def test_it_explains_every_entry(text):
     of_rigid = {*RIGID_FIELDS, "position", "sensor_positions"} - {*PARTS["disc"].entries}
     own = {*ROTOR_ENTRIES, *(name for part in PARTS.values() for name in part.entries)}
-    assert own - named_in(text) == {"restitution", "restitution_speed", "offset", "offset_direction", *of_rigid}
+    assert own - named_in(text) == {
+        "filter",
+        "restitution",
+        "restitution_speed",
+        "offset",
+        "offset_direction",
+        *of_rigid,
+    }
 
 
 @pytest.mark.parametrize(
@@ -70,6 +77,10 @@ def test_the_other_kinds_load_and_explain_their_entries(tmp_path, kind, entries)
             "numerator = [13.2, 12000]\ndenominator = [1e-4, 1]\n",
             "A = [[-10000.0]]\nB = [[1.0]]\nC = [[-1.2e9]]\nD = [[132000.0]]\n",
         ),
+        (
+            "numerator = [13.2, 12000]\ndenominator = [1e-4, 1]\n",
+            "zeros = [-900]\npoles = [-10000]\ngain = 132000\n[[magnetic_bearing.filter]]\nlead_zero = '3 kHz'\nlead_pole = '4 kHz'\n",
+        ),
     ],
 )
 def test_what_stands_beside_as_another_way_works(tmp_path, text, block):
@@ -89,6 +100,18 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
         "B =",
         "C =",
         "D =",
+        *(
+            "sensor_gain",
+            "amplifier_gain",
+            "sample_time",
+            "zeros",
+            "poles",
+            "gain =",
+            "sos",
+            "notch",
+            "lead",
+            "low_pass",
+        ),
         "damping =",
         "race",
         "ball",

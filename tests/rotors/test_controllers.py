@@ -1,5 +1,6 @@
 """Controllers in all forms, against SciPy and the quotients that define them."""
 
+import dataclasses
 import math
 from types import SimpleNamespace
 
@@ -8,7 +9,20 @@ import pytest
 from refusals import assert_refused
 from scipy import signal
 
-from carom.rotors import PID, MagneticBearing, StateSpace, TransferFunction
+from carom.base.outcome import InputError
+from carom.rotors import (
+    PID,
+    LeadLag,
+    LowPass,
+    MagneticBearing,
+    Notch,
+    SecondOrderSections,
+    Series,
+    StateSpace,
+    TransferFunction,
+    VoltagePID,
+    ZerosPolesGain,
+)
 from carom.rotors.controllers import state_space_of
 from carom.rotors.state_spaces import delay
 
@@ -47,7 +61,7 @@ def test_balancing_changes_sizes_and_nothing_else():
     assert tame.at(AT) == pytest.approx(wild.at(AT), rel=1e-12)
     # Osborne's balance: beside the diagonal, what comes into each state is of the size of what goes out of it; of all
     # states together, where the entries of B and C decide, a few sweeps come within 2.2 %.
-    whole = np.block([[tame.A, tame.B[:, None]], [tame.C[None], np.zeros((1, 1))]])
+    whole = np.block([[tame.A, tame.B], [tame.C, np.zeros((1, 1))]])
     np.fill_diagonal(whole, 0.0)
     for state in range(2):
         assert np.linalg.norm(whole[state]) == pytest.approx(np.linalg.norm(whole[:, state]), rel=0.03)
@@ -73,6 +87,60 @@ def test_a_bearing_has_controller_delay_and_amplifier_in_a_row():
     assert MagneticBearing(3, 50.0, 0.0, PID(1.0)).sensor_nodes == (3,)
 
 
+def test_zeros_poles_and_sections_are_those_of_scipy():
+    poles, zeros = [-900.0, -40.0, -500 + 4000j, -500 - 4000j, -7.0], [-100.0, -50 + 300j, -50 - 300j, -60.0]
+    found = ZerosPolesGain(zeros, poles, 3e4)
+    expected = signal.ZerosPolesGain(zeros, poles, 3e4)
+    _, values = signal.freqresp(expected, AT.imag)
+    assert state_space_of(found).at(AT) == pytest.approx(values, rel=1e-11)
+    assert state_space_of(expected).at(AT) == pytest.approx(values, rel=1e-11)
+    upper = ZerosPolesGain([-100.0, [-50, 300], -60.0], [-900.0, -40.0, [-500, 4000], -7.0], 3e4)
+    assert upper == found
+    rows = signal.zpk2sos(zeros, poles, 3e4, analog=True)
+    assert state_space_of(SecondOrderSections(rows)).at(AT) == pytest.approx(values, rel=1e-8)
+    filters = [Notch("100 Hz", 0.2, 0.1), LeadLag("20 Hz", "80 Hz"), LowPass("1 kHz")]
+    w, z, p, n = (2.0 * math.pi * each for each in (100.0, 20.0, 80.0, 1000.0))
+    expected = (AT**2 + 0.04 * w * AT + w**2) / (AT**2 + 0.4 * w * AT + w**2) * (1 + AT / z) / (1 + AT / p)
+    expected = 7.0 * expected * n**2 / (AT**2 + math.sqrt(2.0) * n * AT + n**2)
+    assert state_space_of(Series(PID(7.0), filters)).at(AT) == pytest.approx(expected, rel=1e-11)
+
+
+def test_the_chain_multiplies_and_an_ideal_derivative_passes_filters():
+    law = VoltagePID("2.5", "30 1/s", "4 ms", 0)
+    own = bearing(
+        controller=law, sensor_gain="8 V/mm", amplifier_gain="0.5 A/V", amplifier_bandwidth=900.0, gain_factor=1.2
+    )
+    own = dataclasses.replace(own, sensor_bandwidth=7e3)
+    expected = 1.2 * 8e3 * 0.5 * (2.5 + 30.0 / AT + 4e-3 * AT) / (1.0 + AT / 900.0) / (1.0 + AT / 7e3)
+    assert own.loop.at(AT) == pytest.approx(expected, rel=1e-11)
+    ideal = PID(3.0, 0.0, 2.0, 0).state_space
+    assert ideal.at(AT) == pytest.approx(3.0 + 2.0 * AT, rel=1e-13)
+    lowered = TransferFunction(NUMERATOR, DENOMINATOR).state_space.then(ideal)
+    expected = (3.0 + 2.0 * AT) * np.polyval(NUMERATOR, AT) / np.polyval(DENOMINATOR, AT)
+    with pytest.raises(InputError, match=r"^controller = two ideal derivatives"):
+        ideal.then(ideal)
+    proper = lowered.then(TransferFunction([1.0], [1e-5, 1.0]).state_space)
+    assert proper.at(AT) == pytest.approx(expected / (1.0 + 1e-5 * AT), rel=1e-8)  # D of 3e8 loses digits
+
+
+@pytest.mark.parametrize("order", [1, 4])
+def test_a_sampled_controller_is_its_z_transform_with_its_hold(order):
+    """Against ``C(e^{sT}) (1 − e^{−sT})/(sT)``; the error is that of Padé's approximation, of the seventh power of the frequency."""
+    time = 50e-6
+    rows = signal.butter(order, 0.1, output="sos")
+    own = state_space_of(SecondOrderSections(rows, time))
+    at = 1j * np.array([10.0, 1e3, 5e3, 1e4])
+    exact = np.array([signal.sosfreqz(rows, [w * time])[1][0] for w in at.imag]) * -np.expm1(-at * time) / (at * time)
+    error = SecondOrderSections(rows, time).state_space.sampling_error(1e4)
+    assert np.abs(own.at(at) / exact - 1.0).max() == pytest.approx(error, rel=1e-3)
+    assert error < 1e-5
+    assert np.abs(own.at(at[:3]) / exact[:3] - 1.0).max() < 2e-8 + 1.1 * error / 2.0**7
+    assert np.linalg.eigvals(own.A).real.max() < 0.0
+    same = state_space_of(signal.TransferFunction(*signal.butter(order, 0.1), dt=time))
+    assert same.at(at) == pytest.approx(own.at(at), rel=1e-8)
+    assert TransferFunction([2.2, -2.1], [1.0, -1.0], time).state_space.sampling_error(0.1 / time) < 1e-9
+
+
 def bearing(**changes):
     return MagneticBearing(**{"node": 0, "ki": 50.0, "ks": -1e5, "controller": PID(1.0), **changes})
 
@@ -89,13 +157,28 @@ def bearing(**changes):
         (lambda: StateSpace(np.eye(2), [1.0], [1.0, 1.0], 0.0), r"^controller B = an array of shape \(1,\): 2 numbers"),
         (lambda: StateSpace([[1j]], [1.0], [1.0], 0.0), r"^controller A = \[\[1j\]\]: finite real numbers"),
         (
-            lambda: bearing(controller=signal.TransferFunction([1.0], [1.0, 0.5], dt=1e-4)),
-            r"^controller = a system with a time step of 0.0001",
+            lambda: bearing(controller=signal.TransferFunction([1.0], [1.0, 0.5], dt=True)),
+            r"^controller = a system in discrete time without a time step: one with its time step dt",
         ),
         (
             lambda: bearing(controller=SimpleNamespace(num=[[[1], [2]]], den=[[[1], [2]]])),
             r"^controller = several inputs or outputs: one input and one output",
         ),
+        (lambda: bearing(controller=StateSpace([], [], [], np.eye(2))), r"^controller = several inputs or outputs"),
+        (
+            lambda: ZerosPolesGain([-1.0, -2.0], [-3.0], 1.0),
+            r"^controller zeros = 2 zeros: at most as many as poles, 1",
+        ),
+        (lambda: ZerosPolesGain([], [-3j, 4j], 1.0), r"^controller poles = \[.*: numbers, or pairs \[re, im\]"),
+        (lambda: SecondOrderSections([[1.0, 2.0]]), r"^controller sos = an array of shape \(1, 2\): rows of six"),
+        (lambda: TransferFunction([1.0], [1.0, 0.5], "0 s"), r"^sample_time = 0 s: must be a time"),
+        (
+            lambda: Series(PID(1.0), [TransferFunction([1.0], [1.0, 0.5], 1e-4)]),
+            r"^filter = with a sample time of 0.0001 s: filters in continuous time",
+        ),
+        (lambda: Notch("850 m"), r"^notch_frequency = 850 m: must be an angular frequency"),
+        (lambda: bearing(sensor_gain="1 V/mm"), r"^amplifier_gain = nothing given: stated beside sensor_gain"),
+        (lambda: bearing(sensor_gain=1e3, amplifier_gain=1.0), r"^controller = PID: carom.rotors.VoltagePID with"),
         (lambda: bearing(sensor_nodes=[True]), r"^sensor node = true: the number of a node"),
         (lambda: bearing(ks=1e5), r"^ks = 100000.0: must be a stiffness"),
     ],

@@ -44,7 +44,7 @@ def test_controllers_of_all_kinds_are_the_same(load):
     """``9000 + 10 s/(1 + 1e-4 s)``, by gains, as a quotient, and as matrices."""
     space = PID(9000.0, 0.0, 10.0, 1e-4).state_space
     assert isinstance(space, StateSpace)
-    matrices = f"A = {space.A.tolist()}\nB = {space.B.tolist()}\nC = {space.C.tolist()}\nD = {space.D!r}"
+    matrices = f"A = {space.A.tolist()}\nB = {space.B.tolist()}\nC = {space.C.tolist()}\nD = {space.D.tolist()}"
     quotient = "numerator = [10.9, 9000]\ndenominator = [1e-4, 1]"
     gains = "proportional = 9000\nderivative = 10\nfilter_time = '0.1 ms'"
     one = load(SMALL).parameters.system.exponents
@@ -52,6 +52,47 @@ def test_controllers_of_all_kinds_are_the_same(load):
         other = load(SMALL.replace(quotient, way)).parameters.system.exponents
         for exponent in one:
             assert np.abs(other - exponent).min() < 1e-9 * (1.0 + abs(exponent))
+
+
+CHAINS = (
+    """sensor_gain = "10 V/mm"
+amplifier_gain = "0.5 A/V"
+proportional = 1.8
+derivative = "2 ms"
+filter_time = "0.1 ms"
+[[magnetic_bearing.filter]]
+notch_frequency = "850 Hz"
+notch_floor = 0.2
+[[magnetic_bearing.filter]]
+lead_zero = "300 Hz"
+lead_pole = "900 Hz\"""",
+    """zeros = [[-900, 20]]
+poles = [-10000, -9000]
+gain = 1e6""",
+    """sos = [[109000, -101000, 0, 1, -0.1, 0]]
+sample_time = "20 us\"""",
+)
+
+
+@pytest.mark.parametrize("chain", CHAINS)
+def test_every_controller_has_parameters_and_is_written_as_it_is_read(load, tmp_path, chain):
+    quotient = "numerator = [10.9, 9000]\ndenominator = [1e-4, 1]"
+    case = load(SMALL.replace(quotient, chain))
+    reduced = case.parameters.finite_elements
+    number = len(reduced.machine.bearings)
+    again = load(reduced.to_toml()).parameters.finite_elements.machine.bearings
+    assert [each.controller for each in again] == [each.controller for each in reduced.machine.bearings]
+    names = [name for name in reduced.machine.varied if name.endswith(f"_{number}") and name in case.parameters.varied]
+    for name in names:
+        value = case.parameters.value(name)
+        changed = case.parameters.replace(**{name: 1.001 * value})
+        assert changed.value(name) == pytest.approx(1.001 * value, rel=1e-15), name
+        assert load(SMALL.replace(quotient, chain), f"{name}={1.001 * value!r}").parameters.value(
+            name
+        ) == changed.value(name)
+    of_loop = {"filter1_notch_floor": 2, "zero1_imaginary": 2, "sos1_b1": 2, "sample_time": 2}
+    assert any(f"{name}_{number}" in names for name in of_loop)
+    assert f"gain_factor_{number}" in names
 
 
 def without(text, line):

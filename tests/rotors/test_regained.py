@@ -44,10 +44,10 @@ def generator(given, levitates):
     for bearing, size in zip(given.bearings, sizes, strict=True):
         node, own, loop = 2 * rotor.place_of(bearing.node), slice(first, first + size), bearing.loop
         if levitates:
-            forces[node, own] -= bearing.ki * loop.C
-            forces[node, node] -= bearing.ki * loop.D + bearing.ks
+            forces[node, own] -= bearing.ki * loop.C[0]
+            forces[node, node] -= bearing.ki * loop.D[0, 0] + bearing.ks
         if levitates or bearing.at_regain == "running":
-            matrix[own, own], matrix[own, node] = loop.A, loop.B
+            matrix[own, own], matrix[own, node] = loop.A, loop.B[:, 0]
         first = own.stop
     (unbalance,) = given.unbalances
     forces[2 * rotor.place_of(unbalance.node), -2] = unbalance.size * given.speed**2 * np.exp(1j * unbalance.angle)

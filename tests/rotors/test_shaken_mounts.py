@@ -57,8 +57,8 @@ def solved():
         for bearing, own in zip(bearings, loops, strict=True):
             node = 2 * rotor.place_of(bearing.node)
             seen, loop = place[node] - at, bearing.loop
-            forces[node] -= bearing.ki * (loop.C @ own + loop.D * seen) + bearing.ks * seen
-            changes.append(loop.A @ own + loop.B * seen)
+            forces[node] -= bearing.ki * (loop.C[0] @ own + loop.D[0, 0] * seen) + bearing.ks * seen
+            changes.append(loop.A @ own + loop.B[:, 0] * seen)
         held = MOUNT["mount_stiffness"] * (mounts - at) + MOUNT["mount_damping"] * (moving - speed)
         return np.concatenate(
             [velocity, np.linalg.solve(mass, forces), moving, (contact - held) / MOUNT["mount_mass"], *changes]

@@ -2,8 +2,9 @@
 
 ========================  =================================================================
 ``shaft_parts``           :class:`ShaftSection`, its :class:`Material` and element; :class:`Disc`; :class:`ModalDamping`, :class:`ProportionalDamping`
-``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
-``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
+``state_spaces``          :class:`StateSpace`: linear systems, sampled ones with their hold
+``controllers``           :class:`PID`, :class:`TransferFunction` and others, filters in :class:`Series`, and those of other libraries
+``filters``               :class:`Notch`, :class:`LeadLag`, :class:`LowPass`
 ``bearing_limits``        limits of magnetic bearings as those of a model
 ``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
 ``support``               :class:`Support`: a seal, a fluid-film bearing, a spring
@@ -33,7 +34,8 @@
 """
 
 from carom.rotors.attachments import TouchdownPlane, Unbalance
-from carom.rotors.controllers import PID, TransferFunction
+from carom.rotors.controllers import PID, SecondOrderSections, Series, TransferFunction, VoltagePID, ZerosPolesGain
+from carom.rotors.filters import LeadLag, LowPass, Notch
 from carom.rotors.flexible_machine import FlexibleMachine, rigid_rotor
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.flexible_rotor import FlexibleRotor
@@ -60,14 +62,19 @@ __all__ = [
     "FlexibleMachine",
     "FlexibleRotor",
     "ImportedRotor",
+    "LeadLag",
+    "LowPass",
     "MagneticBearing",
     "Material",
     "MatrixRotor",
     "ModalDamping",
+    "Notch",
     "ProportionalDamping",
     "ReducedMachine",
     "RigidRotor",
+    "SecondOrderSections",
     "Sensitivity",
+    "Series",
     "ShaftSection",
     "StateSpace",
     "Support",
@@ -75,7 +82,9 @@ __all__ = [
     "TouchdownPlane",
     "TransferFunction",
     "Unbalance",
+    "VoltagePID",
     "WhirlMode",
+    "ZerosPolesGain",
     "campbell",
     "find_whirls",
     "import_rotor",

@@ -29,6 +29,8 @@ class _LimitPlace(NamedTuple):
     """Displacement at it per coordinate, shape (n,)."""
     current: np.ndarray
     """Its current, A, per coordinate, shape (n,)."""
+    current_rate: np.ndarray
+    """Its current per rate of a coordinate, shape (n,)."""
     rate: np.ndarray
     """Rate of the last state of its loop per coordinate, shape (n,)."""
     last: int
@@ -51,7 +53,13 @@ def limits_of_bearings(
     last = len(equations.mass) - sum(each.loop.states for each in bearings) - 1
     for number, bearing in enumerate(bearings):
         last += bearing.loop.states
-        place = _LimitPlace(pulls[number], equations.currents[number], -equations.stiffness[last].real, last)
+        place = _LimitPlace(
+            pulls[number],
+            equations.currents[number],
+            equations.current_rates[number],
+            -equations.stiffness[last].real,
+            last,
+        )
         found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
     return tuple(found)
 
@@ -64,17 +72,19 @@ def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterato
     push = bearing.ki * place.pulls
     if bearing.amplifier_bandwidth is None:
         if min(of_force, of_current) < np.inf:
-            yield Limit(min(of_force, of_current), place.current, none, push, angle=bearing.axis_angle)
+            yield Limit(min(of_force, of_current), place.current, place.current_rate, push, angle=bearing.axis_angle)
         return
-    bandwidth, out = bearing.amplifier_bandwidth, float(bearing.loop.C[-1])
+    bandwidth, out = bearing.amplifier_bandwidth, float(bearing.loop.C[0, -1])
     state = np.eye(len(none))[place.last] / out
     changing, follows = out * place.rate, (0.0,) * before
+    # Behind an ideal derivative the current has a part of the displacement beside the last state.
+    moving = place.current_rate + place.current - out * np.eye(len(none))[place.last]
     if of_current < np.inf:
         asked = place.current + changing / bandwidth
-        yield Limit(of_current, asked, none, none, -bandwidth * state, bearing.axis_angle)
+        yield Limit(of_current, asked, moving / bandwidth, none, -bandwidth * state, bearing.axis_angle)
         follows = (*follows, -bandwidth)
     if bearing.slew_rate_limit is not None:
-        yield Limit(bearing.slew_rate_limit, changing, none, none, -state, bearing.axis_angle, follows)
+        yield Limit(bearing.slew_rate_limit, changing, moving, none, -state, bearing.axis_angle, follows)
     if of_force < of_current:
         yield Limit(of_force, place.current, none, push, angle=bearing.axis_angle)
 
@@ -85,7 +95,7 @@ def _in_units(limit: Limit, scales: Scales) -> Limit:
     return Limit(
         limit.bound,
         limit.displacement * unit,
-        limit.velocity,
+        limit.velocity * unit * scales.speed,
         limit.accelerations / (unit * scales.speed**2),
         np.asarray(limit.rates) / (unit * scales.speed),
         limit.angle,

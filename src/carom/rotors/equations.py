@@ -33,6 +33,8 @@ class RotorEquations(NamedTuple):
     """Displacement at each touchdown bearing, relative to its mount, shape (P, n)."""
     currents: np.ndarray
     """Current of each bearing, A, per coordinate, shape (B, n)."""
+    current_rates: np.ndarray
+    """The same per rate of a coordinate: of ideal derivatives."""
     regained: np.ndarray
     """What coordinates are multiplied by when levitation is regained, shape (n,): 0 for states of controllers that are reset."""
     carried: np.ndarray
@@ -157,14 +159,16 @@ def equations_of(
     damping[states, states] = np.eye(size - first)
     left = np.stack([damping, stiffness])
     regained = np.ones(size)
-    currents = np.zeros((len(bearings), size))
+    currents, current_rates = np.zeros((2, len(bearings), size))
     for number, bearing in enumerate(bearings):
         pulls, seen = loops.bearings[number] @ basis.shapes, loops.sensors[number] @ basis.shapes
         loop, own = bearing.loop, slice(first, first + bearing.loop.states)
-        currents[number, free], currents[number, own] = loop.D * seen, loop.C
+        currents[number, free], currents[number, own] = loop.D[0] * seen, loop.C[0]
+        current_rates[number, free] = loop.rate[0] * seen
         stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
+        damping[free] += bearing.ki * np.outer(pulls, current_rates[number])
         stiffness[free, free] += bearing.ks * np.outer(pulls, pulls)
-        stiffness[own, free], stiffness[own, own] = -np.outer(loop.B, seen), -loop.A
+        stiffness[own, free], stiffness[own, own] = -np.outer(loop.B[:, 0], seen), -loop.A
         if bearing.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
             left[1, own, own], regained[own] = restart * np.eye(loop.states), 0.0
@@ -175,7 +179,18 @@ def equations_of(
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
     return RotorEquations(
-        mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, regained, carried, held.across
+        mass,
+        damping,
+        gyroscopic,
+        stiffness,
+        forcing,
+        left,
+        planes,
+        currents,
+        current_rates,
+        regained,
+        carried,
+        held.across,
     )
 
 

@@ -18,7 +18,7 @@ from carom.parameters.fields import RPM
 from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.tables import read_entries
 from carom.rotors.attachments import PLANE_FIELDS, TouchdownPlane, Unbalance
-from carom.rotors.controllers import PID, PID_FIELDS
+from carom.rotors.controllers import Series, controller_of
 from carom.rotors.equations import Slowest, loops_of, slowest_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import WHOLE, NamedParameters
@@ -246,8 +246,7 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     yield "rotor", machine.rotor.words
     yield "speed", f"{number(machine.speed / RPM)} rpm"
     for place, bearing in enumerate(machine.bearings, start=1):
-        controller = bearing.controller
-        law = _entries(controller, PID_FIELDS) if isinstance(controller, PID) else type(controller).__name__
+        law = _law(bearing.controller)
         seen = "" if bearing.sensor_nodes == (bearing.node,) else f", sensors at {at(*bearing.sensor_nodes)}"
         yield f"magnetic bearing {place}", f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {law}"
     for place, support in enumerate(machine.supports, start=1):
@@ -264,7 +263,24 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
         )
 
 
+def _law(controller: object) -> str:
+    """A controller in words; of a sampled one how well it is approximated."""
+    if isinstance(controller, Series):
+        return "; ".join(map(_law, (controller.controller, *controller.filters)))
+    if fields := getattr(controller, "fields", {}):
+        return _entries(controller, fields)
+    name, space = type(controller).__name__, controller_of(controller).state_space
+    if space.sample_time is None:
+        return name
+    error, time = space.sampling_error(space.highest), 1e6 * space.sample_time
+    return f"{name} in z every {number(time)} us with its hold, as a quotient in s right to {error:.1g} up to {number(space.highest / (2.0 * math.pi))} Hz"
+
+
 def _entries(part: object, fields: Mapping[str, Field]) -> str:
     """Entries of a part by their names in the file, without those that are zero or not there."""
     given = ((name, getattr(part, name), field) for name, field in fields.items())
-    return ", ".join(f"{name.replace('_', ' ')} {format_entry(field, value)}" for name, value, field in given if value)
+    return ", ".join(
+        f"{name.replace('_', ' ')} {format_entry(field, value)}"
+        for name, value, field in given
+        if value and (name, value) != ("gain_factor", 1.0)
+    )

@@ -19,16 +19,17 @@ from carom.parameters.fields import nearest_name, why_not_modelled
 from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import PREFIX
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
-from carom.rotors.controllers import PID_FIELDS
+from carom.rotors.controllers import numbers_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import BEARING_FIELDS
 from carom.rotors.support import SUPPORT_FIELDS
 
 WHOLE: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
 """Parameters of the machine as a whole, beside its weight."""
-OF_STATES = ("integral", "derivative", "delay")
+OF_STATES = ("integral", "derivative", "filter_time", "delay")
 """Entries at zero of which a controller has fewer states."""
-_Paths = dict[str, tuple[tuple[str, ...], Field]]
+_Path = tuple[str | int, ...]
+_Paths = dict[str, tuple[_Path, Field]]
 """By the name of an entry, the attributes that lead to it from its part, and its field."""
 
 
@@ -37,10 +38,7 @@ def _own(fields: Mapping[str, Field]) -> _Paths:
 
 
 _KINDS: Mapping[str, tuple[str, _Paths]] = {
-    "bearings": (
-        "magnetic bearing",
-        {name: (("controller", name), field) for name, field in PID_FIELDS.items()} | _own(BEARING_FIELDS),
-    ),
+    "bearings": ("magnetic bearing", _own(BEARING_FIELDS)),
     "supports": ("support", _own(SUPPORT_FIELDS)),
     "touchdowns": (
         "touchdown bearing",
@@ -51,18 +49,27 @@ _KINDS: Mapping[str, tuple[str, _Paths]] = {
 """By the attribute of a machine, what its parts are called, and their entries."""
 
 
-def _read(part: object, path: Sequence[str]) -> Any:
+def _read(part: Any, path: _Path) -> Any:
     """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth, or changes no motion."""
     if path[0] == "bearing" and path[1] not in getattr(part, path[0]).of_motion:
         return None
     for name in path:
-        part = getattr(part, name, None)
+        part = part[name] if isinstance(name, int) else getattr(part, name, None)
     return None if path[-1] == "exponent" and part == 1.0 else part
 
 
-def _changed(part: Any, path: Sequence[str], value: float) -> Any:
-    name, *rest = path
-    return replace(part, **{name: _changed(getattr(part, name), rest, value) if rest else value})
+def _changed(part: Any, path: _Path, value: float) -> Any:
+    name, rest = path[0], path[1:]
+    own = _changed(part[name] if isinstance(name, int) else getattr(part, name), rest, value) if rest else value
+    return (*part[:name], own, *part[name + 1 :]) if isinstance(name, int) else replace(part, **{name: own})
+
+
+def _entries_of(attribute: str, part: object) -> _Paths:
+    """Entries of a part that are stated; those of a bearing with the numbers of its controller."""
+    _, paths = _KINDS[attribute]
+    found = {name: own for name, own in paths.items() if _read(part, own[0]) is not None}
+    controller = getattr(part, "controller", None)
+    return {name: (("controller", *path), field) for name, (path, field) in numbers_of(controller).items()} | found
 
 
 class Entry(NamedTuple):
@@ -71,7 +78,7 @@ class Entry(NamedTuple):
     field: Field
     entry: str
     attribute: str
-    path: tuple[str, ...]
+    path: _Path
     numbers: list[int]
 
     def values(self, machine: NamedParameters) -> list[float]:
@@ -97,15 +104,19 @@ class NamedParameters:
     def entries(self) -> Mapping[str, Entry]:
         """The entries of parts by the names of parameters: of all parts of a kind if each has it, and of each."""
         found = {}
-        for attribute, (kind, paths) in _KINDS.items():
-            parts = getattr(self, attribute)
-            for entry, (path, field) in paths.items():
-                numbers = [number for number, part in enumerate(parts) if _read(part, path) is not None]
-                if parts and len(numbers) == len(parts):
+        for attribute, (kind, _) in _KINDS.items():
+            parts = [_entries_of(attribute, part) for part in getattr(self, attribute)]
+            listed: _Paths = {}
+            for part in parts:
+                listed |= {name: own for name, own in part.items() if name not in listed}
+            for entry, (path, field) in listed.items():
+                numbers = [number for number, part in enumerate(parts) if entry in part]
+                if len({parts[number][entry] for number in numbers}) == 1 and len(numbers) == len(parts):
                     found[entry] = Entry(replace(field, name=entry), entry, attribute, path, numbers)
                 for number in numbers:
-                    name, words = f"{entry}_{number + 1}", f"{field.words}, of {kind} {number + 1}"
-                    found[name] = Entry(replace(field, name=name, words=words), entry, attribute, path, [number])
+                    own, single = parts[number][entry]
+                    name, words = f"{entry}_{number + 1}", f"{single.words}, of {kind} {number + 1}"
+                    found[name] = Entry(replace(single, name=name, words=words), entry, attribute, own, [number])
         return found
 
     @property

@@ -15,19 +15,21 @@ from carom.parameters import Field
 from carom.parameters.fields import by_name
 from carom.parameters.tables import read_entries
 from carom.parameters.terms import HELPER_FIELDS
-from carom.rotors.controllers import state_space_of
+from carom.rotors.controllers import PID, VoltagePID, controller_of, state_space_of
 from carom.rotors.shaft_parts import read_node
-from carom.rotors.state_spaces import StateSpace, delay, lag
+from carom.rotors.state_spaces import PADE, StateSpace, delay, gain, in_series, lag
 
 SINGULAR = 1e12
 """Condition of the matrix of a controller above which it integrates."""
 AT_REGAIN = ("reset", "hold", "running")
 """What the states of a controller are when levitation that was lost is regained."""
-PADE = 3
-"""Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s."""
 BEARING_FIELDS: Mapping[str, Field] = by_name(
     Field("ki", "k_i", "force of the bearing per current", "a force per current", "N/A", 1e-9, 1e12, '"50 N/A"'),
     Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
+    Field("gain_factor", "", "factor of the whole controller", "a number", "", 1e-6, 1e6, "1.2"),
+    Field("sensor_gain", "", "voltage of the sensors per displacement; the controller then is one of voltages, V/V", "a gain", "V/m", 1e-6, 1e12, '"10 V/mm"'),
+    Field("amplifier_gain", "", "current of the amplifier per voltage", "a gain", "A/V", 1e-9, 1e9, '"0.8 A/V"'),
+    Field("sensor_bandwidth", "", "bandwidth of the sensors", "an angular frequency", "rad/s", 1e-3, 1e9, '"10 kHz"'),
     Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True, usual="ms", usual_size=1e-3),
     Field("amplifier_bandwidth", "", "bandwidth of the amplifier", "an angular frequency", "rad/s", 1e-3, 1e9, '"1 kHz"'),
     Field("slew_rate_limit", "(di/dt)_max", "largest rate of the control current of a bearing: voltage over inductance", "a rate of current", "A/s", 1e-12, 1e15, '"5000 A/s"'),
@@ -42,7 +44,9 @@ class MagneticBearing:
 
     With the displacements ``z`` at the bearing and ``y`` at the sensors it pulls with
 
-        f = −ki i − ks z,      i = C(s) e^{−sT} ω_b/(s + ω_b) y.
+        f = −ki i − ks z,      i = C(s) e^{−sT} ω_b/(s + ω_b) y;
+
+    with the gains of sensors and amplifier the controller is what is between their voltages, ``i = k_a C(s) k_s e^{−sT} ω_b/(s + ω_b) y``.
 
     Along each axis the current that the controller asks for, the rate of the current of the amplifier and the force ``ki i`` are no larger than the limits;
     states of the controller, such as integrators, wind up then.  Every number is in the SI unit below, or text with a unit.
@@ -55,12 +59,12 @@ class MagneticBearing:
         Force per current, N/A.
     ks : float or str
         Stiffness at constant current, N/m: below zero, as a magnet pulls harder the nearer the rotor is.
-    controller : PID, TransferFunction, StateSpace, or a system of SciPy or python-control
-        ``C``: current per displacement, A/m, in continuous time; a gain above zero opposes a displacement.
+    controller : PID, TransferFunction, ZerosPolesGain, SecondOrderSections, StateSpace, Series, or a system of SciPy or python-control
+        ``C``: current per displacement, A/m, or V/V with the next but one gains; a gain above zero opposes a displacement.  One with a sample time has its hold.
     sensor_nodes : sequence of int, optional
         Where its sensors are, whose mean it takes; by default at the bearing.
     delay : float or str, optional
-        ``T`` of sampling and computing, s, by Padé's approximation.
+        ``T`` of computing, and of sampling where the controller has no sample time, s, by Padé's approximation.
     amplifier_bandwidth : float or str, optional
         ``ω_b``, rad/s or such as ``"1 kHz"``; by default the amplifier is not in the way.
     force_limit, current_limit, slew_rate_limit : float or str, optional
@@ -70,6 +74,12 @@ class MagneticBearing:
         Radial air gap of its magnets, m: where the rotor reaches them a motion ends; by default it is not known.
     axis_angle : float or str, optional
         Angle of one of its axes in the fixed frame, rad; 0 by default.
+    gain_factor : float, optional
+        Factor of the whole controller, 1 by default.
+    sensor_gain, amplifier_gain : float or str, optional
+        ``k_s``, V/m, and ``k_a``, A/V; both or none.
+    sensor_bandwidth : float or str, optional
+        rad/s or such as ``"10 kHz"``; by default the sensors are not in the way.
     at_regain : {"reset", "hold", "running"}
         The states of controller, delay and amplifier when levitation is regained: all at zero, as they were when it was lost, or, without integral
         gain, such as they are after measuring all the while.
@@ -77,7 +87,7 @@ class MagneticBearing:
     Raises
     ------
     InputError
-        A value is not of this kind or out of range, the controller no such system, or the rate is limited without an amplifier.
+        A value is not of this kind or out of range, the controller no such system, the rate is limited without an amplifier, or one of two gains is missing.
     """
 
     node: int
@@ -93,6 +103,10 @@ class MagneticBearing:
     air_gap: float | None = None
     axis_angle: float = 0.0
     at_regain: str = "reset"
+    gain_factor: float = 1.0
+    sensor_gain: float | None = None
+    amplifier_gain: float | None = None
+    sensor_bandwidth: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("bearing node", self.node))
@@ -105,6 +119,8 @@ class MagneticBearing:
         if self.slew_rate_limit is not None and self.amplifier_bandwidth is None:
             allowed = "none without amplifier_bandwidth: it is the amplifier whose current changes no faster"
             raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
+        object.__setattr__(self, "controller", controller_of(self.controller))
+        self._check_gains()
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
         integrates = self._integrates
@@ -112,15 +128,41 @@ class MagneticBearing:
             allowed = "reset or hold for a controller that integrates: running, it would add up the place of a rotor that falls, which is not followed"
             raise InputError("at_regain", shown(self.at_regain), allowed)
 
+    def _check_gains(self) -> None:
+        """Refuse one gain of the chain without the other, and gains of a controller in units that it does not have."""
+        gains = {name: getattr(self, name) for name in ("sensor_gain", "amplifier_gain")}
+        if None in gains.values():
+            for name, other in zip(gains, reversed(gains), strict=True):
+                if gains[name] is not None:
+                    raise InputError(other, None, f"stated beside {name}: the controller then is one of voltages, V/V")
+        if not state_space_of(self.controller).is_single:
+            raise InputError("controller", "several inputs or outputs", "one input and one output")
+        own = getattr(self.controller, "controller", self.controller)
+        if isinstance(own, PID) and isinstance(own, VoltagePID) != (self.sensor_gain is not None):
+            allowed = "carom.rotors.VoltagePID with sensor_gain and amplifier_gain, and PID, in A/m, without them"
+            raise InputError("controller", type(own).__name__, allowed)
+
+    @property
+    def sensor_chain(self) -> StateSpace | None:
+        """What is before the controller; ``None`` where that is nothing."""
+        chain = [] if self.sensor_bandwidth is None else [lag(self.sensor_bandwidth)]
+        chain += [] if self.sensor_gain is None else [gain(self.sensor_gain)]
+        return in_series(chain) if chain else None
+
+    @property
+    def amplifier_chain(self) -> StateSpace | None:
+        """What is behind the controller, the amplifier last; ``None`` where that is nothing."""
+        chain = [delay(self.delay, PADE)] if self.delay else []
+        factor = self.gain_factor * (self.amplifier_gain or 1.0)
+        chain += [] if factor == 1.0 else [gain(factor)]
+        chain += [] if self.amplifier_bandwidth is None else [lag(self.amplifier_bandwidth)]
+        return in_series(chain) if chain else None
+
     @cached_property
     def loop(self) -> StateSpace:
-        """Current per displacement: controller, delay and amplifier, one after the other."""
-        whole = state_space_of(self.controller)
-        if self.delay:
-            whole = whole.then(delay(self.delay, PADE))
-        if self.amplifier_bandwidth is not None:
-            whole = whole.then(lag(self.amplifier_bandwidth))
-        return whole.balanced()
+        """Current per displacement: sensors, controller, delay and amplifier, one after the other."""
+        parts = (self.sensor_chain, state_space_of(self.controller), self.amplifier_chain)
+        return in_series([each for each in parts if each is not None]).balanced()
 
     @property
     def _integrates(self) -> bool:
@@ -132,4 +174,4 @@ class MagneticBearing:
         """Stiffness against a steady displacement at its sensors and itself, ``ki C(0) + ks``, N/m; infinite with an integrator."""
         if self._integrates:
             return math.inf
-        return self.ki * float(self.loop.at(np.array(0.0)).real) + self.ks
+        return self.ki * float(np.real(self.loop.at(np.array(0.0)))) + self.ks

@@ -8,12 +8,22 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from carom.base.outcome import InputError, together
+from carom.base.outcome import InputError, shown, together
 from carom.parameters import MACHINE_FIELDS, TOUCHDOWN_FIELDS, Field, TouchdownBearing
-from carom.parameters.fields import by_name
+from carom.parameters.fields import by_name, unknown_name
 from carom.parameters.tables import toml_line
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
-from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction, state_space_of
+from carom.rotors.controllers import (
+    PID,
+    PID_FIELDS,
+    Controller,
+    SecondOrderSections,
+    Series,
+    TransferFunction,
+    VoltagePID,
+    ZerosPolesGain,
+)
+from carom.rotors.filters import LEAD_FIELDS, LOW_PASS_FIELDS, NOTCH_FIELDS, LeadLag, LowPass, Notch
 from carom.rotors.flexible_rotor import LONGEST
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS
@@ -29,7 +39,7 @@ from carom.rotors.shaft_parts import (
     ProportionalDamping,
     ShaftSection,
 )
-from carom.rotors.state_spaces import StateSpace
+from carom.rotors.state_spaces import SAMPLE_TIME, StateSpace
 from carom.rotors.support import SUPPORT_FIELDS, Support
 
 if TYPE_CHECKING:
@@ -59,13 +69,30 @@ ATTACHED = {
 """Parts of a machine beside its rotor, and their tables."""
 PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
 """Entries of the parts of a rigid rotor, and those that they stand for."""
-_QUOTIENT, _MATRICES = ("numerator", "denominator"), ("A", "B", "C", "D")
-_CONTROLLERS: tuple[tuple[Callable[..., object], Iterable[str], tuple[str, ...]], ...] = (
-    (PID, PID_FIELDS, ("proportional",)),
-    (TransferFunction, _QUOTIENT, _QUOTIENT),
-    (StateSpace, _MATRICES, _MATRICES),
+_SAMPLED = {"sample_time": SAMPLE_TIME}
+
+
+class _Kind(NamedTuple):
+    """A kind of controller or filter: what it may hold, besides what it needs, and what it makes."""
+
+    make: Callable[..., Controller]
+    needed: tuple[str, ...]
+    entries: Mapping[str, Field]
+
+
+_QUOTIENTS = (
+    _Kind(TransferFunction, ("numerator", "denominator"), _SAMPLED),
+    _Kind(ZerosPolesGain, ("zeros", "poles", "gain"), _SAMPLED),
+    _Kind(SecondOrderSections, ("sos",), _SAMPLED),
+    _Kind(StateSpace, ("A", "B", "C", "D"), _SAMPLED),
 )
-"""Each with its entries, and those that it needs."""
+_CONTROLLERS = (_Kind(PID, ("proportional",), PID_FIELDS), *_QUOTIENTS)
+_FILTERS = (
+    _Kind(Notch, ("notch_frequency",), NOTCH_FIELDS),
+    _Kind(LeadLag, ("lead_zero", "lead_pole"), LEAD_FIELDS),
+    _Kind(LowPass, ("low_pass_frequency",), LOW_PASS_FIELDS),
+    *_QUOTIENTS,
+)
 
 
 def entries_in(entry: Mapping[str, object], names: Iterable[str]) -> dict[str, Any]:
@@ -112,16 +139,51 @@ def _disc(entry: Mapping[str, Any]) -> Disc:
 
 
 def _bearing(entry: Mapping[str, Any]) -> MagneticBearing:
-    stated = [each for each in _CONTROLLERS if entries_in(entry, each[1])]
-    if len(stated) != 1:
-        allowed = (
-            "one of: proportional (with integral, derivative, filter_time), numerator and denominator, or A, B, C and D"
-        )
-        raise InputError("controller", ", ".join(needed[0] for *_, needed in stated) or None, allowed)
-    kind, names, needed = stated[0]
-    require(entry, needed)
     own = entries_in(entry, ("node", "sensor_nodes", "at_regain", *BEARING_FIELDS))
-    return MagneticBearing(**own, controller=kind(**entries_in(entry, names)))
+    return MagneticBearing(**own, controller=_controller(entry, in_volts="sensor_gain" in entry))
+
+
+def _controller(entry: Mapping[str, object], in_volts: bool) -> Controller:
+    """The controller of a table, with its filters."""
+    found, filters = _of_kind("controller", entry, _CONTROLLERS, VoltagePID if in_volts else PID), []
+    listed = entry.get("filter", [])
+    if not isinstance(listed, list) or not all(isinstance(each, Mapping) for each in listed):
+        raise InputError(
+            "filter", shown(listed), "tables that start with the line [[magnetic_bearing.filter]], one for each"
+        )
+    for number, each in enumerate(listed, start=1):
+        known = dict.fromkeys(name for kind in _FILTERS for name in (*kind.needed, *kind.entries))
+        try:
+            if unknown := [name for name in each if name not in known]:
+                raise unknown_name(unknown[0], each[unknown[0]], known, "[[magnetic_bearing.filter]]")
+            filters.append(_of_kind("filter", each, _FILTERS))
+        except InputError as problem:
+            raise together(
+                [InputError(f"filter {number}: {one.field}", one.value, one.allowed) for one in problem.errors]
+            ) from None
+    return Series(found, filters) if filters else found
+
+
+def _of_kind(what: str, entry: Mapping[str, object], kinds: Iterable[_Kind], gains: type[PID] = PID) -> Controller:
+    """The controller or filter that a table states."""
+    stated = [
+        each
+        for each in kinds
+        if entries_in(entry, {**dict.fromkeys(each.needed), **each.entries}.keys() - _SAMPLED.keys())
+    ]
+    if len(stated) != 1:
+        allowed = "; or ".join(" and ".join(each.needed) for each in kinds)
+        raise InputError(what, ", ".join(each.needed[0] for each in stated) or None, f"one of: {allowed}")
+    kind = stated[0]
+    require(entry, kind.needed)
+    if "sample_time" in entry and "sample_time" not in kind.entries:
+        raise InputError(
+            "sample_time",
+            shown(entry["sample_time"]),
+            "none beside gains: state the controller in z, or the delay of sampling and computing as delay",
+        )
+    make: Callable[..., Controller] = gains if kind.make is PID else kind.make
+    return make(**entries_in(entry, dict.fromkeys((*kind.needed, *kind.entries))))
 
 
 def _plane(entry: Mapping[str, Any]) -> TouchdownPlane:
@@ -140,10 +202,11 @@ class PartTable(NamedTuple):
 _NODE, _PLACE = {"node": None}, {"node": None, "position": POSITION}
 _DIAMETERS = by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter")))
 _OF_BEARING = {"sensor_nodes": None, "sensor_positions": None, "at_regain": None, **BEARING_FIELDS, **PID_FIELDS}
+_OF_CONTROLLER = {**dict.fromkeys(name for kind in _QUOTIENTS for name in kind.needed), **_SAMPLED, "filter": None}
 PARTS: Mapping[str, PartTable] = {
     "section": PartTable({**SECTION_FIELDS, **MATERIAL_FIELDS}, ("length", "outer_diameter"), _section),
     "disc": PartTable({**_NODE, **DISC_FIELDS, "width": None, **_DIAMETERS, **MATERIAL_FIELDS}, ("node",), _disc),
-    "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **dict.fromkeys((*_QUOTIENT, *_MATRICES))}, ("node", "ki", "ks"), _bearing),
+    "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER}, ("node", "ki", "ks"), _bearing),
     "support": PartTable({**_PLACE, **SUPPORT_FIELDS}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
     "touchdown": PartTable({**_PLACE, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS}, ("node", "law", "rotor_radius", "friction", "clearance"), _plane),
     "unbalance": PartTable({**_PLACE, **UNBALANCE_FIELDS}, ("node", "size"), lambda entry: Unbalance(**entry)),
@@ -186,10 +249,14 @@ def _entries(part: Any) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in (field.name for field in dataclasses.fields(part)):
         value = getattr(part, name)
-        if name == "controller" and not dataclasses.is_dataclass(value):
-            value = state_space_of(value)
         if dataclasses.is_dataclass(value):
             found |= _entries(value)
+        elif name == "filters":
+            found["filter"] = [_entries(each) for each in value]
+        elif name == "rate" and np.any(value):
+            raise InputError("controller", "matrices with an ideal derivative", "one that a machine file can hold")
+        elif name == "rate":
+            continue
         elif value is not None:
             found[name] = value.tolist() if isinstance(value, np.ndarray) else value
     return found
@@ -199,5 +266,10 @@ def _table(head: str, entries: dict[str, Any], fields: Any) -> str:
     units = {name: field.unit for name, field in fields.items() if isinstance(field, Field)}
     if entries.get("exponent", 1.0) != 1.0:
         units["stiffness"] += f"^{entries['exponent']:.6g}"
-    lines = [toml_line(name, value, units.get(name, "")) for name, value in entries.items()]
-    return "\n".join([head, *lines]) + "\n"
+    filters = entries.get("filter", [])
+    if "sensor_gain" in entries:
+        units |= {name: field.unit for name, field in VoltagePID.fields.items()}
+    lines = [toml_line(name, value, units.get(name, "")) for name, value in entries.items() if name != "filter"]
+    own = {name: field for kind in _FILTERS for name, field in kind.entries.items()}
+    inner = [_table(head.replace("]]", ".filter]]"), each, own) for each in filters]
+    return "\n".join([head, *lines, *inner]) + "\n"

@@ -1,31 +1,43 @@
-"""Linear systems with one input and one output, as matrices: controllers, filters, delays, and one after the other."""
+"""Linear systems as matrices: controllers, filters, delays, sampled systems with their hold, and one after the other."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
 
 from carom.base.outcome import InputError, shown
+from carom.parameters import Field, read_quantity
 
 LARGEST = 1e100
 """Largest number of a controller: products of two still are numbers."""
 SWEEPS, SETTLED = 50, 1e-12
 """Most sweeps of balancing, and the relative change of the units at which it ends; a few sweeps do."""
+PADE = 3
+"""Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s.  It is odd, so that integrators of sampled systems have one."""
+SMALL = 1e-9
+"""Share of the largest size of a system below which errors are compared with that share."""
+SAMPLE_TIME = Field("sample_time", "", "time between samples of a controller whose numbers are those of z", "a time", "s", 1e-9, 10.0, '"50 us"', usual="ms", usual_size=1e-3)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """``ẋ = Ax + By``, ``u = Cx + Dy``, with real numbers and time in s.
+    """``ẋ = Ax + By``, ``u = Cx + Dy``, with real numbers and time in s; or with a sample time ``x⁺ = Ax + By`` from sample to sample.
 
     Attributes
     ----------
     A : array_like, shape (s, s)
-    B : array_like, shape (s, 1) or (s,)
-    C : array_like, shape (1, s) or (s,)
-    D : array_like, shape (1, 1), or float
+    B : array_like, shape (s, m) or (s,)
+    C : array_like, shape (p, s) or (s,)
+    D : array_like, shape (p, m), or float
+    sample_time : float or str, optional
+        s; by default it is in continuous time.
+    rate : array_like, shape (p, m), or float
+        What ``u`` has of ``ẏ`` beside: an ideal derivative; 0 by default.
 
     Raises
     ------
@@ -36,41 +48,77 @@ class StateSpace:
     A: np.ndarray
     B: np.ndarray
     C: np.ndarray
-    D: float
+    D: np.ndarray
+    sample_time: float | None = None
+    rate: Any = 0.0
 
     def __post_init__(self) -> None:
         matrices = {name: real_numbers(f"controller {name}", getattr(self, name)) for name in "ABCD"}
+        straight = np.atleast_2d(matrices["D"])
         size = matrices["A"].shape[0] if matrices["A"].ndim == 2 else -1
         size = 0 if not matrices["A"].size else size
-        for name, count in {"A": size * size, "B": size, "C": size, "D": 1}.items():
-            if matrices[name].size != count:
-                words = {"A": "a square matrix", "D": "one number: one input and one output"}
-                allowed = words.get(name, f"{size} numbers, one for each state: one input and one output")
-                raise InputError(f"controller {name}", f"an array of shape {matrices[name].shape}", allowed)
-        object.__setattr__(self, "A", matrices["A"].reshape(size, size))
-        object.__setattr__(self, "B", matrices["B"].reshape(size))
-        object.__setattr__(self, "C", matrices["C"].reshape(size))
-        object.__setattr__(self, "D", float(matrices["D"].reshape(())))
+        shapes = {
+            "A": (size, size),
+            "B": (size, straight.shape[1]),
+            "C": (straight.shape[0], size),
+            "D": straight.shape,
+        }
+        for name, shape in shapes.items():
+            given = matrices[name]
+            if (
+                given.size != shape[0] * shape[1]
+                or given.ndim > 2
+                or (given.ndim == 2 and given.size and given.shape != shape)
+            ):
+                words = {"A": "a square matrix", "D": "one number for each output and input"}
+                allowed = words.get(
+                    name,
+                    f"{size} numbers, one for each state, for each {'input' if name == 'B' else 'output'} that D has",
+                )
+                raise InputError(f"controller {name}", f"an array of shape {given.shape}", allowed)
+            object.__setattr__(self, name, given.reshape(shape))
+        rate = real_numbers("controller rate", self.rate)
+        object.__setattr__(self, "rate", np.zeros_like(straight) if not rate.any() else rate.reshape(straight.shape))
+        if self.sample_time is not None:
+            object.__setattr__(self, "sample_time", read_quantity(SAMPLE_TIME, self.sample_time))
+
+    @property
+    def state_space(self) -> StateSpace:
+        """It is one."""
+        return self
 
     @property
     def states(self) -> int:
         """Number of states."""
         return len(self.B)
 
+    @property
+    def is_single(self) -> bool:
+        """Whether it has one input and one output."""
+        return self.D.shape == (1, 1)
+
     def at(self, exponents: np.ndarray) -> np.ndarray:
-        """Output over input at exponents ``s``, 1/s, shape (m,)."""
-        unit = np.eye(self.states)
-        inner = [self.C @ np.linalg.solve(each * unit - self.A, self.B) for each in np.ravel(exponents)]
-        return np.array(inner).reshape(np.shape(exponents)) + self.D
+        """Output over input at exponents ``s``, 1/s, shape (...), or at ``z``; with several inputs or outputs of shape (..., p, m)."""
+        unit, listed = np.eye(self.states), np.ravel(exponents)
+        inner = [self.C @ np.linalg.solve(each * unit - self.A, self.B) + self.D + each * self.rate for each in listed]
+        shape = np.shape(exponents)
+        return np.array(inner).reshape(shape if self.is_single else (*shape, *self.D.shape))
 
     def then(self, other: StateSpace) -> StateSpace:
         """Series connection: `self` followed by `other`."""
+        if (other.rate @ self.rate).any():
+            raise InputError(
+                "controller", "two ideal derivatives, one after the other", "a filter_time for one of them"
+            )
         corner = np.zeros((self.states, other.states))
+        # States of the other are counted from what the ideal derivative has moved them by, B R y.
+        moved = other.B @ self.rate
         return StateSpace(
-            A=np.block([[self.A, corner], [np.outer(other.B, self.C), other.A]]),
-            B=np.append(self.B, other.B * self.D),
-            C=np.append(other.D * self.C, other.C),
-            D=self.D * other.D,
+            A=np.block([[self.A, corner], [other.B @ self.C, other.A]]),
+            B=np.concatenate([self.B, other.B @ self.D + other.A @ moved]),
+            C=np.concatenate([other.D @ self.C + other.rate @ self.C @ self.A, other.C], axis=1),
+            D=other.D @ self.D + other.C @ moved + other.rate @ self.C @ self.B,
+            rate=other.D @ self.rate + other.rate @ self.D,
         )
 
     def balanced(self) -> StateSpace:
@@ -78,8 +126,8 @@ class StateSpace:
 
         What a controller is written down with, such as coefficients of polynomials, has numbers many powers of ten apart.
         """
-        whole = np.block([[self.A, self.B[:, None]], [self.C[None], np.zeros((1, 1))]])
-        np.fill_diagonal(whole, 0.0)
+        whole = np.block([[self.A, self.B], [self.C, np.zeros_like(self.D)]])
+        np.einsum("ii->i", whole[: self.states, : self.states])[:] = 0.0
         sizes = np.ones(self.states)
         for _ in range(SWEEPS):
             before = sizes.copy()
@@ -93,7 +141,71 @@ class StateSpace:
                     sizes[state] *= factor
             if np.allclose(before, sizes, rtol=SETTLED, atol=0.0):
                 break
-        return StateSpace(self.A * sizes / sizes[:, None], self.B / sizes, self.C * sizes, self.D)
+        return StateSpace(
+            self.A * sizes / sizes[:, None],
+            self.B / sizes[:, None],
+            self.C * sizes,
+            self.D,
+            self.sample_time,
+            self.rate,
+        )
+
+    @property
+    def held(self) -> StateSpace:
+        """A sampled system with the hold of its output, in continuous time: each shift of a sample time ``T`` by Padé's approximation.
+
+        The hold is ``(1 − e^{−sT})/(sT)``.  Poles inside the unit circle become poles left of the imaginary axis.  What sampling adds above half its frequency is left out.
+        """
+        if self.sample_time is None:
+            return self
+        shift = delay(self.sample_time, PADE)
+        unit, through = np.eye(self.states), float(shift.D[0, 0])
+        out, into = np.kron(unit, shift.C), np.kron(unit, shift.B)
+        next_states = np.linalg.solve(unit - through * self.A, np.concatenate([self.A @ out, self.B], axis=1))
+        by_states, by_input = np.split(next_states, [PADE * self.states], axis=1)
+        inner = StateSpace(
+            np.kron(unit, shift.A) + into @ by_states,
+            into @ by_input,
+            self.C @ (out + through * by_states),
+            self.D + through * self.C @ by_input,
+        )
+        time = self.sample_time
+        hold = of_polynomials([time**2 / 60.0, 0.0, 1.0], [time**3 / 120.0, time**2 / 10.0, time / 2.0, 1.0])
+        return inner.then(side_by_side([hold] * len(self.D))).balanced()
+
+    @property
+    def highest(self) -> float:
+        """A quarter of the sampling frequency, rad/s, up to which :attr:`held` is asked for its error."""
+        return 0.5 * math.pi / (self.sample_time or math.inf)
+
+    def sampling_error(self, frequency: float) -> float:
+        """Largest error of :attr:`held` up to a frequency, rad/s, over the size of the system at each; 0 in continuous time."""
+        if self.sample_time is None:
+            return 0.0
+        steps = 1j * np.linspace(1e-3, 1.0, 200) * frequency * self.sample_time
+        hold = -np.expm1(-steps) / steps
+        exact = self.at(np.exp(steps)) * hold.reshape(-1, *(1,) * (0 if self.is_single else 2))
+        found = self.held.at(steps / self.sample_time)
+        return float((np.abs(found - exact) / np.abs(exact).clip(min=SMALL * np.abs(exact).max())).max())
+
+
+def side_by_side(systems: Sequence[StateSpace]) -> StateSpace:
+    """Systems each with inputs and outputs of its own, as one."""
+
+    def along(name: str) -> np.ndarray:
+        blocks = [getattr(each, name) for each in systems]
+        ends = np.cumsum([(0, 0), *(each.shape for each in blocks)], axis=0)
+        whole = np.zeros(ends[-1])
+        for block, (row, column), (last, right) in zip(blocks, ends[:-1].tolist(), ends[1:].tolist(), strict=True):
+            whole[row:last, column:right] = block
+        return whole
+
+    return StateSpace(along("A"), along("B"), along("C"), along("D"), rate=along("rate"))
+
+
+def in_series(systems: Sequence[StateSpace]) -> StateSpace:
+    """Systems one after the other."""
+    return reduce(StateSpace.then, systems)
 
 
 def of_polynomials(numerator: object, denominator: object) -> StateSpace:
@@ -133,7 +245,12 @@ def delay(time: float, order: int) -> StateSpace:
 
 def lag(bandwidth: float) -> StateSpace:
     """A low-pass filter of first order with this bandwidth, rad/s."""
-    return StateSpace(np.array([[-bandwidth]]), np.array([bandwidth]), np.array([1.0]), 0.0)
+    return StateSpace(np.array([[-bandwidth]]), np.array([bandwidth]), np.array([1.0]), np.zeros(()))
+
+
+def gain(factor: float) -> StateSpace:
+    """A factor."""
+    return StateSpace(np.zeros((0, 0)), np.zeros(0), np.zeros(0), np.array(factor))
 
 
 def real_numbers(name: str, given: Any) -> np.ndarray:

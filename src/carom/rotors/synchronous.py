@@ -11,7 +11,7 @@ both directions, ``D′ = K′ = 0``, have circles, ``b = 0``.  Of a flexible ma
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -154,8 +154,12 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
     whole = _of_flexible(machine) if isinstance(machine, FlexibleMachine) else _of_model(rotor_of(machine))
     answers = Ellipses(*_answers(whole.equations, listed / whole.speed))
 
-    def seen(rows: np.ndarray) -> Ellipses:
-        return Ellipses(*(part[:, : rows.shape[1]] @ rows.T for part in answers))
+    def seen(rows: np.ndarray, by_rates: np.ndarray | float = 0.0) -> Ellipses:
+        turns = 1j * listed[:, None, None]
+        both = (rows + turns * by_rates, rows - turns * by_rates)
+        return Ellipses(
+            *(np.einsum("mn,mkn->mk", part[:, : rows.shape[1]], each) for part, each in zip(answers, both, strict=True))
+        )
 
     touchdowns = Ellipses(*(part * whole.length for part in seen(whole.equations.planes)))
     return SynchronousResponse(
@@ -164,7 +168,7 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
         whole.sags * whole.length,
         whole.clearances,
         seen(whole.sensors),
-        seen(whole.currents),
+        seen(whole.currents, whole.equations.current_rates),
         _saturation(whole, answers, listed / whole.speed),
         float(np.angle(np.vdot(whole.equations.carried, whole.equations.forcing))),
     )
@@ -191,6 +195,7 @@ def _of_model(model: Rotor) -> _Whole:
             unlevitated=np.zeros((2, n, n)),
             planes=system.planes,
             currents=none,
+            current_rates=none,
             regained=np.ones(n),
             carried=mass @ system.translated,
             across=np.zeros((2, n, n)) if conjugate is None else conjugate,
@@ -225,7 +230,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
         np.array(machine.clearances),
         seen,
         held.currents,
-        whole.limits,
+        tuple(replace(each, velocity=each.velocity / scales.speed) for each in whole.limits),
         scales.length * np.sqrt(scales.mass),
         resting,
     )
@@ -249,7 +254,7 @@ def _answer(equations: RotorEquations, speed: float) -> np.ndarray:
 
 
 def _saturation(whole: _Whole, answers: Ellipses, speeds: np.ndarray) -> np.ndarray:
-    """What is asked of each limit along the worse of its axes, as a share of it, shape (m, L).  Limits of flexible machines ask by coordinates alone."""
+    """What is asked of each limit along the worse of its axes, as a share of it, shape (m, L)."""
     found = np.zeros((len(speeds), len(whole.limits)))
     for place, limit in enumerate(whole.limits):
         turn = np.exp(-1j * limit.angle) / whole.limit_unit

@@ -82,6 +82,7 @@ _KINDS: Mapping[str, _ControlKind] = {
     "integral": _ControlKind(MAGNETS, "I gain: takes out the sag", "A/m/s", 10.0, least=5000.0),
     "derivative": _ControlKind(MAGNETS, "D gain: damping", "A s/m", 4.0, least=10.0),
     "filter_time": _ControlKind(MAGNETS, "filter of the D part", "ms", 10.0),
+    "gain_factor": _ControlKind(MAGNETS, "gain of the whole controller", "", 3.0),
     "delay": _ControlKind(MAGNETS, "delay of the controller", "ms", 5.0, least=0.2, logarithmic=False),
     "amplifier_bandwidth": _ControlKind(MAGNETS, "bandwidth of the amplifier", "Hz", 10.0),
     "current_limit": _ControlKind(MAGNETS, "largest current", "A", 5.0),
@@ -135,7 +136,19 @@ def _entries(case: Case) -> Mapping[str, Any]:
 
 
 def _kinds(case: Case) -> Mapping[str, _ControlKind]:
-    return _KINDS if "friction" in _named(case).varied else _DIMENSIONLESS
+    if "friction" not in _named(case).varied:
+        return _DIMENSIONLESS
+    of_controllers = {
+        each.entry: _ControlKind(
+            MAGNETS,
+            each.field.words.partition(", of magnetic")[0],
+            "Hz" if each.field.unit == "rad/s" else each.field.unit,
+            3.0,
+        )
+        for each in _entries(case).values()
+        if each.path[0] == "controller" and each.entry not in _KINDS and min(each.values(_named(case))) > 0.0
+    }
+    return {**_KINDS, **of_controllers}
 
 
 def _shared(case: Case) -> Iterator[Control]:
@@ -155,11 +168,12 @@ def _shared(case: Case) -> Iterator[Control]:
 def _single(case: Case) -> Iterator[Control]:
     """One for each part that is not the only one of its kind."""
     shared = {control.name for control in _shared(case)}
+    kinds = _kinds(case)
     for name, entry in _entries(case).items():
         own = entry.entry
-        if name == own or own not in _KINDS or len(getattr(_named(case), entry.attribute)) < 2:
+        if name == own or own not in kinds or len(getattr(_named(case), entry.attribute)) < 2:
             continue
-        kind, number = _KINDS[own], name.rpartition("_")[2]
+        kind, number = kinds[own], name.rpartition("_")[2]
         value = _value(case, name, _unit(case, name, kind))
         if value or own in _STATED_AT_ZERO:
             part = {MAGNETS: "magnetic bearing", TOUCHDOWNS: "touchdown bearing"}.get(kind.group)
