@@ -13,6 +13,7 @@ import carom as cm
 from carom.base.outcome import InputError
 from carom.closed_forms import BallRing, load_integral, point_contact
 from carom.parameters import TouchdownBearing
+from carom.studies.drops import load_entries, load_tables
 
 ROOT = Path(__file__).parents[2]
 SIZES = {"balls": 12, "ball_diameter": 6.35e-3, "race_diameter": 45e-3}
@@ -208,7 +209,12 @@ def test_a_bearing_without_a_stiffness_has_that_of_its_balls(tmp_path, name):
         case = cm.load(path, settings)
         return case, cm.models.rotor_of(case)
 
-    _, rotor = loaded(own)
+    case, rotor = loaded(own)
+    loads = cm.motions.drop_loads(cm.simulate(case, cm.drop(), "9 ms"))
+    for entry in load_entries(loads, case.limits):
+        assert entry["touchdown"]["of_balls"]["exponent"] == 1.5
+        assert entry["loads"]["ball_load_si"] == PLAIN.largest_load(entry["loads"]["force_si"])
+    assert all("stiffness of balls" in dict(rows) for _, rows in load_tables(loads, "the release"))
     law = PLAIN.law
     _, stated = loaded(own.replace("balls = 12", f"stiffness = {law.stiffness}\nexponent = 1.5\nballs = 12"))
     assert [each.law for each in rotor.equations.touchdowns] == [each.law for each in stated.equations.touchdowns]
@@ -218,7 +224,8 @@ def test_a_bearing_without_a_stiffness_has_that_of_its_balls(tmp_path, name):
     assert "touchdown_ball_diameter" not in stated.varied
     bearing = TouchdownBearing("hunt-crossley", dissipation=0.3, **SIZES)
     assert (
-        "of its balls: stiffness 2.289×10¹⁰ N/m^1.5, within 0.13 % of the force from 86.7 to 8,670 N" in bearing.words
+        "stiffness of its balls 2.289×10¹⁰ N/m^1.5, within 0.13 % of the force of all balls from 86.7 to 8,670 N"
+        in bearing.words
     )
     assert bearing.document()["of_balls"]["exponent"] == 1.5
 

@@ -49,6 +49,7 @@ from scipy.special import elliprd, elliprf, hyp2f1  # type: ignore[import-untype
 
 from carom.base.arguments import NotNegative, Positive, checked
 from carom.base.roots import bracketed_root
+from carom.parameters.formats import number
 
 STEEL = 208e9
 """Elastic modulus of bearing steel, Pa."""
@@ -140,6 +141,14 @@ class PowerLaw(NamedTuple):
     lowest: float
     highest: float
     """Forces between which that holds, N: at the highest one the most loaded ball reaches the static pressure."""
+
+    @property
+    def words(self) -> str:
+        """Stiffness and exponent, how near they are, and where."""
+        return (
+            f"{number(self.stiffness, 4)} N/m^{number(self.exponent, 4)}, within {number(100.0 * self.error, 2)} % "
+            f"of the force of all balls from {number(self.lowest, 3)} to {number(self.highest, 3)} N"
+        )
 
 
 @dataclass(frozen=True)

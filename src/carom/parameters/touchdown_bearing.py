@@ -320,10 +320,7 @@ class TouchdownBearing(Table):
             f"{name.replace('_', ' ')} {number(value)} {self.unit(name)}".rstrip() for name, value in self.given.items()
         ]
         if found := self.law_of_balls:
-            shown_now.append(
-                f"of its balls: stiffness {number(found.stiffness, 4)} N/m^{number(found.exponent, 4)}, within {number(100.0 * found.error, 2)} % "
-                f"of the force from {number(found.lowest, 3)} to {number(found.highest, 3)} N"
-            )
+            shown_now.append(f"stiffness of its balls {found.words}")
         if (race := self.race) and self.ball_density:
             shown_now.append(f"race with balls {number(race.inertia, 4)} kg m^2")
         return ", ".join([self.law, *shown_now])

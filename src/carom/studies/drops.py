@@ -189,8 +189,12 @@ def _shaft_words(shaft: Braking) -> str:
 
 
 def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, object]]:
-    """The loads of each plane as JSON, with the limits."""
-    return [_entry(plane, limits) for plane in loads.planes]
+    """The loads of each plane as JSON, with the limits, and the touchdown bearing where it states its balls or ratings."""
+    stated = [loads.rotor.definition.bearing_at(plane.plane) for plane in loads.planes]
+    return [
+        _entry(plane, limits) | ({"touchdown": bearing.document()} if bearing else {})
+        for plane, bearing in zip(loads.planes, stated, strict=True)
+    ]
 
 
 def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str, str]]:
@@ -201,6 +205,10 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
         if plane.still_growing:
             label, words = rows[0]
             rows[0] = (label, f"{words}, still growing at the end: follow the motion longer")
+    bearing = loads.rotor.definition.bearing_at(plane.plane)
+    if bearing and (law := bearing.law_of_balls):
+        beyond = "; the peak force lies above" if (plane.si() or {})["force"] > law.highest else ""
+        rows.append(("stiffness of balls", law.words + beyond))
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
@@ -304,7 +312,11 @@ class DropStudy(Result):
             **rotor_of(case).document(),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
             "gravity_assumed": self.assumed,
-            "touchdown": case.touchdown.document() if case.touchdown else {"law": "rigid"},
+            "touchdown": case.touchdown.document()
+            if case.touchdown
+            else None
+            if loads.planes[0].is_compliant
+            else {"law": "rigid"},
             **record(loads, DROP, scales),
             **record(self, "reduction"),
             "shaft": loads.shaft and record(loads.shaft, SHAFT, scales),
