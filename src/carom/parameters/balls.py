@@ -137,7 +137,7 @@ class PowerLaw(NamedTuple):
     stiffness: float
     exponent: float
     error: float
-    """Largest error of the force, relative to that of the balls, with a ball or a gap in its direction."""
+    """Largest difference of the force of all balls, with a ball or a gap in its direction, over that of the law."""
     lowest: float
     highest: float
     """Forces between which that holds, N: at the highest one the most loaded ball reaches the static pressure."""
@@ -230,8 +230,7 @@ class BallRing:
         depth : float
             Displacement of the race, m, from where the first ball is pressed: from the centre, or with clearance from its end.
         """
-        moved = depth * self._steepness + max(-self.closure, 0.0)
-        largest = moved + self.closure
+        moved, largest = (depth * self._steepness + max(sign * self.closure, 0.0) for sign in (-1.0, 1.0))
         if depth == 0.0:
             return 0.0
         whole = self.balls * self.ball_stiffness * self._steepness
@@ -240,8 +239,9 @@ class BallRing:
     @checked
     def ball_loads(self, depth: NotNegative, turned: float = 0.0) -> np.ndarray:
         """Return the load of each ball of a row, N, at the displacement in :meth:`force`; the first ball is at the angle ``turned`` from its direction, rad."""
-        moved = depth * self._steepness + max(-self.closure, 0.0)
-        pressed = moved * np.cos(self._places(turned)) + self.closure
+        places, gap = self._places(turned), max(-self.closure, 0.0)
+        pressed = depth * self._steepness * np.cos(places) - 2.0 * gap * np.sin(0.5 * places) ** 2
+        pressed += max(self.closure, 0.0)
         return np.asarray(self.ball_stiffness * np.maximum(pressed, 0.0) ** 1.5)
 
     def _places(self, turned: float) -> np.ndarray:
@@ -276,7 +276,7 @@ class BallRing:
     def law(self) -> PowerLaw:
         """The power law between the force at which a ball reaches 4.2 GPa (ISO 76) and a hundredth of it; exactly 3/2 without clearance and preload.
 
-        Its exponent is that between the ends, its stiffness halves the largest error of the mean over all places of the balls.
+        Its exponent is that between the ends, at least 1, its stiffness halves the largest error of the mean over all places of the balls.
         """
         bound = (STATIC / self.pressure_of(1.0)) ** 3
         deepest = ((bound / self.ball_stiffness) ** (2.0 / 3.0) - max(self.closure, 0.0)) / self._steepness
@@ -284,11 +284,12 @@ class BallRing:
         least = bracketed_root(lambda depth: self.force(depth) - highest / RANGE, 0.0, deepest)
         depths = np.geomspace(least, deepest, _SAMPLES)
         forces = np.array([self.force(depth) for depth in depths.tolist()])
-        exponent = 1.5 if self.closure == 0.0 else math.log(RANGE) / math.log(deepest / least)
+        # Below 1, of a preload that balls on the other side leave, the force would begin with an infinite slope.
+        exponent = 1.5 if self.closure == 0.0 else max(math.log(RANGE) / math.log(deepest / least), 1.0)
         ratios = forces / depths**exponent
         stiffness = math.sqrt(float(ratios.min() * ratios.max()))
         errors = [
-            abs(stiffness * depth**exponent / self._sum(depth, turned) - 1.0)
+            abs(self._sum(depth, turned) / (stiffness * depth**exponent) - 1.0)
             for depth in depths.tolist()
             for turned in (0.0, math.pi * self.rows / self.balls)
         ]
