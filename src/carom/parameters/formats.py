@@ -173,9 +173,9 @@ def format_along(name: str, values: Iterable[float], scales: Scales | None = Non
 
 
 def format_interval(low: str, high: str) -> str:
-    """Write a range of two sizes with one unit, where both have the same."""
+    """Write a range of two sizes with one unit, where both have the same; of equal ones once."""
     unit = high.partition(" ")[2]
-    return f"{low.removesuffix(f' {unit}') if unit else low} to {high}"
+    return high if low == high else f"{low.removesuffix(f' {unit}') if unit else low} to {high}"
 
 
 class Size(NamedTuple):
