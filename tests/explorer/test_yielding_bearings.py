@@ -15,6 +15,7 @@ KINDS = {
     "restitution": LINEAR + "restitution = 0.8\n",
     "damping": LINEAR + 'damping = "500 N s/m"\n',
     "balls": 'law = "hunt-crossley"\nstiffness = "2e10 N/m^1.5"\nexponent = "3/2"\ndissipation = "0.5 s/m"\n',
+    "ring": 'law = "hunt-crossley"\ndissipation = "0.5 s/m"\nballs = 12\nball_diameter = "6.35 mm"\nrace_diameter = "45 mm"\ninternal_clearance = "10 um"\n',
     "race": LINEAR + 'restitution = 0.8\nrace_inertia = "2e-4 kg m^2"\nrace_drag = "1e-5 N m s"\n',
     "mount": LINEAR
     + 'damping = "500 N s/m"\nmount_mass = "1.5 kg"\nmount_stiffness = "2e7 N/m"\nmount_damping = "3000 N s/m"\n',
@@ -48,6 +49,7 @@ def origin(folder):
     [
         ("restitution", {"touchdown_stiffness": "N/m", "touchdown_restitution": ""}),
         ("mount", {"touchdown_stiffness": "N/m", "touchdown_damping": "N s/m"}),
+        ("ring", {"touchdown_internal_clearance": "um", "touchdown_dissipation": "s/m"}),
         ("balls", {"touchdown_stiffness": "N/m^1.5", "touchdown_dissipation": "s/m"}),
     ],
 )

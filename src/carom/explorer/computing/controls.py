@@ -97,6 +97,8 @@ _KINDS: Mapping[str, _ControlKind] = {
     ),
     "touchdown_damping": _ControlKind(TOUCHDOWNS, "touchdown damping", "N s/m", 10.0, least=1000.0),
     "touchdown_dissipation": _ControlKind(TOUCHDOWNS, "touchdown dissipation", "s/m", 10.0, least=1.0),
+    "touchdown_internal_clearance": _ControlKind(TOUCHDOWNS, "internal clearance of the balls", "um", 10.0),
+    "touchdown_preload": _ControlKind(TOUCHDOWNS, "axial preload of the balls", "N", 4.0),
 }
 _DIMENSIONLESS: Mapping[str, _ControlKind] = {
     "rho": _ControlKind(SHAFT, "unbalance ρ", "", 2.0, logarithmic=False),
