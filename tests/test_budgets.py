@@ -16,14 +16,14 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3460,
-    "models": 2130,
+    "models": 2175,
     "core": 6613,
     "motions disturbances": 3647,
     "orbits bifurcations closed_forms continuation": 6415,
     "basins attractors": 2197,
     "studies": 3270,
     "cli plots report": 5346,
-    "rotors": 3623,
+    "rotors": 3672,
     "proofs": 5900,
     "explorer": 2300,
     "sweeps": 1397,

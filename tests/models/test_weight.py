@@ -44,7 +44,9 @@ def test_gravity_is_a_named_parameter():
 def test_all_masses_fall_alike():
     scales = Scales(5.0, 0.25e-3, 1000.0)
     rotor = tilting().model.replace(scales=scales)
-    assert rotor.under_gravity(Gravity()).weight == pytest.approx(Gravity().pull(scales) * rotor.system.translated)
+    assert rotor.under_gravity(Gravity()).whole_weight == pytest.approx(
+        Gravity().pull(scales) * rotor.system.translated
+    )
     with pytest.raises(InputError, match=r"^gravity = 9.81 m/s² at -90°: a rotor with mass, clearance and speed"):
         tilting().model.under_gravity(Gravity())
 

@@ -76,7 +76,7 @@ def test_a_stiff_rotor_moves_as_a_rigid_one_on_its_controllers():
 
 
 def test_without_integral_the_rotor_sags_by_its_weight():
-    machine = symmetric(4e3)
+    machine = symmetric(4e3, gravity=Gravity(carried_by="stiffness"))
     position, _ = machine.model.system.kicked(0.0)
     sag = machine.model.system.planes @ position
     expected = machine.rotor.mass * 9.81 / (2.0 * (50.0 * 9000.0 - 1e5)) / machine.clearance

@@ -20,6 +20,7 @@ from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Echo, Part, Single, eccentricity_words, moving
 from carom.parameters import MACHINE_FIELDS, Gravity, own_size, own_time
 from carom.parameters.formats import format_angle, format_quantity, number
+from carom.parameters.tables import STIFFNESS
 
 if TYPE_CHECKING:
     from carom.models import Rotor, Subject
@@ -142,8 +143,8 @@ def levitating_before(rotor: Rotor, turned: np.ndarray, instants: np.ndarray) ->
     return before._replace(positions=before.positions * turn, velocities=before.velocities * turn, begins=begins)
 
 
-ASSUMED = Gravity()
-"""Weight of a rotor that states none: 9.81 m/s² downward."""
+ASSUMED = Gravity(carried_by=STIFFNESS)
+"""Weight of a rotor that states none, once it falls: 9.81 m/s² downward."""
 AXIAL_LANDING = "Nothing pulls the rotor to a side; what the axial touchdown bearing does to it is left out"
 
 
@@ -191,7 +192,7 @@ class Drop(Disturbance):
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """Return the rotor that falls, and levitates again if levitation is regained, and its start.
 
-        A rotor that states no weight falls by :data:`ASSUMED`, which the bias currents of its bearings carry while it levitates.  A vertical one is
+        A rotor that states no weight falls by :data:`ASSUMED`.  A vertical one is
         pulled to no side: it drifts with the velocity that its centre of mass has in its whirl.
 
         Raises
@@ -204,7 +205,7 @@ class Drop(Disturbance):
         from carom.models.stages import stages_of
 
         rotor = rotor_of(machine)
-        if not (rotor.is_vertical or rotor.weight is not None or rotor.scales):
+        if not (rotor.is_vertical or rotor.whole_weight is not None or rotor.scales):
             raise InputError("gravity", None, "a drop needs weight, in m/s^2: a machine with mass, clearance and speed")
         if stages_of(rotor)[0].rotor is not rotor:
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
@@ -212,7 +213,7 @@ class Drop(Disturbance):
             rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
         falling = rotor.without_levitation()
-        if rotor.weight is None and not rotor.is_vertical:
+        if rotor.whole_weight is None and not rotor.is_vertical:
             falling = falling.under_gravity(ASSUMED)
         if self.regained_after is None:
             return falling, start

@@ -128,6 +128,13 @@ class Definition:
         """What pulls the rotor from the centre of its touchdown bearing to the place of levitation, where these differ."""
         return ()
 
+    def held_by_bias(self, weight: np.ndarray, limits: int) -> tuple[np.ndarray, np.ndarray]:
+        """What is left of the accelerations (n,) of a weight that bias currents carry, and what these ask of each limit in the fixed frame, both complex.
+
+        By default they act where the weight does, and what they ask is not known.
+        """
+        return np.zeros_like(weight), np.zeros(limits, complex)
+
     def bearing_at(self, plane: int) -> TouchdownBearing | None:
         """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""
         return self.equations.touchdowns[plane].bearing

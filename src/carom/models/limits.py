@@ -12,6 +12,7 @@ import numpy as np
 from carom.base.outcome import InputError, shown
 from carom.core.layout import rotor_record
 from carom.models.definition import Matrices
+from carom.models.mode_arrays import EQUAL, STEADY
 from carom.models.system import System
 from carom.parameters import ControlLimit, Scales
 
@@ -124,6 +125,18 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
     # Of the unbalance only a shaft has entries; what follows from limits is made anew.
     kept = {name: arrays[name] for name in arrays.dtype.names or () if name != "unbalance"}
     return replace(system, arrays=rotor_record(**kept | own))
+
+
+def with_bias(system: System, limits: Sequence[Limit], asked: np.ndarray) -> System:
+    """The system of which each limit is asked for this much besides, (L,), constant in the fixed frame: by a forcing mode that turns with it."""
+    arrays, (place, *_) = (
+        system.arrays,
+        np.flatnonzero(system.outer * (np.abs(system.arrays["exponents"] - STEADY) <= EQUAL)),
+    )
+    rows = arrays["limit_rows"].copy()
+    rows[:, place] += asked * np.array([cmath.exp(-1j * each.angle) for each in limits]) / system.outer[place]
+    kept = {name: arrays[name] for name in arrays.dtype.names or () if name != "unbalance"}
+    return replace(system, arrays=rotor_record(**kept | {"limit_rows": rows}))
 
 
 def limits_by(control: ControlLimit, matrices: Matrices, scales: Scales) -> tuple[Limit, ...]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import cmath
 import dataclasses
 import json
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,18 +17,18 @@ from carom.base.results import Result
 from carom.models.definition import Definition, Matrices
 from carom.models.documents import document_of
 from carom.models.forcing import (
-    ISOTROPIC_ALONE,
-    WITHOUT_FORCES,
     Force,
     checked_forces,
     gravity_among,
     in_scales,
     with_forces,
 )
-from carom.models.limits import Limit, checked_limits, limits_by, with_limits
-from carom.models.mode_arrays import EQUAL, STEADY
+from carom.models.limits import Limit, checked_limits, limits_by, with_bias, with_limits
+from carom.models.mode_arrays import STEADY
+from carom.models.weighed import Weighed, is_steady
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
 from carom.parameters.machine_file import GRAVITY_NAME
+from carom.parameters.tables import BIAS
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearEquations
@@ -40,12 +38,13 @@ if TYPE_CHECKING:
 
 PLANAR_ALONE = "the planar rotor, of which alone this result is known; the functions of carom itself take any rotor"
 ONE_STAGE = "a rotor of one stage, such as carom.models.rotor_of(machine)"
+_GRAVITY_FIELD = dataclasses.replace(SETTINGS[GRAVITY_NAME], zero=False)
 _LEVITATION = ("gamma", "omega")
 """Parameters of the levitation as a whole, with which limits given as numbers would change."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Rotor(Result):
+class Rotor(Weighed, Result):
     """A rotor in its touchdown bearings, with what acts on it: a value with named parameters.
 
     Makers give it its definition: :func:`~carom.models.jeffcott`, :func:`~carom.models.from_matrices`, flexible machines
@@ -58,6 +57,8 @@ class Rotor(Result):
     forces : tuple of Force
         Further forces that change with time in its frame, such as weight, or those of a housing that is shaken.  Under them it never is at rest in
         that frame.  Its orbits are found under forces that are constant in the fixed frame.
+    carried_by_bias : bool
+        Whether bias currents of its magnetic bearings carry its weight: it levitates in the centre, and the weight acts where levitation is lost.
     limits : carom.parameters.ControlLimit, or tuple of Limit
         Of its magnetic bearings, beyond which these give no more and the states of controllers wind up: of the planar rotor in SI units, or
         in units of its equations.
@@ -75,6 +76,7 @@ class Rotor(Result):
     definition: Definition
     forces: tuple[Force, ...] = ()
     limits: ControlLimit | tuple[Limit, ...] = ()
+    carried_by_bias: bool = False
     stages: tuple[Stage, ...] = ()
     is_vertical: bool = False
 
@@ -95,14 +97,18 @@ class Rotor(Result):
         return hash(self._outline)
 
     @property
-    def _outline(self) -> tuple[Definition, int, ControlLimit | tuple[Limit, ...], bool]:
-        return self.definition, len(self.forces), self.limits, self.is_vertical
+    def _outline(self) -> tuple[object, ...]:
+        return self.definition, len(self.forces), self.limits, self.carried_by_bias, self.is_vertical
 
     def rows(self) -> list[tuple[str, str]]:
         """What defines it, and what acts on it."""
         fields = dataclasses.fields(self.definition)  # type: ignore[arg-type]  # all definitions are dataclasses
         values = {field.name: getattr(self.definition, field.name) for field in fields}
-        values |= {name: value for name, value in vars(self).items() if name in ("forces", "limits") and value}
+        values |= {
+            name: value
+            for name, value in vars(self).items()
+            if name in ("forces", "limits", "carried_by_bias") and value
+        }
         return [
             (name, self.line_of(name, value))
             for name, value in values.items()
@@ -209,9 +215,15 @@ class Rotor(Result):
             rotor, more = vars(self)["_before"]
             return with_forces(rotor.system, more)
         system = self.definition.system
-        if self.limits:
-            system = with_limits(system, self.listed_limits)
-        return with_forces(system, self.forces) if self.forces else system
+        limits = self.listed_limits
+        if limits:
+            system = with_limits(system, limits)
+        asked = self.asked_by_bias
+        if not asked.any():
+            return with_forces(system, self.acting) if self.acting else system
+        # What limits see of the bias currents turns as weight does.
+        turning = Force(STEADY, np.zeros(len(system.rest), complex)), *self.acting
+        return with_bias(with_forces(system, turning), limits, asked)
 
     @property
     def listed_limits(self) -> tuple[Limit, ...]:
@@ -220,19 +232,6 @@ class Rotor(Result):
             scales = cast("Scales", self.scales)
             return limits_by(self.limits, self.matrices, scales)
         return self.limits
-
-    @property
-    def weight(self) -> np.ndarray | None:
-        """Accelerations (n,) of the coordinates by forces that are constant in the fixed frame; ``None`` if none acts."""
-        steady = [force.accelerations for force in self.forces if abs(force.exponent - STEADY) <= EQUAL]
-        total: np.ndarray = np.sum(steady, axis=0)
-        return total if steady and total.any() else None
-
-    @property
-    def direction_of_fall(self) -> float:
-        """Angle of the weight in the fixed frame, in rad; that of the negative y axis if none acts."""
-        weight = self.weight
-        return -0.5 * math.pi if weight is None else cmath.phase(complex(weight @ self.system.translated.conj()))
 
     @cached_property
     def _gravity(self) -> tuple[int, float] | None:
@@ -261,11 +260,12 @@ class Rotor(Result):
             raise InputError("rotor", shown(self), ONE_STAGE)
         more = checked_forces(forces, self.definition.system.rest.shape)
         rotor = dataclasses.replace(self, forces=(*self.forces, *more))
-        rotor.__dict__["_before"] = self, more
+        if not (self.carried_by_bias and any(map(is_steady, more))):
+            rotor.__dict__["_before"] = self, more
         return rotor
 
     def under_gravity(self, gravity: Gravity) -> Rotor:
-        """The rotor with its weight: all its masses fall alike, along the translation, or along the axis, where that moves no place.
+        """The rotor with its weight: all its masses fall alike, along the translation, or would without bias currents; or along the axis, where that moves no place.
 
         Raises
         ------
@@ -277,12 +277,13 @@ class Rotor(Result):
             raise InputError("gravity", gravity.words, allowed)
         if gravity.is_axial:
             return dataclasses.replace(self, is_vertical=True)
-        return self.under(Force(STEADY, gravity.pull(self.scales) * self.definition.system.translated))
+        rotor = self.under(Force(STEADY, gravity.pull(self.scales) * self.definition.system.translated))
+        return dataclasses.replace(rotor, carried_by_bias=True) if gravity.carried_by == BIAS else rotor
 
     @property
     def unforced(self) -> Rotor:
         """The rotor without forces."""
-        return dataclasses.replace(self, forces=()) if self.forces else self
+        return dataclasses.replace(self, forces=(), carried_by_bias=False) if self.forces else self
 
     def without_levitation(self) -> Rotor:
         """The rotor without the stiffness and damping of its levitation, under the same forces.
@@ -297,13 +298,13 @@ class Rotor(Result):
     def varied(self) -> Mapping[str, Field]:
         """Named parameters that can be varied: words, symbol, unit and range of each.
 
-        With scales ``gravity`` is one, the acceleration of a weight in its direction.  Those of the levitation are none beside limits given as numbers.
+        With scales ``gravity`` is one, the acceleration of a weight that acts, in its direction.  Those of the levitation are none beside limits given as numbers.
         """
         found = self.definition.varied
         if self.limits and not isinstance(self.limits, ControlLimit):
             found = {name: field for name, field in found.items() if name not in _LEVITATION}
-        if self._gravity is not None:
-            found = {**found, GRAVITY_NAME: dataclasses.replace(SETTINGS[GRAVITY_NAME], zero=False)}
+        if self._gravity is not None and self.weight is not None:
+            found = {**found, GRAVITY_NAME: _GRAVITY_FIELD}
         return found
 
     @checked
@@ -332,7 +333,7 @@ class Rotor(Result):
         forces, limits, before = list(self.forces), self.limits, self.scales
         if self._gravity is not None and GRAVITY_NAME in changes:
             place, present = self._gravity
-            share = read_quantity(self.varied[GRAVITY_NAME], changes.pop(GRAVITY_NAME)) / present
+            share = read_quantity(_GRAVITY_FIELD, changes.pop(GRAVITY_NAME)) / present
             forces[place] = Force(forces[place].exponent, forces[place].accelerations * share)
         if not isinstance(limits, ControlLimit) and limits:
             for name in changes.keys() & set(_LEVITATION) - self.varied.keys():
@@ -355,7 +356,7 @@ class Rotor(Result):
     @property
     def stored(self) -> tuple[str, ...]:
         """Names of the attributes from which it is made again."""
-        return ("stages",) if self.stages else ("definition", "forces", "limits", "is_vertical")
+        return ("stages",) if self.stages else ("definition", "forces", "limits", "carried_by_bias", "is_vertical")
 
     @staticmethod
     def from_stored(stages: tuple[Stage, ...] = (), **others: Any) -> Rotor:
@@ -364,7 +365,7 @@ class Rotor(Result):
 
     def attributes(self) -> dict[str, str]:
         """Texts from which :func:`~carom.models.subjects.rotor_from` makes the same rotor again, exact to the last bit."""
-        numbers = self.planar if self.has_closed_forms and not self.is_vertical else None
+        numbers = self.planar if self.has_closed_forms and not self.forces and not self.is_vertical else None
         return {"rotor": json.dumps(document_of(self))} if numbers is None else numbers.attributes()
 
     def document(self) -> dict[str, object]:
@@ -385,15 +386,5 @@ class Rotor(Result):
 
     @property
     def has_closed_forms(self) -> bool:
-        """Whether exact results are known: of the planar rotor in a rigid wall that stands still, without forces and limits."""
-        return self.planar is not None and self.definition.has_closed_forms and not self.forces and not self.limits
-
-    def refuse_forces(self) -> None:
-        """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
-        if self.system.shaft is not None:
-            self.system.refuse_non_stationary()
-        if self.is_anisotropic:
-            raise InputError("machine", "anisotropic bearings", ISOTROPIC_ALONE)
-        if self.system.outer.any():
-            acting = "forces that change with time" if self.weight is None else "gravity"
-            raise InputError("machine", f"a rotor under {acting}", WITHOUT_FORCES)
+        """Whether exact results are known: of the planar rotor in a rigid wall that stands still, without limits and forces that act."""
+        return self.planar is not None and self.definition.has_closed_forms and not self.acting and not self.limits

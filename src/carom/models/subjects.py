@@ -62,7 +62,7 @@ def exact_rotor_of(subject: Subject) -> Rotor:
         raise InputError("machine", shown(rotor), PLANAR_ALONE)
     if rotor.limits:
         raise InputError("limits", rotor.words_of_limits, _WITHOUT_LIMITS)
-    if rotor.forces:
+    if rotor.acting:
         rotor.refuse_forces()
     raise InputError("touchdown", rotor.definition.words_of_bearing, _RIGID)
 
@@ -101,6 +101,6 @@ def case_of(subject: Subject) -> Case:
     if isinstance(subject, Machine):
         return Case("machine", subject.parameters, subject, Zones())
     rotor = rotor_of(subject)
-    if rotor.has_closed_forms:
+    if rotor.has_closed_forms and not rotor.forces:
         return Case("machine", rotor.parameters, None, Zones())
     return Case("rotor", rotor, None, Zones())

@@ -195,7 +195,7 @@ def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
     power, since = np.zeros(times.shape), trajectory.begins + times
     rotor = trajectory.rotor
-    for force in (*rotor.forces, *rotor.definition.pull):
+    for force in (*rotor.acting, *rotor.definition.pull):
         push = rotor.matrices.mass @ force.accelerations
         power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
     return power

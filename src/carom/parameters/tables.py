@@ -20,6 +20,8 @@ DOWN = -0.5 * math.pi
 """Down the y axis, as an angle from the x axis."""
 AXIAL = "axial"
 """Direction of the weight of a vertical shaft."""
+BIAS, STIFFNESS = "bias", "stiffness"
+"""What may carry the weight of a levitating rotor."""
 _KINDS = {
     "": "a number",
     "rad": "an angle",
@@ -175,6 +177,9 @@ class Gravity(Table):
     direction : float or str, optional
         Where it points, as an angle in the fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.  With
         ``"axial"`` it points along the axis: nothing pulls the rotor to a side, neither while it levitates nor in a drop.
+    carried_by : str, optional
+        What carries the rotor while it levitates: ``"bias"``, the default, bias currents of the magnetic bearings, by which the rotor levitates
+        in the centre as after integral action, and which vanish with levitation; or ``"stiffness"``, so that it sags.
 
     Raises
     ------
@@ -192,8 +197,15 @@ class Gravity(Table):
     direction: float | str = entry(
         "", "direction of the fall, from the x axis", "rad", -1e6, 1e6, '"-90 deg", or "axial"', False, DOWN
     )
+    carried_by: str = BIAS
 
     heading: ClassVar = "gravity"
+    texts: ClassVar = ("carried_by",)
+
+    def __post_init__(self) -> None:
+        if self.carried_by not in (BIAS, STIFFNESS):
+            raise InputError("carried_by", shown(self.carried_by), f'must be "{BIAS}" or "{STIFFNESS}"')
+        super().__post_init__()
 
     @property
     def is_axial(self) -> bool:
@@ -218,7 +230,7 @@ class Gravity(Table):
 
     @property
     def words(self) -> str:
-        """Both in the units of people."""
+        """Acceleration and direction in the units of people."""
         where = "along the axis" if isinstance(self.direction, str) else f"at {format_angle(self.direction)}"
         return f"{number(self.acceleration)} m/s\N{SUPERSCRIPT TWO} {where}"
 

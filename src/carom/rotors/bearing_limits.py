@@ -11,7 +11,7 @@ the loop (:attr:`MagneticBearing.loop`), of which the last one is the amplifier'
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -62,6 +62,16 @@ def limits_of_bearings(
         )
         found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
     return tuple(found)
+
+
+def asked_by_currents(bearings: Sequence[MagneticBearing], currents: np.ndarray) -> np.ndarray:
+    """What constant currents (B,), A, ask of each limit of :func:`limits_of_bearings`, shape (L,); nothing of a rate."""
+    asked: list[complex] = []
+    for bearing, current in zip(bearings, currents.tolist(), strict=True):
+        none = np.zeros(1)
+        place = _LimitPlace(none, np.ones(1), none, none, 0)
+        asked += [current * limit.displacement[0] for limit in _in_si(bearing, place, 0)]
+    return np.array(asked, complex)
 
 
 def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterator[Limit]:

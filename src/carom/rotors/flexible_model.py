@@ -17,10 +17,13 @@ from carom.models import Limit, LinearEquations
 from carom.models.system import System
 from carom.parameters import Field, read_quantity
 from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
+from carom.rotors.bearing_limits import asked_by_currents
 
 if TYPE_CHECKING:
     from carom.rotors.reduced_machine import ReducedMachine
 
+ROUNDED = 1e-12
+"""Share of a weight up to which what bias currents leave of it is none."""
 _WALLS = "wall_"
 """How names of walls in units of the equations begin; the machine has the entries of touchdown bearings in their place."""
 
@@ -69,6 +72,16 @@ class FlexibleDefinition(LinearEquations):
         """Limits of the magnetic bearings of the machine."""
         limits: tuple[Limit, ...] = self.reduced.limits
         return limits
+
+    def held_by_bias(self, weight: np.ndarray, limits: int) -> tuple[np.ndarray, np.ndarray]:
+        """See :meth:`carom.models.definition.Definition.held_by_bias`; sensors are not displaced, and the shaft bends between them."""
+        reduced, scales = self.reduced, self.reduced.scales
+        unit = scales.length * math.sqrt(scales.mass) * scales.speed**2
+        pushed, currents = reduced.held_by_bias(weight * unit)
+        asked = asked_by_currents(reduced.machine.bearings, currents)
+        left = weight + pushed / unit
+        left[np.abs(left) <= ROUNDED * np.abs(weight).max()] = 0.0
+        return left, asked if len(asked) == limits else np.zeros(limits)
 
     def value(self, name: str) -> float:
         """Value of a parameter.

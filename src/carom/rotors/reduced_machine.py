@@ -235,6 +235,34 @@ class ReducedMachine(Result):
         pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
         return limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
 
+    def held_by_bias(self, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What constant currents add to a constant push, N/√kg per coordinate, and these currents, A, shape (B,): those by which no sensor is displaced.
+
+        Bearings whose controller integrates find theirs by themselves.
+        """
+        at, given = self.machine, self.equations
+        held = [place for place, each in enumerate(at.bearings) if not math.isinf(each.static_stiffness)]
+        loops, n, currents = (
+            loops_of(at.rotor, at.bearings, at.touchdowns),
+            len(pull),
+            np.zeros(len(at.bearings), complex),
+        )
+        if not held:
+            return np.zeros_like(pull), currents
+        pushes, seen = (
+            np.pad(rows[held] @ self.basis.shapes, ((0, 0), (0, n - self.vectors)))
+            for rows in (loops.bearings, loops.sensors)
+        )
+        twice = np.eye(1 + given.is_anisotropic)  # of anisotropic supports conjugates are unknowns too
+        pushes, seen = np.kron(twice, pushes), np.kron(twice, seen)
+        stiffness = given.both.stiffness if given.is_anisotropic else given.stiffness
+        moved = seen @ np.linalg.solve(
+            stiffness, np.column_stack([pushes.T, np.append(pull, pull.conj())[: len(stiffness)]])
+        )
+        forces = -np.linalg.lstsq(moved[:, :-1], moved[:, -1])[0][: len(held)]
+        currents[held] = -forces / np.array([at.bearings[place].ki for place in held])
+        return forces @ pushes[: len(held), :n], currents
+
     @cached_property
     def model(self) -> Rotor:
         """The levitating rotor with its weight, if it has one, as all verbs take it; ``carom.drop`` takes its levitation away.

@@ -21,7 +21,9 @@ from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.models import Limit, Rotor, Subject, rotor_of
 from carom.parameters import Zones
+from carom.parameters.tables import BIAS
 from carom.rotors import FlexibleMachine
+from carom.rotors.bearing_limits import asked_by_currents
 from carom.rotors.equations import RotorEquations, loops_of
 from carom.rotors.whirls import speeds_of
 
@@ -118,6 +120,8 @@ class _Whole(NamedTuple):
     """Coordinates per unit of the coordinates of the limits."""
     resting: np.ndarray
     """Coordinates (n,) of the sag."""
+    asked: np.ndarray
+    """What bias currents that carry a weight ask of each limit, constant in the fixed frame, shape (L,)."""
 
 
 @checked
@@ -209,6 +213,7 @@ def _of_model(model: Rotor) -> _Whole:
         model.listed_limits,
         1.0,
         system.shapes @ system.outer,
+        model.asked_by_bias,
     )
 
 
@@ -216,9 +221,13 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
     whole = machine.whole
     held, gravity, scales = whole.equations, machine.gravity, whole.scales
     first, resting = np.eye(len(held.mass))[0], np.zeros(len(held.mass), complex)
+    asked = np.zeros(len(whole.limits), complex)
     if gravity is not None and gravity.acceleration:
         # The translation of the whole rotor is the first vector; mounts have no weight.
         pull = gravity.pull(scales) * scales.acceleration * np.sqrt(scales.mass) * first
+        if gravity.carried_by == BIAS:
+            pushed, currents = whole.held_by_bias(pull)
+            pull, asked = pull + pushed, asked_by_currents(machine.bearings, currents)
         both = held.both if held.is_anisotropic else held
         resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
     seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
@@ -233,6 +242,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
         tuple(replace(each, velocity=each.velocity / scales.speed) for each in whole.limits),
         scales.length * np.sqrt(scales.mass),
         resting,
+        asked,
     )
 
 
@@ -262,7 +272,7 @@ def _saturation(whole: _Whole, answers: Ellipses, speeds: np.ndarray) -> np.ndar
             ((limit.displacement + 1j * sense * speeds[:, None] * limit.velocity) * part).sum(axis=1) * turn
             for sense, part in zip((1.0, -1.0), answers, strict=True)
         )
-        middle = complex(limit.displacement @ whole.resting) * turn
+        middle = complex(limit.displacement @ whole.resting) * turn + whole.asked[place] * np.exp(-1j * limit.angle)
         along = np.abs(ahead + behind.conj()) + abs(middle.real), np.abs(ahead - behind.conj()) + abs(middle.imag)
         found[:, place] = np.maximum(*along) / limit.bound
     return found
