@@ -21,7 +21,7 @@ from carom.motions.starts import LARGEST_SPEED, State
 from carom.orbits.shooting import Links
 
 Stability = Literal["stable", "neutral", "unstable"]
-ROUNDING = 1e-9
+ROUNDING = 1e-12
 """Error of multipliers from closed forms and exact derivatives."""
 
 
