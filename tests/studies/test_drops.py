@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -12,7 +13,7 @@ from carom.motions import drop_loads
 from carom.motions.loads import LastWhirl
 from carom.parameters import Scales
 from carom.studies import DropStudy, check_loads
-from carom.studies.drops import _whirl_words
+from carom.studies.drops import LoadCheck, _whirl_words, worst_of
 
 pytestmark = pytest.mark.jit_only
 
@@ -64,6 +65,11 @@ def test_a_limit_of_pressure_needs_balls(whirl):
     rigid = dropped("dropped-rotor", "12 ms")
     with pytest.raises(InputError, match=r"pressure = 4.2e\+09|pressure = 4200000000.0"):
         check_loads(rigid.loads.planes[0], whirl.case.limits)
+
+
+def test_the_worst_check_of_each_limit_where_not_all_bearings_have_it():
+    rated, others = (LoadCheck(name, 2.0, 1.0, False, False, True, 0.0) for name in ("static_share", "force"))
+    assert worst_of([(replace(others, value=3.0),), (rated, others)]) == (replace(others, value=3.0), rated)
 
 
 def test_a_rigid_wall_has_impulses_in_place_of_forces():

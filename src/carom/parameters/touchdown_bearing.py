@@ -153,7 +153,9 @@ class TouchdownBearing(Table):
     ball_modulus: float | None = entry("", "elastic modulus of the balls", "Pa", 1e6, 1e13, '"208 GPa"')
     race_modulus: float | None = entry("", "elastic modulus of the races", "Pa", 1e6, 1e13, '"208 GPa"')
     outer_conformity: float | None = entry("f_o", "the same of the outer race", "", 0.501, 1.0, "0.53")
-    contact_angle: float | None = entry("α", "contact angle of the balls", "rad", 1e-3, 1.4, '"15 deg"', True)
+    contact_angle: float | None = entry(
+        "α", "contact angle of the balls", "rad", 1e-3, 1.4, '"15 deg"', True, usual=("°", math.radians(1.0))
+    )
     internal_clearance: float | None = entry(
         "P_d", "diametral clearance of the balls", "m", 1e-9, 1e-2, '"10 um"', True, usual=_MM
     )

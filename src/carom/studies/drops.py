@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 from carom.attractors import MotionName
 from carom.base.arguments import checked
@@ -161,9 +162,12 @@ def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, .
 
 def worst_of(checks: Iterable[Sequence[LoadCheck]]) -> tuple[LoadCheck, ...]:
     """The worst check of each limit over several motions."""
+    found: dict[str, list[LoadCheck]] = {}
+    for check in chain.from_iterable(checks):
+        # A bearing with a static rating has a limit that others have not.
+        found.setdefault(check.name, []).append(check)
     return tuple(
-        max(each, key=lambda check: (check.exceeded, check.value > check.limit, check.value))
-        for each in zip(*checks, strict=True)
+        max(each, key=lambda check: (check.exceeded, check.value > check.limit, check.value)) for each in found.values()
     )
 
 

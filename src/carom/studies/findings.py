@@ -265,7 +265,7 @@ def drop_headline(study: StudyData) -> Iterator[Fact]:
         f"{title and f'{title.lower()}: '}{'; '.join(f'{label}: {words}' for label, words in rows if label in HEADLINE) or 'no contact'}"
         for title, rows in drop.tables
     ]
-    limits = "" if study.case.limits.given else "; the file states no limits of the touchdown bearing"
+    limits = "" if drop.checks else "; the file states no limits of the touchdown bearing"
     loads = drop.loads
     text = f"{loads.outcome.words} after {study.wording.time(loads.time)}; {'; '.join(shown)}{limits}"
     yield Fact("Verdict", f"{text}{ASSUMED if drop.assumed else ''}", "Drop", "sampled")
