@@ -40,6 +40,9 @@ def test_it_explains_every_entry(text):
     own = {*ROTOR_ENTRIES, *(name for part in PARTS.values() for name in part.entries)}
     assert own - named_in(text) == {
         "filter",
+        "bearings",
+        "translation",
+        "tilt",
         "restitution",
         "restitution_speed",
         "offset",

@@ -17,7 +17,7 @@ from carom.parameters.quantities import Written
 _WHAT = "machine file"
 _OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
 _KINDS = ("machine", "dimensionless", "rotor")
-_LISTS = ("section", "disc", "magnetic_bearing", "support", "touchdown", "unbalance")
+_LISTS = ("section", "disc", "magnetic_bearing", "shared_controller", "support", "touchdown", "unbalance")
 """Tables of which a file with ``[rotor]`` holds one for each part."""
 _TABLES = dict.fromkeys((*_KINDS, *_OPTIONAL, *_LISTS))
 _LARGEST_BYTES = 1_000_000

@@ -4,6 +4,7 @@
 ``shaft_parts``           :class:`ShaftSection`, its :class:`Material` and element; :class:`Disc`; :class:`ModalDamping`, :class:`ProportionalDamping`
 ``state_spaces``          :class:`StateSpace`: linear systems, sampled ones with their hold
 ``controllers``           :class:`PID`, :class:`TransferFunction` and others, filters in :class:`Series`, and those of other libraries
+``shared_controller``     :class:`SharedController`: of several bearings at once, such as of translation and tilt
 ``filters``               :class:`Notch`, :class:`LeadLag`, :class:`LowPass`
 ``bearing_limits``        limits of magnetic bearings as those of a model
 ``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
@@ -48,6 +49,7 @@ from carom.rotors.rigid_body import RigidRotor
 from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.shaft_parts import Disc, Material, ModalDamping, ProportionalDamping, ShaftSection
+from carom.rotors.shared_controller import ForcePID, MomentPID, SharedController
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import Support
 from carom.rotors.synchronous import Ellipses, SynchronousResponse, synchronous_response
@@ -61,6 +63,7 @@ __all__ = [
     "FlexibleDefinition",
     "FlexibleMachine",
     "FlexibleRotor",
+    "ForcePID",
     "ImportedRotor",
     "LeadLag",
     "LowPass",
@@ -68,6 +71,7 @@ __all__ = [
     "Material",
     "MatrixRotor",
     "ModalDamping",
+    "MomentPID",
     "Notch",
     "ProportionalDamping",
     "ReducedMachine",
@@ -76,6 +80,7 @@ __all__ = [
     "Sensitivity",
     "Series",
     "ShaftSection",
+    "SharedController",
     "StateSpace",
     "Support",
     "SynchronousResponse",

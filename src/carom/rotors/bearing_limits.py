@@ -50,9 +50,8 @@ def limits_of_bearings(
         Units of the model.
     """
     found: list[Limit] = []
-    last = len(equations.mass) - sum(each.loop.states for each in bearings) - 1
     for number, bearing in enumerate(bearings):
-        last += bearing.loop.states
+        last = int(equations.amplifiers[number])
         place = _LimitPlace(
             pulls[number],
             equations.currents[number],
@@ -84,7 +83,7 @@ def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterato
         if min(of_force, of_current) < np.inf:
             yield Limit(min(of_force, of_current), place.current, place.current_rate, push, angle=bearing.axis_angle)
         return
-    bandwidth, out = bearing.amplifier_bandwidth, float(bearing.loop.C[0, -1])
+    bandwidth, out = bearing.amplifier_bandwidth, float(place.current[place.last])
     state = np.eye(len(none))[place.last] / out
     changing, follows = out * place.rate, (0.0,) * before
     # Behind an ideal derivative the current has a part of the displacement beside the last state.

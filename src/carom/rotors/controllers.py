@@ -23,7 +23,7 @@ PID_FIELDS: Mapping[str, Field] = by_name(
 )  # fmt: skip
 
 
-def _in_units(proportional: str, integral: str, derivative: str, example: str) -> Mapping[str, Field]:
+def gains_in(proportional: str, integral: str, derivative: str, example: str) -> Mapping[str, Field]:
     """Fields of gains in other units."""
     units = {"proportional": proportional, "integral": integral, "derivative": derivative}
     return {
@@ -129,7 +129,7 @@ class VoltagePID(PID):
     It belongs to a bearing with ``sensor_gain`` and ``amplifier_gain``.
     """
 
-    fields = _in_units("", "1/s", "s", "2.5")
+    fields = gains_in("", "1/s", "s", "2.5")
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import Basis
+from carom.rotors.shared_controller import SharedController, loops_in
 from carom.rotors.support import Support
 
 
@@ -35,6 +36,8 @@ class RotorEquations(NamedTuple):
     """Current of each bearing, A, per coordinate, shape (B, n)."""
     current_rates: np.ndarray
     """The same per rate of a coordinate: of ideal derivatives."""
+    amplifiers: np.ndarray
+    """Coordinate of the state of the amplifier of each bearing, shape (B,); -1 without one."""
     regained: np.ndarray
     """What coordinates are multiplied by when levitation is regained, shape (n,): 0 for states of controllers that are reset."""
     carried: np.ndarray
@@ -129,6 +132,7 @@ def equations_of(
     touchdowns: Sequence[TouchdownPlane],
     unbalances: Sequence[Unbalance],
     supports: Sequence[Support],
+    shared: Sequence[SharedController],
     restart: float,
 ) -> RotorEquations:
     """Equations of a machine in a basis.
@@ -141,7 +145,8 @@ def equations_of(
     loops = loops_of(rotor, bearings, touchdowns)
     mounts = [(plane, mount) for plane, each in enumerate(touchdowns) if (mount := each.bearing.mount)]
     vectors, first = len(basis.frequencies), len(basis.frequencies) + len(mounts)
-    size = first + sum(each.loop.states for each in bearings)
+    controls = loops_in(rotor, bearings, shared)
+    size = first + sum(each.system.states for each in controls)
     mass, damping, gyroscopic, stiffness = np.zeros((4, size, size))
     free = slice(0, vectors)
     mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
@@ -160,21 +165,26 @@ def equations_of(
     left = np.stack([damping, stiffness])
     regained = np.ones(size)
     currents, current_rates = np.zeros((2, len(bearings), size))
-    for number, bearing in enumerate(bearings):
-        pulls, seen = loops.bearings[number] @ basis.shapes, loops.sensors[number] @ basis.shapes
-        loop, own = bearing.loop, slice(first, first + bearing.loop.states)
-        currents[number, free], currents[number, own] = loop.D[0] * seen, loop.C[0]
-        current_rates[number, free] = loop.rate[0] * seen
-        stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
-        damping[free] += bearing.ki * np.outer(pulls, current_rates[number])
-        stiffness[free, free] += bearing.ks * np.outer(pulls, pulls)
-        stiffness[own, free], stiffness[own, own] = -np.outer(loop.B[:, 0], seen), -loop.A
-        if bearing.at_regain == "reset":
+    amplifiers = np.full(len(bearings), -1)
+    for loop in controls:
+        system, own, listed = loop.system, slice(first, first + loop.system.states), list(loop.bearings)
+        seen = loops.sensors[listed] @ basis.shapes
+        for place, number in enumerate(listed):
+            bearing, pulls = bearings[number], loops.bearings[number] @ basis.shapes
+            currents[number, free], currents[number, own] = system.D[place] @ seen, system.C[place]
+            current_rates[number, free] = system.rate[place] @ seen
+            stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
+            damping[free] += bearing.ki * np.outer(pulls, current_rates[number])
+            stiffness[free, free] += bearing.ks * np.outer(pulls, pulls)
+        stiffness[own, free], stiffness[own, own] = -(system.B @ seen), -system.A
+        if loop.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
-            left[1, own, own], regained[own] = restart * np.eye(loop.states), 0.0
-        elif bearing.at_regain == "running":
+            left[1, own, own], regained[own] = restart * np.eye(system.states), 0.0
+        elif loop.at_regain == "running":
             left[1, own] = stiffness[own]
         first = own.stop
+        with_amplifier = [number for number in listed if bearings[number].amplifier_bandwidth is not None]
+        amplifiers[with_amplifier] = range(first - len(with_amplifier), first)
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
@@ -188,6 +198,7 @@ def equations_of(
         planes,
         currents,
         current_rates,
+        amplifiers,
         regained,
         carried,
         held.across,

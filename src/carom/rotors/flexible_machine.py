@@ -26,6 +26,7 @@ from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
 from carom.rotors.rigid_body import RigidRotor
+from carom.rotors.shared_controller import SharedController, loops_in
 from carom.rotors.support import SUPPORT_FIELDS, Support
 
 ACCURACY = 0.02
@@ -38,6 +39,7 @@ _KINDS = {
     "touchdowns": TouchdownPlane,
     "unbalances": Unbalance,
     "supports": Support,
+    "shared_controllers": SharedController,
 }
 
 
@@ -61,6 +63,8 @@ class FlexibleMachine(NamedParameters):
         By default the rotor has no weight.
     supports : sequence of Support, optional
         What holds the rotor with and without its magnetic bearings.
+    shared_controllers : sequence of SharedController, optional
+        Of magnetic bearings that have no controller of their own.
 
     Raises
     ------
@@ -76,6 +80,7 @@ class FlexibleMachine(NamedParameters):
     unbalances: Sequence[Unbalance] = ()
     gravity: Gravity | None = None
     supports: Sequence[Support] = ()
+    shared_controllers: Sequence[SharedController] = ()
 
     def __post_init__(self) -> None:
         rotor: object = self.rotor
@@ -103,6 +108,7 @@ class FlexibleMachine(NamedParameters):
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
+        loops_in(self.rotor, self.bearings, self.shared_controllers)  # which refuses a bearing without a controller
         if self.rotor.bends and not all(each.bearing.is_compliant for each in self.touchdowns):
             allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
             raise InputError("law", "rigid", allowed)
@@ -195,6 +201,7 @@ def rigid_rotor(
     unbalances: Sequence[Unbalance] = (),
     gravity: Gravity | None = None,
     pivot: Any = None,
+    shared_controllers: Sequence[SharedController] = (),
 ) -> FlexibleMachine:
     """Return the machine of a rigid rotor with two complex degrees of freedom, displacement and tilt.
 
@@ -202,7 +209,7 @@ def rigid_rotor(
     ----------
     mass, polar_inertia, diametral_inertia, stations, pivot
         See :class:`RigidRotor`.
-    speed, clearance, touchdowns, bearings, supports, unbalances, gravity
+    speed, clearance, touchdowns, bearings, supports, unbalances, gravity, shared_controllers
         See :class:`FlexibleMachine`; the ``node`` of a part is the number of its station, from 0 on.
 
     Raises
@@ -230,7 +237,9 @@ def rigid_rotor(
     ['42.1 Hz, backward', '44.6 Hz, forward']
     """
     rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
-    return FlexibleMachine(rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports)
+    return FlexibleMachine(
+        rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports, shared_controllers
+    )
 
 
 _MILLIMETRES = 1e3
@@ -246,9 +255,13 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     yield "rotor", machine.rotor.words
     yield "speed", f"{number(machine.speed / RPM)} rpm"
     for place, bearing in enumerate(machine.bearings, start=1):
-        law = _law(bearing.controller)
+        law = "shared controller" if bearing.controller is None else _law(bearing.controller)
         seen = "" if bearing.sensor_nodes == (bearing.node,) else f", sensors at {at(*bearing.sensor_nodes)}"
         yield f"magnetic bearing {place}", f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {law}"
+    for place, shared in enumerate(machine.shared_controllers, start=1):
+        laws = (f"{name} {_law(getattr(shared, name))}" for name in shared.parts)
+        listed = ", ".join(str(number + 1) for number in shared.numbers(machine.bearings))
+        yield f"shared controller {place}", f"of magnetic bearings {listed}: {'; '.join(laws)}"
     for place, support in enumerate(machine.supports, start=1):
         yield f"support {place}", f"at {at(support.node)}: {_entries(support, SUPPORT_FIELDS)}"
     for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):

@@ -84,6 +84,8 @@ class FreeRotor(ABC):
     """Moment of inertia about its axis, kg m²."""
     diametral_inertia: float
     """Moment of inertia about a diameter through its centre of mass, kg m²."""
+    centre: float
+    """Where its centre of mass lies along the shaft, m."""
     bends: ClassVar[bool] = True
     """Whether it bends: then a rigid wall would have no answer that stays as modes are added."""
     fields: ClassVar[Mapping[str, Field]] = {}
@@ -202,7 +204,7 @@ class BendingRotor(FreeRotor):
         return float(self.translation @ self.matrices.mass @ self.translation)
 
     @cached_property
-    def centre(self) -> float:
+    def centre(self) -> float:  # type: ignore[override]
         """Where its centre of mass lies along the shaft, m."""
         along = np.stack([self.places, np.ones(len(self.places))], axis=1).ravel()
         return float(self.translation @ self.matrices.mass @ along / self.mass)

@@ -14,6 +14,7 @@ from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.rotors.equations import block, loops_of, motions_at
 from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.shared_controller import loops_in
 from carom.rotors.whirls import WhirlMode, speeds_of
 
 LIMITS = {"A": 3.0, "B": 4.0, "C": 5.0}
@@ -114,6 +115,7 @@ class _Loop:
         whole, loops = machine.whole, loops_of(machine.rotor, machine.bearings, machine.touchdowns)
         held, vectors = whole.equations, slice(0, whole.vectors)
         self.bearings = machine.bearings
+        self.loops = loops_in(machine.rotor, machine.bearings, machine.shared_controllers)
         self.pulls, self.seen = loops.bearings @ whole.basis.shapes, loops.sensors @ whole.basis.shapes
         softer = [bearing.ks * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)]
         self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
@@ -148,8 +150,12 @@ class _Loop:
     def of_axes(self, frequency: float) -> np.ndarray:
         """Sensitivity of one direction, shape (1, B); where both differ of both axes, shape (2, B)."""
         count, s = len(self.bearings), np.array(1j * frequency)
-        gains = [bearing.ki * complex(bearing.loop.at(s)) for bearing in self.bearings]
-        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) * (2 * gains))
+        gains = np.zeros((count, count), complex)
+        for loop in self.loops:
+            listed = list(loop.bearings)
+            forces = np.array([[self.bearings[number].ki] for number in listed])
+            gains[np.ix_(listed, listed)] = forces * loop.system.at(s).reshape(len(listed), len(listed))
+        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) @ block(gains, gains))
         # A real signal along an axis is as much a part of the displacement as of its conjugate.
         turns = np.exp(2j * np.array([each.axis_angle for each in self.bearings]))
         straight = np.diag(whole[:count, :count]) + np.diag(whole[count:, count:])

@@ -198,7 +198,7 @@ def _at_stations(tables: MachineTables, problems: Problems) -> tuple[MachineTabl
     for kind, listed in tables.parts.items():
         for number, entry in enumerate(listed, start=1):
             try:
-                read[kind, number] = _placed(entry)
+                read[kind, number] = _placed(entry) if "node" in PARTS[kind].needed else {}
             except InputError as problem:
                 problems.errors += [
                     InputError(f"[[{kind}]] {number}: {each.field}", each.value, each.allowed)
@@ -296,7 +296,7 @@ def _each(
             whole = completed(entries_in(entry, table.entries))
             require(whole, table.needed)
             part = table.make(whole)
-            if rotor is not None:
+            if rotor is not None and "node" in table.needed:
                 rotor.check_node("node", part.node)
                 for node in getattr(part, "sensor_nodes", ()):
                     rotor.check_node("sensor_nodes", node)

@@ -39,6 +39,7 @@ def _own(fields: Mapping[str, Field]) -> _Paths:
 
 _KINDS: Mapping[str, tuple[str, _Paths]] = {
     "bearings": ("magnetic bearing", _own(BEARING_FIELDS)),
+    "shared_controllers": ("shared controller", {}),
     "supports": ("support", _own(SUPPORT_FIELDS)),
     "touchdowns": (
         "touchdown bearing",
@@ -68,8 +69,11 @@ def _entries_of(attribute: str, part: object) -> _Paths:
     """Entries of a part that are stated; those of a bearing with the numbers of its controller."""
     _, paths = _KINDS[attribute]
     found = {name: own for name, own in paths.items() if _read(part, own[0]) is not None}
-    controller = getattr(part, "controller", None)
-    return {name: (("controller", *path), field) for name, (path, field) in numbers_of(controller).items()} | found
+    for controller in ("controller", "translation", "tilt", "matrices"):
+        prefix = "" if controller in ("controller", "matrices") else f"{controller}_"
+        for name, (path, field) in numbers_of(getattr(part, controller, None)).items():
+            found[prefix + name] = (controller, *path), field
+    return found
 
 
 class Entry(NamedTuple):

@@ -17,7 +17,7 @@ from carom.parameters.tables import read_entries
 from carom.parameters.terms import HELPER_FIELDS
 from carom.rotors.controllers import PID, VoltagePID, controller_of, state_space_of
 from carom.rotors.shaft_parts import read_node
-from carom.rotors.state_spaces import PADE, StateSpace, delay, gain, in_series, lag
+from carom.rotors.state_spaces import PADE, StateSpace, delay, in_series, lag
 
 SINGULAR = 1e12
 """Condition of the matrix of a controller above which it integrates."""
@@ -61,6 +61,7 @@ class MagneticBearing:
         Stiffness at constant current, N/m: below zero, as a magnet pulls harder the nearer the rotor is.
     controller : PID, TransferFunction, ZerosPolesGain, SecondOrderSections, StateSpace, Series, or a system of SciPy or python-control
         ``C``: current per displacement, A/m, or V/V with the next but one gains; a gain above zero opposes a displacement.  One with a sample time has its hold.
+        ``None`` where a :class:`SharedController` has the bearing.
     sensor_nodes : sequence of int, optional
         Where its sensors are, whose mean it takes; by default at the bearing.
     delay : float or str, optional
@@ -93,7 +94,7 @@ class MagneticBearing:
     node: int
     ki: float
     ks: float
-    controller: Any
+    controller: Any = None
     sensor_nodes: tuple[int, ...] = ()
     delay: float = 0.0
     amplifier_bandwidth: float | None = None
@@ -119,11 +120,12 @@ class MagneticBearing:
         if self.slew_rate_limit is not None and self.amplifier_bandwidth is None:
             allowed = "none without amplifier_bandwidth: it is the amplifier whose current changes no faster"
             raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
-        object.__setattr__(self, "controller", controller_of(self.controller))
+        if self.controller is not None:
+            object.__setattr__(self, "controller", controller_of(self.controller))
         self._check_gains()
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
-        integrates = self._integrates
+        integrates = self.controller is not None and self._integrates
         if self.at_regain == "running" and integrates:
             allowed = "reset or hold for a controller that integrates: running, it would add up the place of a rotor that falls, which is not followed"
             raise InputError("at_regain", shown(self.at_regain), allowed)
@@ -135,6 +137,8 @@ class MagneticBearing:
             for name, other in zip(gains, reversed(gains), strict=True):
                 if gains[name] is not None:
                     raise InputError(other, None, f"stated beside {name}: the controller then is one of voltages, V/V")
+        if self.controller is None:
+            return
         if not state_space_of(self.controller).is_single:
             raise InputError("controller", "several inputs or outputs", "one input and one output")
         own = getattr(self.controller, "controller", self.controller)
@@ -143,26 +147,22 @@ class MagneticBearing:
             raise InputError("controller", type(own).__name__, allowed)
 
     @property
-    def sensor_chain(self) -> StateSpace | None:
-        """What is before the controller; ``None`` where that is nothing."""
-        chain = [] if self.sensor_bandwidth is None else [lag(self.sensor_bandwidth)]
-        chain += [] if self.sensor_gain is None else [gain(self.sensor_gain)]
-        return in_series(chain) if chain else None
-
-    @property
-    def amplifier_chain(self) -> StateSpace | None:
-        """What is behind the controller, the amplifier last; ``None`` where that is nothing."""
-        chain = [delay(self.delay, PADE)] if self.delay else []
-        factor = self.gain_factor * (self.amplifier_gain or 1.0)
-        chain += [] if factor == 1.0 else [gain(factor)]
-        chain += [] if self.amplifier_bandwidth is None else [lag(self.amplifier_bandwidth)]
-        return in_series(chain) if chain else None
+    def stages(self) -> tuple[StateSpace, ...]:
+        """What is before the controller, then delay, gains and amplifier behind it; factors of one where there is nothing."""
+        none = StateSpace.constant(1.0)
+        sensor = StateSpace.constant(self.sensor_gain or 1.0)
+        return (
+            sensor if self.sensor_bandwidth is None else lag(self.sensor_bandwidth).then(sensor),
+            delay(self.delay, PADE) if self.delay else none,
+            StateSpace.constant(self.gain_factor * (self.amplifier_gain or 1.0)),
+            none if self.amplifier_bandwidth is None else lag(self.amplifier_bandwidth),
+        )
 
     @cached_property
     def loop(self) -> StateSpace:
-        """Current per displacement: sensors, controller, delay and amplifier, one after the other."""
-        parts = (self.sensor_chain, state_space_of(self.controller), self.amplifier_chain)
-        return in_series([each for each in parts if each is not None]).balanced()
+        """Current per displacement: sensors, controller of its own, delay and amplifier, one after the other."""
+        before, *after = self.stages
+        return in_series([before, state_space_of(self.controller), *after]).balanced()
 
     @property
     def _integrates(self) -> bool:

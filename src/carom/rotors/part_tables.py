@@ -39,6 +39,7 @@ from carom.rotors.shaft_parts import (
     ProportionalDamping,
     ShaftSection,
 )
+from carom.rotors.shared_controller import ForcePID, MomentPID, SharedController
 from carom.rotors.state_spaces import SAMPLE_TIME, StateSpace
 from carom.rotors.support import SUPPORT_FIELDS, Support
 
@@ -65,6 +66,7 @@ ATTACHED = {
     "touchdowns": "touchdown",
     "unbalances": "unbalance",
     "supports": "support",
+    "shared_controllers": "shared_controller",
 }
 """Parts of a machine beside its rotor, and their tables."""
 PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
@@ -86,6 +88,7 @@ _QUOTIENTS = (
     _Kind(SecondOrderSections, ("sos",), _SAMPLED),
     _Kind(StateSpace, ("A", "B", "C", "D"), _SAMPLED),
 )
+_PARTS_OF_SHARED: Mapping[str, type[PID]] = {"translation": ForcePID, "tilt": MomentPID}
 _CONTROLLERS = (_Kind(PID, ("proportional",), PID_FIELDS), *_QUOTIENTS)
 _FILTERS = (
     _Kind(Notch, ("notch_frequency",), NOTCH_FIELDS),
@@ -140,12 +143,36 @@ def _disc(entry: Mapping[str, Any]) -> Disc:
 
 def _bearing(entry: Mapping[str, Any]) -> MagneticBearing:
     own = entries_in(entry, ("node", "sensor_nodes", "at_regain", *BEARING_FIELDS))
-    return MagneticBearing(**own, controller=_controller(entry, in_volts="sensor_gain" in entry))
+    if not entries_in(entry, ("filter", *PID_FIELDS, *_OF_CONTROLLER)):
+        return MagneticBearing(**own)
+    return MagneticBearing(**own, controller=_controller(entry, VoltagePID if "sensor_gain" in entry else PID))
 
 
-def _controller(entry: Mapping[str, object], in_volts: bool) -> Controller:
+def _shared(entry: Mapping[str, Any]) -> SharedController:
+    """A controller of several bearings, the parts of which are tables of their own."""
+    own: dict[str, Any] = entries_in(entry, ("bearings", "at_regain"))
+    for name, gains in _PARTS_OF_SHARED.items():
+        if name in entry:
+            given: object = entry[name]
+            if not isinstance(given, Mapping):
+                raise InputError(name, shown(given), f"a table that starts with the line [shared_controller.{name}]")
+            _check_names(given, {**PID_FIELDS, **_OF_CONTROLLER}, f"[shared_controller.{name}]")
+            own[name] = _controller(given, gains)
+    if matrices := entries_in(entry, ("A", "B", "C", "D", "sample_time")):
+        require(entry, ("A", "B", "C", "D"))
+        own["matrices"] = StateSpace(**matrices)
+    return SharedController(**own)
+
+
+def _check_names(entry: Mapping[str, object], known: Mapping[str, object], where: str) -> None:
+    """Refuse the first unknown name of a table."""
+    if unknown := [name for name in entry if name not in known]:
+        raise unknown_name(unknown[0], entry[unknown[0]], known, where)
+
+
+def _controller(entry: Mapping[str, object], gains: type[PID]) -> Controller:
     """The controller of a table, with its filters."""
-    found, filters = _of_kind("controller", entry, _CONTROLLERS, VoltagePID if in_volts else PID), []
+    found, filters = _of_kind("controller", entry, _CONTROLLERS, gains), []
     listed = entry.get("filter", [])
     if not isinstance(listed, list) or not all(isinstance(each, Mapping) for each in listed):
         raise InputError(
@@ -154,8 +181,7 @@ def _controller(entry: Mapping[str, object], in_volts: bool) -> Controller:
     for number, each in enumerate(listed, start=1):
         known = dict.fromkeys(name for kind in _FILTERS for name in (*kind.needed, *kind.entries))
         try:
-            if unknown := [name for name in each if name not in known]:
-                raise unknown_name(unknown[0], each[unknown[0]], known, "[[magnetic_bearing.filter]]")
+            _check_names(each, known, "[[magnetic_bearing.filter]]")
             filters.append(_of_kind("filter", each, _FILTERS))
         except InputError as problem:
             raise together(
@@ -207,6 +233,7 @@ PARTS: Mapping[str, PartTable] = {
     "section": PartTable({**SECTION_FIELDS, **MATERIAL_FIELDS}, ("length", "outer_diameter"), _section),
     "disc": PartTable({**_NODE, **DISC_FIELDS, "width": None, **_DIAMETERS, **MATERIAL_FIELDS}, ("node",), _disc),
     "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER}, ("node", "ki", "ks"), _bearing),
+    "shared_controller": PartTable({"bearings": None, **dict.fromkeys(_PARTS_OF_SHARED), **dict.fromkeys("ABCD"), **_SAMPLED, "at_regain": None}, (), _shared),
     "support": PartTable({**_PLACE, **SUPPORT_FIELDS}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
     "touchdown": PartTable({**_PLACE, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS}, ("node", "law", "rotor_radius", "friction", "clearance"), _plane),
     "unbalance": PartTable({**_PLACE, **UNBALANCE_FIELDS}, ("node", "size"), lambda entry: Unbalance(**entry)),
@@ -249,7 +276,9 @@ def _entries(part: Any) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in (field.name for field in dataclasses.fields(part)):
         value = getattr(part, name)
-        if dataclasses.is_dataclass(value):
+        if name in _PARTS_OF_SHARED and value is not None:
+            found[name] = _entries(value)
+        elif dataclasses.is_dataclass(value):
             found |= _entries(value)
         elif name == "filters":
             found["filter"] = [_entries(each) for each in value]
@@ -269,7 +298,16 @@ def _table(head: str, entries: dict[str, Any], fields: Any) -> str:
     filters = entries.get("filter", [])
     if "sensor_gain" in entries:
         units |= {name: field.unit for name, field in VoltagePID.fields.items()}
-    lines = [toml_line(name, value, units.get(name, "")) for name, value in entries.items() if name != "filter"]
+    lines = [
+        toml_line(name, value, units.get(name, ""))
+        for name, value in entries.items()
+        if name != "filter" and name not in _PARTS_OF_SHARED
+    ]
     own = {name: field for kind in _FILTERS for name, field in kind.entries.items()}
     inner = [_table(head.replace("]]", ".filter]]"), each, own) for each in filters]
+    inner += [
+        _table(f"[shared_controller.{name}]", entries[name], kind.fields)
+        for name, kind in _PARTS_OF_SHARED.items()
+        if name in entries
+    ]
     return "\n".join([head, *lines, *inner]) + "\n"

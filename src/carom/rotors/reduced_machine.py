@@ -24,6 +24,7 @@ from carom.rotors.equations import RotorEquations, equations_of, loops_of, slowe
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.part_tables import machine_toml
 from carom.rotors.reduction import Basis
+from carom.rotors.shared_controller import loops_in
 
 if TYPE_CHECKING:
     from carom.rotors.flexible_machine import FlexibleMachine
@@ -106,7 +107,8 @@ class ReducedMachine(Result):
 
     def _equations(self, basis: Basis) -> RotorEquations:
         at = self.machine
-        return equations_of(at.rotor, basis, at.bearings, at.touchdowns, at.unbalances, at.supports, restart=at.speed)
+        parts = at.bearings, at.touchdowns, at.unbalances, at.supports, at.shared_controllers
+        return equations_of(at.rotor, basis, *parts, restart=at.speed)
 
     @cached_property
     def damped(self) -> Basis:
@@ -189,6 +191,8 @@ class ReducedMachine(Result):
         """Which bearings push a steady displacement further, in words; empty if none does."""
         found = []
         for number, each in enumerate(self.machine.bearings, start=1):
+            if each.controller is None:
+                continue
             stiffness, of = each.static_stiffness, "ki C(0) + ks"
             if math.isinf(stiffness) and isinstance(each.controller, PID):
                 # An integrator holds only what the proportional gain holds already.
@@ -202,8 +206,10 @@ class ReducedMachine(Result):
         slowest = float(np.abs(rotor.system.exponents + 1j).min())
         if slowest > SLOWEST:
             return
-        for number, bearing in enumerate(self.machine.bearings, start=1):
-            if np.abs(np.linalg.eigvals(bearing.loop.A)).min(initial=1.0) <= SLOWEST * self.machine.speed:
+        at = self.machine
+        for loop in loops_in(at.rotor, at.bearings, at.shared_controllers):
+            number, bearing = loop.bearings[0] + 1, at.bearings[loop.bearings[0]]
+            if np.abs(np.linalg.eigvals(loop.system.A)).min(initial=1.0) <= SLOWEST * at.speed:
                 gain = getattr(bearing.controller, "integral", None)
                 name, stated, faster = "controller", "a slow integrator", SLOWEST / max(slowest, 1e-300)
                 allowed = f"none, or one {faster:.2g} times as fast: this one acts as none under weight"

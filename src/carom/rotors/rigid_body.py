@@ -61,6 +61,7 @@ class RigidRotor(FreeRotor):
     pivot: float | None = None
 
     bends = False
+    centre = 0.0
     fields = RIGID_FIELDS
 
     def __post_init__(self) -> None:

@@ -82,6 +82,12 @@ class StateSpace:
         if self.sample_time is not None:
             object.__setattr__(self, "sample_time", read_quantity(SAMPLE_TIME, self.sample_time))
 
+    @classmethod
+    def constant(cls, factors: np.ndarray | float) -> StateSpace:
+        """A factor, or a matrix of them, shape (p, m)."""
+        straight = np.atleast_2d(np.asarray(factors, float))
+        return cls(np.zeros((0, 0)), np.zeros((0, straight.shape[1])), np.zeros((straight.shape[0], 0)), straight)
+
     @property
     def state_space(self) -> StateSpace:
         """It is one."""
@@ -246,11 +252,6 @@ def delay(time: float, order: int) -> StateSpace:
 def lag(bandwidth: float) -> StateSpace:
     """A low-pass filter of first order with this bandwidth, rad/s."""
     return StateSpace(np.array([[-bandwidth]]), np.array([bandwidth]), np.array([1.0]), np.zeros(()))
-
-
-def gain(factor: float) -> StateSpace:
-    """A factor."""
-    return StateSpace(np.zeros((0, 0)), np.zeros(0), np.zeros(0), np.array(factor))
 
 
 def real_numbers(name: str, given: Any) -> np.ndarray:

@@ -200,6 +200,7 @@ def _of_model(model: Rotor) -> _Whole:
             planes=system.planes,
             currents=none,
             current_rates=none,
+            amplifiers=np.zeros(0, int),
             regained=np.ones(n),
             carried=mass @ system.translated,
             across=np.zeros((2, n, n)) if conjugate is None else conjugate,
