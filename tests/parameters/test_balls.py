@@ -65,6 +65,19 @@ def test_a_printed_example():
     assert (1e3 * contact.longer, 1e3 * contact.shorter) == pytest.approx((2.101, 0.156), rel=5e-3)
 
 
+@pytest.mark.parametrize(
+    ("difference", "longer", "shorter", "approach"),
+    [(0.3204, 1.2623, 0.8114, 0.9761), (0.7948, 2.265, 0.5480, 0.7961), (0.95738, 4.395, 0.3830, 0.5551), (0.990902, 8.062, 0.2814, 0.3745)],
+)  # fmt: skip
+def test_printed_dimensionless_numbers_of_contacts(difference, longer, shorter, approach):
+    """Harris, Rolling Bearing Analysis: axes and approach of contacts by the difference of their curvatures over their sum."""
+    found = point_contact(1.0, (0.5 * (1.0 + difference), 0.5 * (1.0 - difference)), 1.0)
+    unit = 1.5 ** (1.0 / 3.0)
+    # The printed digits.
+    assert (found.longer / unit, found.shorter / unit) == pytest.approx((longer, shorter), abs=1e-3)
+    assert found.approach / (0.5 * unit**2) == pytest.approx(approach, abs=1e-4)
+
+
 # Sjövall's integral of point contacts as Harris prints it (Rolling Bearing Analysis, load distribution), and Stribeck's 4.37.
 PRINTED = {
     0.1: 0.1156, 0.2: 0.1590, 0.3: 0.1892, 0.4: 0.2117, 0.5: 0.2288, 0.6: 0.2416, 0.7: 0.2505, 0.8: 0.2559, 0.9: 0.2576,

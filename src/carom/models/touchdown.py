@@ -45,7 +45,7 @@ class Touchdown:
     clearance : float, optional
         Clearance there in the unit of length of the rotor's scales, 1 by default: results at the plane in SI units need it, the equations do not.
     bearing : carom.parameters.TouchdownBearing, optional
-        Its data in SI units where it states its balls: they give a pressure, and change no motion.
+        Its data in SI units where it states its balls or ratings, which loads are compared with.
     farthest : float, optional
         Distance from the centre, in clearances, up to which the rotor is followed in a compliant wall: beyond it, motions end as
         beyond the model.  By default 2.
