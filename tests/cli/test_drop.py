@@ -1,6 +1,7 @@
 """``carom drop``: loads of a drop for people, as JSON, and with figures and a page."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -115,3 +116,24 @@ def test_a_map_for_people_and_as_json(carom, tmp_path):
 )
 def test_wrong_maps(refused, options, said):
     refused(said, "drop", "examples/dropped-rotor.toml", *options)
+
+
+def test_until_the_shaft_stands(carom, tmp_path):
+    drive = '\n[drive]\npolar_inertia = "4e-6 kg m^2"\nbrake = "0.05 N m"\n'
+    path = tmp_path / "slow.toml"
+    path.write_text(Path(MACHINE).read_text(encoding="utf-8") + drive, encoding="utf-8")
+    command = ("drop", str(path), "--until", "standstill", "--steps", "20")
+    code, out, _ = carom(*command, "--json")
+    assert code == 0
+    found = json.loads(out)["spin_down"]
+    slowed = cm.motions.spin_down(cm.load(path), cm.drop(), steps=20)
+    assert found["stands"]
+    assert found["time"] == slowed.time
+    assert found["course"]["time"] == slowed.course[:, 0].tolist()
+    given = found["energy_into_bearings_si"][0] + found["braked_si"]
+    assert 0.9 < given / (0.5 * 4e-6 * cm.load(path).parameters.scales.speed ** 2) < 1.1
+    words = " ".join(carom(*command)[1].split())
+    assert "The shaft stands" in words
+    assert "from 20 steps of speed" in words
+    code, _, err = carom(*command, "--map", "phase,speed")
+    assert (code, "--until = standstill: a time beside --map" in err) == (2, True)

@@ -125,7 +125,6 @@ def without(text, line):
         (SMALL.replace("damping_ratio = 0.01", ""), r"^damping = nothing given: one of: damping_ratio"),
         (SMALL.replace("accuracy = 0.5", "damping_of_mass = 1"), r"^damping = both: one of: damping_ratio"),
         (SMALL.replace("accuracy", "acuracy"), r"^acuracy = 0.5: .*did you mean accuracy"),
-        (SMALL + "[drive]\npolar_inertia = 1\n", r"^drive = .*: not allowed beside \[rotor\]"),
         (
             SMALL + "[machine]\nmass = 1\n",
             r"must hold a \[machine\], a \[dimensionless\] or a \[rotor\] table, one of them",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
+from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
@@ -14,9 +15,11 @@ if TYPE_CHECKING:
 
     from carom.basins import DropMap
     from carom.cli.starts import StatedBeginning
+    from carom.disturbances import Drop
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
+STANDSTILL = "standstill"
 _DRAWN = 20_000
 """Impacts and steps of contact that are drawn: figures need them all at once."""
 MOST_CELLS = 100_000
@@ -36,6 +39,13 @@ MAP = option(
     "--map",
 )
 GRID = option("NxM", "With --map: numbers of values; 24x16 by default.")
+UNTIL = option(
+    "T",
+    "Simulate until this time, in 1/Omega or with a unit, or until the shaft stands: 'standstill'; by default until the outcome is certain.",
+)
+STEPS = option(
+    "N", "With --until standstill: steps of speed down to zero; the error is that of half as many.", default=200
+)
 OUT = option("DIR", "Write figures, drop.json and drop.html to this directory.")
 
 
@@ -48,12 +58,13 @@ def drop(
     phase: str | None = PHASE,
     race_speed: str | None = RACE_SPEED,
     regained_after: str | None = options.REGAINED_AFTER,
-    until: str | None = options.UNTIL,
+    until: str | None = UNTIL,
     plane: str | None = MAP,
     grid: str | None = GRID,
     x: str | None = options.FIRST_RANGE,
     y: str | None = options.SECOND_RANGE,
     out: str | None = OUT,
+    steps: int = STEPS,
     as_json: bool = options.AS_JSON,
 ) -> None:
     """Drop the rotor on its touchdown bearings: forces, depth, heat, whirl and race speed, against their limits.
@@ -71,6 +82,10 @@ def drop(
     if plane is None:
         refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
+    if until == STANDSTILL:
+        if plane is not None:
+            raise InputError("--until", until, "a time beside --map, such as '0.5 s'")
+        return _slow_down(case, begins, steps, out, as_json)
     end = read_time(until, case.parameters.scales)
     if asked:
         shape = tuple(USUAL.values()) if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
@@ -95,6 +110,19 @@ def _drop_once(case: Case, begins: StatedBeginning, end: float | None, out: str 
             motion = simulate(rotor, state, end, settle=True, max_events=_DRAWN)
             page = write_drop_report(found, motion, out, progress=tell.part(0.4, 1.0))
     hand_over(found.document, as_json, lambda: _print_drop(console(), found, out), out, f"Report: {page}")
+
+
+def _slow_down(case: Case, begins: StatedBeginning, steps: int, out: str | None, as_json: bool) -> None:
+    """Follow one drop until the shaft stands, and tell how long it takes and what the bearing bears."""
+    with progress("slowing down (the kernels are compiled on first use)") as tell:
+        from carom.motions import spin_down
+        from carom.studies.drops import DropStudy
+
+        _, _, echo = begins.apply(case)
+        slowed = spin_down(case, cast("Drop", begins.release), steps=steps, progress=tell)
+        found = DropStudy(case, echo, slowed.loads, spin_down=slowed)
+        write_output(out, case, "standstill", found.document, {})
+    hand_over(found.document, as_json, lambda: _print_drop(console(), found, "" if out is None else out), out)
 
 
 def _print_drop(screen: Console, found: DropStudy, out: str | None) -> None:

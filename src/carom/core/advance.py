@@ -16,7 +16,7 @@ from carom.core.rounding import RESTING, push_rounding, speed_rounding
 from carom.core.rub import lift_off, press, wall_push
 from carom.core.rub_step import NOWHERE, leading_station, rub_step
 from carom.core.settling import levitates, triggers, until_triggered
-from carom.core.shaft import enter_flight, leave_flight
+from carom.core.shaft import enter_flight, has_slowed_down, leave_flight
 from carom.core.wall import unit
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
@@ -114,7 +114,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
             if memory.stalled >= most_stalled:
                 outcome = GRAZING
             makes_contact = (not slides or duration == 0.0) and station != NOWHERE
-            if memory.watches > 0 and triggers(memory, rubs, makes_contact, duration):
+            persists = memory.watches > 0 and triggers(memory, rubs, makes_contact, duration)
+            if persists or has_slowed_down(rotor, state, memory):
                 outcome = TRIGGERED
             if (slides and _beyond(rotor, state)) or _at_magnet(rotor, state):
                 outcome = BEYOND_MODEL

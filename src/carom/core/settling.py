@@ -61,6 +61,7 @@ def memory(
     contact_time: float = np.inf,
     contact_gap: float = 0.0,
     impact_speed: float = np.inf,
+    slowest: float = -np.inf,
     limits: int = 0,
     slice_time: float = np.inf,
 ) -> np.record:
@@ -86,6 +87,8 @@ def memory(
         End with ``TRIGGERED`` when contact has persisted for that long, interrupted by flights of at most ``contact_gap``.
     impact_speed : float
         End with ``TRIGGERED`` at an impact with that speed or more.
+    slowest : float
+        End with ``TRIGGERED`` at an event, or after a step of contact, at which a shaft is no faster.
     limits : int
         Number of limited quantities: ``clock`` then is the time, and ``limited`` the states of their axes, at the start of the motion.
     slice_time : float
@@ -125,6 +128,7 @@ def memory(
         contact_time=np.asarray(contact_time),
         contact_gap=np.asarray(contact_gap),
         impact_speed=np.asarray(impact_speed),
+        slowest=np.asarray(slowest),
         hardest_impact=np.asarray(0.0),
         contact_so_far=np.asarray(NO_CONTACT),
         flown=np.asarray(0.0),

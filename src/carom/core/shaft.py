@@ -115,6 +115,14 @@ def turn_shaft(rotor, contact, k, work):
 
 
 @inlined
+def has_slowed_down(rotor, amplitudes, memory):
+    """Whether the shaft is so slow that this ends the stage."""
+    if rotor.shaft.shape[0] > 0:
+        return amplitudes[rotor.shaft[0] + 1].real <= memory.slowest
+    return False
+
+
+@inlined
 def lever_of_shaft(rotor, station, normal, amplitudes):
     """Change of the local velocity of a station, with that of its surface, by that of the speed at one instant: ``i(s − ε)``."""
     eccentricity = normal.conjugate() * (rotor.unbalance_rows[station] * amplitudes[rotor.shaft[0]])

@@ -140,7 +140,8 @@ class LinearEquations(Definition, Result):
         if self.conjugate is not None:
             allowed = "None where bearings are anisotropic: its speed stays as it is"
             raise InputError("shaft", shown(self.shaft), allowed)
-        if np.abs(self.matrices.gyroscopic).max() > GYROSCOPIC * np.abs(self.damping).max():
+        in_stages = self.shaft is not None and self.shaft.in_stages
+        if not in_stages and np.abs(self.matrices.gyroscopic).max() > GYROSCOPIC * np.abs(self.damping).max():
             raise InputError(
                 "shaft", shown(self.shaft), "None for a rotor with a gyroscopic matrix: its modes change with the speed"
             )

@@ -280,12 +280,14 @@ def jeffcott(
     return Rotor(Planar(parameters, bearing, levitates, drive, air_gap))
 
 
-def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
-    """What turns with the shaft in the units of a rotor's equations; ``None`` of one whose speed never changes."""
-    if drive is None or drive.polar_inertia is None:
+def shaft_of(drive: Drive | None, scales: Scales, inertia: float | None = None) -> Shaft | None:
+    """What turns with the shaft in the units of a rotor's equations; ``None`` of one whose speed never changes, as it has no inertia, not even this one."""
+    drive = drive or Drive()
+    if (inertia := drive.polar_inertia or inertia) is None:
         return None
     unit = scales.mass * scales.length**2
-    return Shaft(drive.polar_inertia / unit, drive.torque / (unit * scales.speed**2))
+    torque, brake = drive.torque / (unit * scales.speed**2), drive.brake / (unit * scales.speed**2)
+    return Shaft(inertia / unit, torque, brake, drive.drag / (unit * scales.speed), drive.windage / unit)
 
 
 def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) -> Rigid | KelvinVoigt | HuntCrossley:

@@ -28,12 +28,15 @@ class Trigger:
         Longest flight between two bounces of contact that persists; in a flight it counts as persisting until that time is over.
     impact_speed : float
         Radial speed of an impact at any plane.
+    shaft_speed : float
+        Speed of a shaft that slows down, in ``Ω``, seen at an impact or after a step of contact.
     """
 
     time: Positive | Infinity = np.inf
     contact_time: Positive | Infinity = np.inf
     contact_gap: NotNegative = 0.0
     impact_speed: Positive | Infinity = np.inf
+    shaft_speed: float | Infinity = -np.inf
 
 
 NEVER = Trigger()

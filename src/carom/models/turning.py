@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,14 +24,32 @@ class Shaft:
         Polar moment of inertia in ``m c_r²``, with the unit ``m`` of the rotor's masses.
     torque : float
         Torque of the drive in contact, in ``m c_r² Ω²``.
+    brake, drag, windage : float
+        Torques against the rotation that count in a spin-down alone (:func:`carom.motions.spin_down`): one that is constant, in ``m c_r² Ω²``, and
+        what others are per speed, in ``m c_r² Ω``, and per squared speed, in ``m c_r²``.
+    in_stages : bool
+        Whether the modes are those of one speed, from which that of the shaft departs little: gyroscopic moments are those of that speed.
     """
 
     inertia: Positive
     torque: float = 0.0
+    brake: NotNegative = 0.0
+    drag: NotNegative = 0.0
+    windage: NotNegative = 0.0
+    in_stages: bool = False
 
     def at_speed(self, factor: float) -> Shaft:
         """Return the same at a nominal speed that is larger by a factor."""
-        return Shaft(self.inertia, self.torque / factor**2)
+        return replace(self, torque=self.torque / factor**2, brake=self.brake / factor**2, drag=self.drag / factor)
+
+    @property
+    def turns_freely(self) -> bool:
+        """Whether nothing but friction in contact changes its speed."""
+        return not (self.torque or self.brake or self.drag or self.windage)
+
+    def rate(self, speed: float) -> float:
+        """Rate of the speed by all torques but friction in contact, in ``Ω²``."""
+        return (self.torque - self.brake - (self.drag + self.windage * speed) * speed) / self.inertia
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,6 +27,7 @@ from carom.motions.load_sums import drop_loads, follow_loads
 from carom.motions.loads import Braking, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
+from carom.motions.spin_down import SpinDown, spin_down
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 
@@ -40,6 +41,7 @@ __all__ = [
     "EnergyLedger",
     "LastWhirl",
     "LastingContact",
+    "SpinDown",
     "State",
     "TouchdownLoads",
     "Trajectory",
@@ -48,4 +50,5 @@ __all__ = [
     "follow_loads",
     "settle",
     "simulate",
+    "spin_down",
 ]

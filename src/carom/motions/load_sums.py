@@ -77,7 +77,7 @@ def follow_loads(
     1318 N
     """
     following = Following(settle, False, PATIENCE, max_events, Reporter.of(progress, "simulating"))
-    return _added(stretches(machine, start, until, following))
+    return loads_of(stretches(machine, start, until, following))
 
 
 @checked
@@ -109,10 +109,10 @@ def drop_loads(motion: Trajectory) -> DropLoads:
     >>> print(f"{plane.si()['force']:.0f} N after {1e3 * plane.force_at * machine.parameters.scales.time:.1f} ms")
     1318 N after 6.0 ms
     """
-    return _added(motion.parts)
+    return loads_of(motion.parts)
 
 
-def _added(pieces: Iterable[Trajectory]) -> DropLoads:
+def loads_of(pieces: Iterable[Trajectory]) -> DropLoads:
     """Loads of pieces of a motion, or of whole stages, in their order."""
     planes: list[_AtPlane] = []
     kept: list[Trajectory] = []

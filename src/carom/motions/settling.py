@@ -97,6 +97,7 @@ def fresh_memory(
         contact_time=trigger.contact_time,
         contact_gap=trigger.contact_gap,
         impact_speed=trigger.impact_speed,
+        slowest=trigger.shaft_speed,
         limits=rotor.system.limits,
         slice_time=SLICE * float(rotor.system.table.durations[0]) / rotor.system.arrays["columns"].size,
     )

@@ -129,7 +129,7 @@ def stretches(
     passed = 0.0
     for stage in stages_of(model):
         longest = time_limit(stage.rotor, stage.trigger) if end is None else end - passed
-        for piece in _follow_stage(stage.rotor, state, longest, stage.trigger, following):
+        for piece in follow_stage(stage.rotor, state, longest, stage.trigger, following):
             yield piece
         if piece.outcome is not Outcome.TRIGGERED:
             return
@@ -138,7 +138,7 @@ def stretches(
         state = State.of(*stage.carried(ended.position, ended.velocity), ended.races, ended.shaft, begins)
 
 
-def _follow_stage(
+def follow_stage(
     rotor: Rotor, start: State, longest: float, trigger: Trigger, following: Following
 ) -> Iterator[Trajectory]:
     """Follow a start through one stage, for so long at most, or until its trigger ends it."""

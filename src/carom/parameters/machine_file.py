@@ -98,6 +98,8 @@ class Case(Tabular):
         if not hasattr(self.parameters, "finite_elements"):
             raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters, or a model")
         self.requirement.own(self.parameters.scales)
+        if self.drive and self.drive.polar_inertia is None and self.parameters.finite_elements is None:
+            raise InputError("polar_inertia", None, "a table [drive] needs it, such as polar_inertia = '0.02 kg m^2'")
         if self.gravity is not None and self.gravity.acceleration == 0.0:
             object.__setattr__(self, "gravity", None)
         if self.touchdown is not None and self.touchdown.is_plain:

@@ -40,6 +40,7 @@ _KINDS = {
     "N s/m": "a damping",
     "s/m": "a dissipation",
     "N m s": "a drag",
+    "N m s^2": "a windage",
     "kg/m^3": "a density",
 }
 """What is counted in an SI unit."""
@@ -241,10 +242,14 @@ class Drive(Table):
 
     Parameters
     ----------
-    polar_inertia : float or str
-        Moment of inertia about the axis of rotation, kg m².
+    polar_inertia : float or str, optional
+        Moment of inertia about the axis of rotation, kg m²; needed beside ``[machine]``, and by default that of the rotor beside ``[rotor]``.
     torque : float or str, optional
-        Torque of the drive while the rotor touches, N m; 0, a drive that is off, by default.  In flight the speed stays as it is.
+        Torque of the drive while the rotor touches, N m; 0, a drive that is off, by default.  In flight the speed stays as it is, but not in a
+        spin-down to standstill, in which it always acts, as do those below.
+    brake, drag, windage : float or str, optional
+        Torques against the rotation in a spin-down: one that is constant, such as that of the axial touchdown bearing, N m; one that grows with the
+        speed, N m s; and one that grows with its square, N m s²; 0 by default.
 
     Raises
     ------
@@ -254,18 +259,22 @@ class Drive(Table):
 
     polar_inertia: float | None = entry("J", "polar inertia of the rotor", "kg m^2", 1e-15, 1e9, '"0.02 kg m^2"')
     torque: float = entry("", "torque of the drive in contact", "N m", -1e12, 1e12, '"0 N m"', True, 0.0)
+    brake: float = entry("", "torque that is constant, in a spin-down", "N m", 1e-15, 1e12, '"0.1 N m"', True, 0.0)
+    drag: float = entry("", "torque per speed, in a spin-down", "N m s", 1e-18, 1e12, '"1e-5 N m s"', True, 0.0)
+    windage: float = entry(
+        "", "torque per speed squared, in a spin-down", "N m s^2", 1e-21, 1e12, '"1e-8 N m s^2"', True, 0.0
+    )
 
     heading: ClassVar = "drive"
 
-    def __post_init__(self) -> None:
-        if self.polar_inertia is None:
-            raise InputError("polar_inertia", None, "a table [drive] needs it, such as polar_inertia = '0.02 kg m^2'")
-        super().__post_init__()
-
     @property
     def words(self) -> str:
-        """Both in the units of people."""
-        return f"polar inertia {number(self.polar_inertia or 0.0)} kg m², torque in contact {number(self.torque)} N m"
+        """What is stated in the units of people."""
+        parts = [f"polar inertia {number(self.polar_inertia)} kg m²"] if self.polar_inertia else []
+        parts.append(f"torque in contact {number(self.torque)} N m")
+        units = {"brake": "N m", "drag": "N m s", "windage": "N m s²"}
+        parts += [f"{name} {number(getattr(self, name))} {unit}" for name, unit in units.items() if getattr(self, name)]
+        return ", ".join(parts)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -48,9 +48,6 @@ def read_rotor_tables(tables: MachineTables, settings: Mapping[str, str], beside
     CaromWarning
         A section is thicker than the shaft is long, or thinner than a wire, or the rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
-    if beside["drive"] is not None:
-        allowed = "not allowed beside [rotor]: gyroscopic moments change with the speed of the shaft, which is held constant there"
-        problems.errors.append(InputError("drive", shown(dict(tables.beside["drive"])), allowed))
     stated = entries_in(settings, REDUCED) or tables.values
     name = next((name for name in REDUCED if name in stated), "accuracy")
     wanted = problems.attempt(read_quantity, ROTOR_ENTRIES[name], stated.get(name, ACCURACY))

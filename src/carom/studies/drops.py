@@ -15,12 +15,23 @@ from carom.disturbances import Drop, drop
 from carom.disturbances.machine_changes import ASSUMED
 from carom.disturbances.single import Echo
 from carom.models import Rotor, rotor_of
-from carom.motions import Braking, DropLoads, LastWhirl, State, TouchdownLoads, Trajectory, drop_loads, simulate
+from carom.motions import (
+    Braking,
+    DropLoads,
+    LastWhirl,
+    SpinDown,
+    State,
+    TouchdownLoads,
+    Trajectory,
+    drop_loads,
+    simulate,
+)
 from carom.motions.loads import MEASURED
 from carom.motions.settling import REPEATING
 from carom.parameters import LIMIT_FIELDS, Case, LoadLimits
 from carom.parameters.formats import number
 from carom.rotors.reduction_errors import ReductionError, reduction_error
+from carom.studies.standstill import spin_down_entries, spin_down_rows, standstill_words
 from carom.studies.wording import Wording
 
 PLANE = "is_compliant contacts bounces restitution force_at:time impulse_at:time in_contact_since:time race_at_end:speed fastest_race:speed"
@@ -269,6 +280,8 @@ class DropStudy(Result):
         Error of the reduction of a flexible machine along it.
     motion : Trajectory or None
         ``None`` where its loads alone were followed.
+    spin_down : carom.motions.SpinDown or None
+        How the shaft slowed down, where it was followed to standstill.
     """
 
     case: Case
@@ -276,6 +289,7 @@ class DropStudy(Result):
     loads: DropLoads
     reduction: ReductionError | None = None
     motion: Trajectory | None = None
+    spin_down: SpinDown | None = None
 
     @property
     def assumed(self) -> bool:
@@ -291,6 +305,8 @@ class DropStudy(Result):
     def headline(self) -> str:
         """How the motion ended, and up to when it was followed."""
         say, loads = Wording(self.case.parameters.scales), self.loads
+        if self.spin_down is not None:
+            return standstill_words(self.spin_down)
         if loads.outcome is Outcome.BEYOND_MODEL:
             return f"Beyond the model from {say.time(loads.time)} after the release: {loads.outcome.meaning}"
         if not loads.outcome.settled:
@@ -304,7 +320,8 @@ class DropStudy(Result):
     @property
     def tables(self) -> list[tuple[str, list[tuple[str, str]]]]:
         """For each plane a title, empty if there is one plane alone, and labels with what they say."""
-        return load_tables(self.loads, "the release")
+        tables = load_tables(self.loads, "the release")
+        return tables if self.spin_down is None else [*tables, ("Spin-down", spin_down_rows(self.spin_down))]
 
     def document(self) -> dict[str, object]:
         """The drop as JSON."""
@@ -325,6 +342,7 @@ class DropStudy(Result):
             **record(self, "reduction"),
             "shaft": loads.shaft and record(loads.shaft, SHAFT, scales),
             "touchdown_bearings": load_entries(loads, case.limits),
+            "spin_down": self.spin_down and spin_down_entries(self.spin_down),
         }
 
 

@@ -1,0 +1,64 @@
+"""A spin-down to standstill in words, rows and as JSON."""
+
+from __future__ import annotations
+
+import math
+
+from carom.base.results import record
+from carom.motions import SpinDown
+from carom.parameters.formats import number
+from carom.studies.wording import Wording
+
+
+def standstill_words(slowed: SpinDown) -> str:
+    """When the shaft stands, or what was not reached."""
+    say = Wording(slowed.scales)
+    turns = number(slowed.turns, 4)
+    if slowed.stands:
+        return f"The shaft stands {say.time(slowed.time)} after the release, after {turns} turns."
+    left = say.time(slowed.remaining) if math.isfinite(slowed.remaining) else ""
+    more = (
+        f"; it would stand {left} later if it slowed down as it did last"
+        if left
+        else "; it does not slow down any more"
+    )
+    why = slowed.loads.outcome.words
+    return f"Standstill not reached: {say.write(slowed.speed_at_end, 'speed')} after {say.time(slowed.time)} and {turns} turns ({why}){more}."
+
+
+def spin_down_rows(slowed: SpinDown) -> list[tuple[str, str]]:
+    """What is said of a spin-down beside loads: energies, the largest whirl, and speeds that are passed."""
+    say, planes = Wording(slowed.scales), slowed.loads.planes
+    names = [f" {each.plane + 1}" if len(planes) > 1 else "" for each in planes]
+    rows = [
+        (f"energy into bearing{name}", say.write(each.heat + each.restitution_loss, "energy"))
+        for name, each in zip(names, planes, strict=True)
+    ]
+    rows.append(("windage, drag, drive", f"{say.write(slowed.braked, 'energy')} taken from the shaft"))
+    for name, (radius, speed) in zip(names, slowed.largest, strict=True):
+        rows.append(
+            (f"largest whirl{name}", f"{number(radius, 4)} clearances from the centre, at {say.write(speed, 'speed')}")
+        )
+    if slowed.criticals:
+        passed = ", ".join(say.write(each, "speed") for each in slowed.criticals)
+        rows.append(("critical speeds", f"of the free rotor, passed on the way down: {passed}"))
+    told = (
+        "none by steps of speed"
+        if slowed.error is None
+        else f"{number(100.0 * slowed.error, 2)} % from {slowed.steps} steps of speed"
+    )
+    return [*rows, ("error", f"{told}; left out: rolling resistance, torque of the unbalance on the shaft")]
+
+
+def spin_down_entries(slowed: SpinDown) -> dict[str, object]:
+    """A spin-down as JSON."""
+    scales = slowed.scales
+    course = ("time", "speed", *(f"largest_radius_{place + 1}" for place in range(len(slowed.loads.planes))))
+    return {
+        **record(slowed, "stands time: turns speed_at_end:speed braked:energy steps error", slowed.scales),
+        "energy_into_bearings": (energies := [each.heat + each.restitution_loss for each in slowed.loads.planes]),
+        "energy_into_bearings_si": scales and [each * scales.energy for each in energies],
+        "criticals": list(slowed.criticals),
+        "criticals_si": scales and [each * scales.speed for each in slowed.criticals],
+        "course": {name: values.tolist() for name, values in zip(course, slowed.course.T, strict=True)},
+    }

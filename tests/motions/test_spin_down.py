@@ -1,0 +1,138 @@
+"""Spin-down to standstill against closed forms and quadrature, and with gyroscopic moments in steps of speed."""
+
+import cmath
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+
+import carom as cm
+from carom.base.outcome import InputError
+from carom.models import Force, KelvinVoigt, Rigid, Shaft, Touchdown, from_matrices
+from carom.motions import spin_down
+from carom.parameters import Drive
+
+pytestmark = pytest.mark.jit_only
+FRICTION, RADIUS, PRESSED, INERTIA = 0.2, 4.0, 0.5, 20.0
+HARD = Rigid(0.5)
+LEAN = math.atan(FRICTION)
+SLOWED = FRICTION * PRESSED * math.cos(LEAN) * RADIUS / INERTIA
+
+
+@dataclasses.dataclass(frozen=True)
+class From:
+    """A start of a rotor that has no levitation."""
+
+    rotor: object
+    state: cm.State
+
+    def stages(self, machine):
+        return self.rotor, self.state
+
+
+def pressed(law=HARD, force=PRESSED, friction=FRICTION, **torques):
+    """A rotor pressed by a constant force, at its lean."""
+    touchdown = Touchdown([1.0], law, friction, RADIUS + 1.0)
+    nothing = {name: [[0.0]] for name in ("damping", "stiffness")}
+    rotor = from_matrices(
+        mass=[[1.0]], **nothing, forcing=[0.0], touchdowns=[touchdown], shaft=Shaft(INERTIA, **torques)
+    )
+    depth = 0.0 if isinstance(law, Rigid) else force * math.cos(LEAN) / law.stiffness
+    place = cmath.rect(1.0 + depth, -LEAN) if force else 0j
+    rotor = rotor.under(Force(-1j, np.array([force]))) if force else rotor
+    return rotor, From(rotor, cm.State(place, -1j * place))
+
+
+@pytest.mark.parametrize("law", [HARD, KelvinVoigt(1e4, 100.0)])
+def test_a_pressed_rotor_stops_when_friction_has_taken_its_momentum(law):
+    found = spin_down(*pressed(law), steps=20)
+    assert found.stands
+    assert found.time == pytest.approx(
+        INERTIA * math.sqrt(1.0 + FRICTION**2) / (FRICTION * PRESSED * RADIUS), rel=1e-12
+    )
+    assert found.turns == pytest.approx(0.5 * found.time / (2.0 * math.pi), rel=1e-12)
+    assert found.loads.planes[0].heat == pytest.approx(0.5 * INERTIA, rel=1e-12)
+    assert found.error is None
+    assert found.remaining == found.braked == 0.0
+
+
+@pytest.mark.parametrize(
+    "torques",
+    [{"brake": 0.3}, {"drag": 0.5}, {"windage": 0.8}, {"torque": 0.1, "brake": 0.3, "drag": 0.5, "windage": 0.8}],
+)
+def test_other_torques_against_quadrature_and_the_error_that_is_told(torques):
+    shaft = Shaft(INERTIA, **torques)
+    time = quad(lambda speed: 1.0 / (SLOWED - shaft.rate(speed)), 0.0, 1.0)[0]
+    work = quad(lambda speed: INERTIA * speed * -shaft.rate(speed) / (SLOWED - shaft.rate(speed)), 0.0, 1.0)[0]
+    for steps in (20, 200):
+        found = spin_down(*pressed(**torques), steps=steps)
+        assert abs(found.time / time - 1.0) < 2.0 * found.error + 1e-12
+    assert found.error < 2e-4
+    # Windage and friction take all: of second order in the step.
+    assert found.braked == pytest.approx(work, rel=1e-3)
+    assert found.braked + found.loads.planes[0].heat == pytest.approx(0.5 * INERTIA, rel=1e-3)
+
+
+def test_without_contact_torques_alone_stop_it_or_never_do():
+    stopped = spin_down(*pressed(force=0.0, brake=0.3), steps=20)
+    assert stopped.time == pytest.approx(INERTIA / 0.3, rel=1e-12)
+    endless = spin_down(*pressed(force=0.0, windage=0.3), "200", steps=20)
+    assert not endless.stands
+    assert endless.time == pytest.approx(200.0)
+    assert endless.speed_at_end == pytest.approx(1.0 / (1.0 + 200.0 * 0.3 / INERTIA), rel=2e-2)
+    assert endless.remaining > 0.0
+
+
+def overhung(force, unbalance, start, **torques):
+    """A rotor that tilts, with two touchdown bearings, and its start."""
+    stations = np.array([[1.0, 0.9], [1.0, -0.7]])
+    rotor = from_matrices(
+        mass=np.diag([1.0, 0.3]),
+        damping=np.diag([0.02, 0.02]),
+        stiffness=np.diag([0.0, 0.02]),
+        gyroscopic=np.diag([0.0, 0.4]),
+        forcing=unbalance,
+        touchdowns=[Touchdown(row, KelvinVoigt(50.0, 4.0), 0.2, 4.0) for row in stations],
+        shaft=Shaft(4.0, in_stages=True, **torques),
+    )
+    rotor = rotor.under(Force(-1j, np.array(force))) if np.any(force) else rotor
+    return rotor, From(rotor, start)
+
+
+def test_gyroscopic_moments_in_20_steps_against_2000():
+    rotor = overhung([0.3, 0.1], [0.05, 0.02], cm.State(np.array([0.0, 0.1j]), np.zeros(2)))
+    coarse, fine = (spin_down(*rotor, steps=steps) for steps in (20, 2000))
+    assert coarse.stands
+    assert fine.stands
+    assert abs(coarse.time / fine.time - 1.0) < 3.0 * coarse.error
+    assert fine.error < 0.2 * coarse.error
+
+
+def test_precession_of_a_shaft_that_slows_down_against_a_general_integrator():
+    """Without contact, at the ends of all steps; the error falls like the square of the step."""
+    start, errors = cm.State(np.array([0.0, 0.1]), np.array([0.0, 0.1j])), []
+
+    def rates(time, y):
+        return y[1], (-0.02 * y[0] - (0.02 - 0.4j * (1.0 - 0.025 * time)) * y[1]) / 0.3
+
+    for steps in (50, 100):
+        found = spin_down(*overhung([0.0, 0.0], [0.0, 0.0], start, brake=0.1), steps=steps)
+        assert found.time == pytest.approx(40.0)
+        times = found.course[:, 0]
+        state = solve_ivp(
+            rates, (0.0, 40.0), [0.1 + 0j, 0.2j], "DOP853", times.clip(0.0, 40.0), rtol=1e-11, atol=1e-13
+        ).y[0]
+        errors.append(np.abs(found.course[:, 2] - 0.9 * np.abs(state)).max())
+    assert errors[1] < 0.35 * errors[0] < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("drive", "words"),
+    [(None, "polar_inertia = nothing given: a spin-down needs"), (Drive("1 kg m^2"), "a drop without")],
+)
+def test_what_cannot_slow_down(drive, words):
+    machine = cm.load("examples/touchdown-balls.toml")
+    with pytest.raises(InputError, match=words):
+        spin_down(machine, cm.drop(regained_after=None if drive is None else "10 ms"), drive=drive)
