@@ -21,7 +21,7 @@ LIMITS = {
     "motions disturbances": 3647,
     "orbits bifurcations closed_forms continuation": 6415,
     "basins attractors": 2197,
-    "studies": 3270,
+    "studies": 3290,
     "cli plots report": 5346,
     "rotors": 3849,
     "proofs": 5900,
