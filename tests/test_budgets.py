@@ -16,12 +16,12 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3460,
-    "models": 2175,
+    "models": 2188,
     "core": 6613,
     "motions disturbances": 3647,
     "orbits bifurcations closed_forms continuation": 6415,
     "basins attractors": 2197,
-    "studies": 3290,
+    "studies": 3302,
     "cli plots report": 5346,
     "rotors": 3849,
     "proofs": 5900,
@@ -29,7 +29,7 @@ LIMITS = {
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 36_665, 291
+TESTS, ANY = 36_721, 291
 LONGEST_FILE, LONGEST_FUNCTION = 400, 80
 SKIPPED = (
     tokenize.COMMENT,
