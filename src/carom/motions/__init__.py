@@ -24,7 +24,7 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.kinematics import ContactHistory, LastingContact
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.load_sums import drop_loads, follow_loads
-from carom.motions.loads import Braking, DropLoads, LastWhirl, TouchdownLoads
+from carom.motions.loads import Braking, CatalogueLoads, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
 from carom.motions.spin_down import SpinDown, spin_down
@@ -34,6 +34,7 @@ from carom.motions.trajectories import Trajectory
 __all__ = [
     "PATIENCE",
     "Braking",
+    "CatalogueLoads",
     "ContactHistory",
     "ContactLog",
     "DropLoads",
