@@ -14,6 +14,7 @@
 ``tables``            tables of columns with units
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest; how near magnets come
 ``load_sums``         loads, added up piece by piece
+``spin_down``         a drop followed until the shaft stands still
 ``courses``           a drop sampled over all stages, to be drawn
 ``ledger``            energies of a motion
 ====================  ======================================================================================
