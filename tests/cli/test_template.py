@@ -43,6 +43,7 @@ def test_it_explains_every_entry(text):
         "bearings",
         "translation",
         "tilt",
+        "y",
         "restitution",
         "restitution_speed",
         "offset",

@@ -67,6 +67,8 @@ class LinearEquations(Definition, Result):
     conjugate : array_like of complex, shape (2, n, n), optional
         Damping and stiffness in the fixed frame that act on the conjugates of rates and coordinates: of bearings that act differently in two
         directions, with levitation or without it.  By default there are none.  Not with a ``shaft``.
+    conjugate_unlevitated : array_like of complex, shape (2, n, n), optional
+        The same when levitation is lost, where it is another one; ``conjugate`` by default.
 
     Raises
     ------
@@ -86,6 +88,7 @@ class LinearEquations(Definition, Result):
     shaft: Shaft | None = None
     unlevitated: np.ndarray | None = None
     conjugate: np.ndarray | None = None
+    conjugate_unlevitated: np.ndarray | None = None
     regained: np.ndarray | None = None
     magnets: np.ndarray | None = None
 
@@ -99,7 +102,7 @@ class LinearEquations(Definition, Result):
             object.__setattr__(self, "translation", np.ones(n))
         shapes: dict[str, tuple[int, ...]] = dict.fromkeys(("mass", "damping", "stiffness"), (n, n))
         shapes |= dict.fromkeys(("forcing", "translation", "carried", "regained"), (n,))
-        shapes |= dict.fromkeys(("unlevitated", "conjugate"), (2, n, n))
+        shapes |= dict.fromkeys(("unlevitated", "conjugate", "conjugate_unlevitated"), (2, n, n))
         shapes["magnets"] = (len(np.atleast_1d(self.magnets)) if self.magnets is not None else 0, n)
         for name, shape in shapes.items():
             if getattr(self, name) is not None:
@@ -199,8 +202,9 @@ class LinearEquations(Definition, Result):
             raise InputError("machine", shown(self), allowed)
         damping, stiffness = np.zeros((2, *self.mass.shape)) if self.unlevitated is None else self.unlevitated
         left = self.matrices._replace(damping=damping, stiffness=stiffness)
-        kept = ("translation", "scales", "shaft", "conjugate", "magnets")
-        return LinearEquations.in_fixed_frame(left, self.touchdowns, **{name: getattr(self, name) for name in kept})
+        kept = {name: getattr(self, name) for name in ("translation", "scales", "shaft", "magnets")}
+        stays = self.conjugate if self.conjugate_unlevitated is None else self.conjugate_unlevitated
+        return LinearEquations.in_fixed_frame(left, self.touchdowns, conjugate=stays, **kept)
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
         """See :meth:`carom.models.Definition.unbalance_push`: all masses are off centre by the same, along the translation."""

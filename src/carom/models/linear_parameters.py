@@ -123,6 +123,7 @@ def moved(rotor: LinearEquations, name: str, given: float | str) -> LinearEquati
             shaft=None if rotor.shaft is None else rotor.shaft.at_speed(1.0 / slower),
             unlevitated=_times(rotor.unlevitated, slower, slower * slower),
             conjugate=_times(rotor.conjugate, slower, slower * slower),
+            conjugate_unlevitated=_times(rotor.conjugate_unlevitated, slower, slower * slower),
             scales=replace(rotor.scales, speed=value),
         )
     present = value_of(rotor, own)

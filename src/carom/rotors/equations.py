@@ -12,7 +12,7 @@ from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import Basis
-from carom.rotors.shared_controller import SharedController, loops_in
+from carom.rotors.shared_controller import ControlLoop, SharedController, loops_in
 from carom.rotors.support import Support
 
 
@@ -43,7 +43,11 @@ class RotorEquations(NamedTuple):
     carried: np.ndarray
     """Coordinates, shape (n,), when rotor and mounts are displaced by 1 m."""
     across: np.ndarray
-    """``D′`` and ``K′``, shape (2, n, n): of anisotropic supports, with and without magnetic bearings."""
+    """``D′`` and ``K′``, shape (2, n, n): of anisotropic supports and magnetic bearings."""
+    across_unlevitated: np.ndarray
+    """The same of supports alone."""
+    currents_across: np.ndarray
+    """Current of each bearing, A, per conjugate of a coordinate, then per its rate, shape (2, B, n)."""
 
     @property
     def is_anisotropic(self) -> bool:
@@ -175,7 +179,7 @@ def equations_of(
             current_rates[number, free] = system.rate[place] @ seen
             stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
             damping[free] += bearing.ki * np.outer(pulls, current_rates[number])
-            stiffness[free, free] += bearing.ks * np.outer(pulls, pulls)
+            stiffness[free, free] += bearing.magnet[0] * np.outer(pulls, pulls)
         stiffness[own, free], stiffness[own, own] = -(system.B @ seen), -system.A
         if loop.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
@@ -185,6 +189,7 @@ def equations_of(
         first = own.stop
         with_amplifier = [number for number in listed if bearings[number].amplifier_bandwidth is not None]
         amplifiers[with_amplifier] = range(first - len(with_amplifier), first)
+    levitated = _on_conjugates(bearings, loops, basis, controls, size)
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
@@ -201,8 +206,41 @@ def equations_of(
         amplifiers,
         regained,
         carried,
+        held.across + levitated.matrices if levitated.matrices.any() else held.across,
         held.across,
+        levitated.currents,
     )
+
+
+class _OnConjugates(NamedTuple):
+    """What magnetic bearings make of conjugates, where their axes differ."""
+
+    matrices: np.ndarray
+    """Damping and stiffness, shape (2, n, n)."""
+    currents: np.ndarray
+    """Current by conjugates of coordinates, then of rates, shape (2, B, n)."""
+
+
+def _on_conjugates(
+    bearings: Sequence[MagneticBearing], loops: Loops, basis: Basis, controls: Sequence[ControlLoop], size: int
+) -> _OnConjugates:
+    free, first = slice(0, len(basis.frequencies)), size - sum(each.system.states for each in controls)
+    matrices, currents = np.zeros((2, size, size), complex), np.zeros((2, len(bearings), size), complex)
+    for loop in controls:
+        own, number = slice(first, first + loop.system.states), loop.bearings[0]
+        first = own.stop
+        if loop.across is None:
+            continue
+        bearing, pulls = bearings[number], loops.bearings[number] @ basis.shapes
+        seen, across = loops.sensors[[number]] @ basis.shapes, loop.across
+        currents[0, number, free], currents[0, number, own] = across.D[0] @ seen, across.C[0]
+        currents[1, number, free] = across.rate[0] @ seen
+        currents[:, number] *= bearing.turn
+        matrices[::-1, free] += bearing.ki * pulls[:, None] * currents[:, number][:, None]
+        matrices[1, free, free] += bearing.magnet[1] * np.outer(pulls, pulls)
+        matrices[1, own, free] = -bearing.turn * (across.B @ seen)
+        matrices[1, own, own] = -bearing.turn * across.A
+    return _OnConjugates(matrices, currents)
 
 
 class _Supported(NamedTuple):

@@ -258,6 +258,9 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
         law = "shared controller" if bearing.controller is None else _law(bearing.controller)
         seen = "" if bearing.sensor_nodes == (bearing.node,) else f", sensors at {at(*bearing.sensor_nodes)}"
         yield f"magnetic bearing {place}", f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {law}"
+        if bearing.y is not None:
+            other = f"{_entries(bearing.y, BEARING_FIELDS)}; {_law(bearing.y.controller)}"
+            yield f"magnetic bearing {place}, second axis", other
     for place, shared in enumerate(machine.shared_controllers, start=1):
         laws = (f"{name} {_law(getattr(shared, name))}" for name in shared.parts)
         listed = ", ".join(str(number + 1) for number in shared.numbers(machine.bearings))

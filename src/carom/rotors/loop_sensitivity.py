@@ -117,14 +117,19 @@ class _Loop:
         self.bearings = machine.bearings
         self.loops = loops_in(machine.rotor, machine.bearings, machine.shared_controllers)
         self.pulls, self.seen = loops.bearings @ whole.basis.shapes, loops.sensors @ whole.basis.shapes
-        softer = [bearing.ks * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)]
+        softer = [
+            bearing.magnet[0] * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)
+        ]
         self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
-        self.spin = held.damping[vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
+        self.spin = held.unlevitated[0][vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
         # Anisotropic supports, where they hold the rotor.
         across = [each for each in machine.supports if each.stiffness.across or each.damping.across]
-        rows = [machine.rotor.row_at(each.node) @ whole.basis.shapes for each in across]
-        self.held = np.reshape(rows, (len(across), whole.vectors))
-        self.across = np.array([(each.stiffness.across, each.damping.across) for each in across]).reshape(-1, 2)
+        nodes = [(each.node, each.stiffness.across, each.damping.across) for each in across]
+        nodes += [(each.node, each.magnet[1], 0j) for each in self.bearings if each.magnet[1]]
+        rows = [machine.rotor.row_at(node) @ whole.basis.shapes for node, *_ in nodes]
+        self.held = np.reshape(rows, (len(nodes), whole.vectors))
+        self.across = np.array([each for _, *each in nodes]).reshape(-1, 2)
+        self.is_anisotropic = held.is_anisotropic
 
     def answers(self, frequency: float) -> np.ndarray:
         """What sensors measure, and displacements at such supports, by forces of whirls at bearings and there; shape (B + S, B + S)."""
@@ -150,17 +155,24 @@ class _Loop:
     def of_axes(self, frequency: float) -> np.ndarray:
         """Sensitivity of one direction, shape (1, B); where both differ of both axes, shape (2, B)."""
         count, s = len(self.bearings), np.array(1j * frequency)
-        gains = np.zeros((count, count), complex)
+        gains, across, behind = np.zeros((3, count, count), complex)
         for loop in self.loops:
             listed = list(loop.bearings)
             forces = np.array([[self.bearings[number].ki] for number in listed])
-            gains[np.ix_(listed, listed)] = forces * loop.system.at(s).reshape(len(listed), len(listed))
-        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) @ block(gains, gains))
+            bearing, others = self.bearings[listed[0]], self.bearings[listed[0]].y
+            if others is None:
+                gains[np.ix_(listed, listed)] = forces * loop.system.at(s).reshape(len(listed), len(listed))
+                continue
+            one, other = complex(bearing.loop.at(s)), complex(others.loop.at(s))
+            gains[listed, listed] = 0.5 * bearing.ki * (one + other)
+            across[listed, listed] = 0.5 * bearing.ki * (one - other) * bearing.turn
+            behind[listed, listed] = 0.5 * bearing.ki * (one - other) * bearing.turn.conjugate()
+        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) @ np.block([[gains, across], [behind, gains]]))
         # A real signal along an axis is as much a part of the displacement as of its conjugate.
         turns = np.exp(2j * np.array([each.axis_angle for each in self.bearings]))
         straight = np.diag(whole[:count, :count]) + np.diag(whole[count:, count:])
         mixed = np.diag(whole[:count, count:]) / turns + np.diag(whole[count:, :count]) * turns
-        return 0.5 * (np.stack([straight + mixed, straight - mixed]) if len(self.across) else straight[None])
+        return 0.5 * (np.stack([straight + mixed, straight - mixed]) if self.is_anisotropic else straight[None])
 
     def peak(self, frequencies: np.ndarray, sizes: np.ndarray, axis: tuple[int, int]) -> tuple[float, float]:
         """Largest sensitivity along an axis of a bearing beside the largest of those known, and its frequency."""

@@ -73,6 +73,13 @@ def _entries_of(attribute: str, part: object) -> _Paths:
         prefix = "" if controller in ("controller", "matrices") else f"{controller}_"
         for name, (path, field) in numbers_of(getattr(part, controller, None)).items():
             found[prefix + name] = (controller, *path), field
+    if getattr(part, "y", None) is not None:
+        others = _entries_of(attribute, part.y)  # type: ignore[attr-defined]
+        found |= {
+            f"y_{name}": (("y", *path), replace(field, words=f"{field.words}, along its second axis"))
+            for name, (path, field) in others.items()
+            if name != "ki"
+        }
     return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -81,6 +81,8 @@ class MagneticBearing:
         ``k_s``, V/m, and ``k_a``, A/V; both or none.
     sensor_bandwidth : float or str, optional
         rad/s or such as ``"10 kHz"``; by default the sensors are not in the way.
+    y : MagneticBearing, optional
+        What it is along its second axis, at a right angle to the first, with another controller, ``ks`` or gains; its ``ki`` and sensors are those of the first.  By default both axes are alike.
     at_regain : {"reset", "hold", "running"}
         The states of controller, delay and amplifier when levitation is regained: all at zero, as they were when it was lost, or, without integral
         gain, such as they are after measuring all the while.
@@ -108,6 +110,7 @@ class MagneticBearing:
     sensor_gain: float | None = None
     amplifier_gain: float | None = None
     sensor_bandwidth: float | None = None
+    y: MagneticBearing | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("bearing node", self.node))
@@ -125,10 +128,26 @@ class MagneticBearing:
         self._check_gains()
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
+        if self.y is not None:
+            self._check_axes(self.y)
+            same = {name: getattr(self, name) for name in ("node", "sensor_nodes", "ki")}
+            object.__setattr__(self, "y", replace(self.y, **same))
         integrates = self.controller is not None and self._integrates
         if self.at_regain == "running" and integrates:
             allowed = "reset or hold for a controller that integrates: running, it would add up the place of a rotor that falls, which is not followed"
             raise InputError("at_regain", shown(self.at_regain), allowed)
+
+    def _check_axes(self, other: MagneticBearing) -> None:
+        """Refuse a second axis that is no other one of the same magnet, and limits, which are those of alike axes."""
+        if self.controller is None or other.controller is None or other.y is not None:
+            raise InputError("y", None, "a second axis with a controller of its own, as the first has")
+        if self.at_regain == "running":
+            raise InputError("at_regain", "running", "reset or hold where both axes of a bearing differ")
+        for name in ("force_limit", "current_limit", "slew_rate_limit"):
+            if getattr(self, name) is not None or getattr(other, name) is not None:
+                raise InputError(
+                    name, getattr(self, name), "none where both axes of a bearing differ: limits need alike ones"
+                )
 
     def _check_gains(self) -> None:
         """Refuse one gain of the chain without the other, and gains of a controller in units that it does not have."""
@@ -164,6 +183,25 @@ class MagneticBearing:
         before, *after = self.stages
         return in_series([before, state_space_of(self.controller), *after]).balanced()
 
+    @cached_property
+    def parts(self) -> tuple[StateSpace, StateSpace | None]:
+        """The loop of displacements, and that of their conjugates, which is ``None`` where both axes are alike."""
+        if self.y is None:
+            return self.loop, None
+        both, across = self.loop.halves(self.y.loop)
+        return both, across
+
+    @property
+    def turn(self) -> complex:
+        """Factor of what acts on conjugates, by the angle of the first axis."""
+        return complex(np.exp(2j * self.axis_angle))
+
+    @property
+    def magnet(self) -> tuple[float, complex]:
+        """Stiffness at constant current, N/m: of displacements, and of their conjugates."""
+        other = self.ks if self.y is None else self.y.ks
+        return 0.5 * (self.ks + other), 0.5 * (self.ks - other) * self.turn
+
     @property
     def _integrates(self) -> bool:
         """Whether a steady displacement makes its current grow without end."""
@@ -172,6 +210,8 @@ class MagneticBearing:
     @cached_property
     def static_stiffness(self) -> float:
         """Stiffness against a steady displacement at its sensors and itself, ``ki C(0) + ks``, N/m; infinite with an integrator."""
+        if self.y is not None and self.y.static_stiffness < math.inf:
+            return min(self.y.static_stiffness, replace(self, y=None).static_stiffness)
         if self._integrates:
             return math.inf
         return self.ki * float(np.real(self.loop.at(np.array(0.0)))) + self.ks

@@ -142,6 +142,17 @@ def _disc(entry: Mapping[str, Any]) -> Disc:
 
 
 def _bearing(entry: Mapping[str, Any]) -> MagneticBearing:
+    if "y" in entry:
+        given: object = entry["y"]
+        first = {name: value for name, value in entry.items() if name != "y"}
+        if not isinstance(given, Mapping):
+            raise InputError("y", shown(given), "a table that starts with the line [magnetic_bearing.y]")
+        of_law = {**PID_FIELDS, **_OF_CONTROLLER}
+        _check_names(given, {**BEARING_FIELDS, **of_law}, "[magnetic_bearing.y]")
+        has_law = any(name in given for name in of_law if name != "filter")
+        # What it does not state is as along the first axis: of a controller of its own nothing.
+        shared = {name: value for name, value in first.items() if not (has_law and name in of_law)}
+        return dataclasses.replace(_bearing(first), y=_bearing({**shared, **given}))
     own = entries_in(entry, ("node", "sensor_nodes", "at_regain", *BEARING_FIELDS))
     if not entries_in(entry, ("filter", *PID_FIELDS, *_OF_CONTROLLER)):
         return MagneticBearing(**own)
@@ -232,7 +243,7 @@ _OF_CONTROLLER = {**dict.fromkeys(name for kind in _QUOTIENTS for name in kind.n
 PARTS: Mapping[str, PartTable] = {
     "section": PartTable({**SECTION_FIELDS, **MATERIAL_FIELDS}, ("length", "outer_diameter"), _section),
     "disc": PartTable({**_NODE, **DISC_FIELDS, "width": None, **_DIAMETERS, **MATERIAL_FIELDS}, ("node",), _disc),
-    "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER}, ("node", "ki", "ks"), _bearing),
+    "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER, "y": None}, ("node", "ki", "ks"), _bearing),
     "shared_controller": PartTable({"bearings": None, **dict.fromkeys(_PARTS_OF_SHARED), **dict.fromkeys("ABCD"), **_SAMPLED, "at_regain": None}, (), _shared),
     "support": PartTable({**_PLACE, **SUPPORT_FIELDS}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
     "touchdown": PartTable({**_PLACE, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS}, ("node", "law", "rotor_radius", "friction", "clearance"), _plane),
@@ -276,8 +287,9 @@ def _entries(part: Any) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in (field.name for field in dataclasses.fields(part)):
         value = getattr(part, name)
-        if name in _PARTS_OF_SHARED and value is not None:
-            found[name] = _entries(value)
+        if name in (*_PARTS_OF_SHARED, "y") and value is not None:
+            kept = ("node", "sensor_nodes", "ki", "at_regain")
+            found[name] = {key: each for key, each in _entries(value).items() if key not in kept}
         elif dataclasses.is_dataclass(value):
             found |= _entries(value)
         elif name == "filters":
@@ -301,10 +313,12 @@ def _table(head: str, entries: dict[str, Any], fields: Any) -> str:
     lines = [
         toml_line(name, value, units.get(name, ""))
         for name, value in entries.items()
-        if name != "filter" and name not in _PARTS_OF_SHARED
+        if name != "filter" and name not in (*_PARTS_OF_SHARED, "y")
     ]
     own = {name: field for kind in _FILTERS for name, field in kind.entries.items()}
-    inner = [_table(head.replace("]]", ".filter]]"), each, own) for each in filters]
+    inner = [_table(f"[[{head.strip('[]')}.filter]]", each, own) for each in filters]
+    if "y" in entries:
+        inner.append(_table("[magnetic_bearing.y]", entries["y"], fields))
     inner += [
         _table(f"[shared_controller.{name}]", entries[name], kind.fields)
         for name, kind in _PARTS_OF_SHARED.items()

@@ -313,6 +313,9 @@ class ReducedMachine(Result):
             scales=scales,
             unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
             conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.is_anisotropic else None,
+            conjugate_unlevitated=None
+            if given.across_unlevitated is given.across
+            else np.stack([once * given.across_unlevitated[0], twice * given.across_unlevitated[1]]),
             magnets=self._magnets,
         )
 

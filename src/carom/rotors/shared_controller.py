@@ -125,6 +125,8 @@ class ControlLoop(NamedTuple):
     """Numbers of the bearings from 0 on, of whose sensors it takes displacements, and whose currents it makes."""
     system: StateSpace
     at_regain: str
+    across: StateSpace | None = None
+    """What it makes of the conjugates of displacements, where its axes differ."""
 
 
 def loops_in(
@@ -132,7 +134,7 @@ def loops_in(
 ) -> tuple[ControlLoop, ...]:
     """The loops of a machine: of each bearing with a controller of its own, then of each shared one."""
     own = [
-        ControlLoop((number,), each.loop, each.at_regain)
+        ControlLoop((number,), each.parts[0], each.at_regain, each.parts[1])
         for number, each in enumerate(bearings)
         if each.controller is not None
     ]

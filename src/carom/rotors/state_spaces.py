@@ -156,6 +156,31 @@ class StateSpace:
             self.rate,
         )
 
+    def halves(self, other: StateSpace) -> tuple[StateSpace, StateSpace]:
+        """Half the sum and half the difference of two systems, the first of one axis and the other of the other, as parts of a complex one.
+
+        With the states ``x₁ + ix₂`` and ``y₁ + iy₂`` the one acts on them and the other on their conjugates.  The one with fewer states gets such as stay at zero.
+        """
+        size = max(self.states, other.states)
+        one, two = (each._filled(size) for each in (self, other))
+
+        def half(sign: float) -> StateSpace:
+            A, B, C, D, rate = (0.5 * (getattr(one, name) + sign * getattr(two, name)) for name in (*"ABCD", "rate"))
+            return StateSpace(A, B, C, D, rate=rate)
+
+        return half(1.0), half(-1.0)
+
+    def _filled(self, size: int) -> StateSpace:
+        """The same with so many states."""
+        more = size - self.states
+        own = max(float(np.abs(self.A).max(initial=0.0)), 1.0)
+        into, out = np.zeros((more, self.D.shape[1])), np.zeros((len(self.D), more))
+        corner = np.zeros((self.states, more))
+        matrix = np.block([[self.A, corner], [corner.T, -own * np.eye(more)]])
+        return StateSpace(
+            matrix, np.concatenate([self.B, into]), np.concatenate([self.C, out], axis=1), self.D, rate=self.rate
+        )
+
     @property
     def held(self) -> StateSpace:
         """A sampled system with the hold of its output, in continuous time: each shift of a sample time ``T`` by Padé's approximation.

@@ -172,10 +172,23 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
         whole.sags * whole.length,
         whole.clearances,
         seen(whole.sensors),
-        seen(whole.currents, whole.equations.current_rates),
+        _with_conjugates(seen(whole.currents, whole.equations.current_rates), whole.equations, answers, listed),
         _saturation(whole, answers, listed / whole.speed),
         float(np.angle(np.vdot(whole.equations.carried, whole.equations.forcing))),
     )
+
+
+def _with_conjugates(alike: Ellipses, equations: RotorEquations, answers: Ellipses, speeds: np.ndarray) -> Ellipses:
+    """Currents (m, B) with what bearings whose axes differ make of conjugates: what goes ahead of them comes from what goes behind."""
+    by_place, by_rate = equations.currents_across
+    if not equations.currents_across.any():
+        return alike
+    turns = 1j * speeds[:, None]
+    more = [
+        part.conj() @ by_place.T + sign * turns * (part.conj() @ by_rate.T)
+        for sign, part in ((1.0, answers.backward), (-1.0, answers.forward))
+    ]
+    return Ellipses(alike.forward + more[0], alike.backward + more[1])
 
 
 def _of_model(model: Rotor) -> _Whole:
@@ -204,6 +217,8 @@ def _of_model(model: Rotor) -> _Whole:
             regained=np.ones(n),
             carried=mass @ system.translated,
             across=np.zeros((2, n, n)) if conjugate is None else conjugate,
+            across_unlevitated=np.zeros((2, n, n)),
+            currents_across=np.zeros((2, 0, n)),
         ),
         scales.speed,
         scales.length * widths,
