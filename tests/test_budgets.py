@@ -16,9 +16,9 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3460,
-    "models": 2191,
+    "models": 2227,
     "core": 6613,
-    "motions disturbances": 3647,
+    "motions disturbances": 3781,
     "orbits bifurcations closed_forms continuation": 6415,
     "basins attractors": 2197,
     "studies": 3302,
@@ -29,7 +29,7 @@ LIMITS = {
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 36_850, 291
+TESTS, ANY = 36_921, 291
 LONGEST_FILE, LONGEST_FUNCTION = 400, 80
 SKIPPED = (
     tokenize.COMMENT,

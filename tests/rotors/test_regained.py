@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 import carom as cm
 from carom.base.outcome import InputError
-from carom.parameters import TouchdownBearing
+from carom.parameters import Gravity, TouchdownBearing
 from carom.rotors import PID, FlexibleRotor, MagneticBearing, Material, ProportionalDamping, ShaftSection, Unbalance
 from tests.flexible_machines import symmetric
 
@@ -29,6 +29,7 @@ def machine(at_regain, integral, speed=300.0):
         bearings=bearings,
         unbalances=[Unbalance(1, "20 g mm", 0.3)],
         speed=speed,
+        gravity=Gravity(carried_by="stiffness"),
     )
 
 

@@ -57,6 +57,11 @@ BLADE_LOSS = option(
     "Start with a blade loss of the levitating rotor, such as '5000 g mm,30 deg': the change of unbalance, its phase relative to the unbalance before, and "
     "for a flexible rotor the node.",
 )
+BASE_RECORD = option(
+    "FILE.csv",
+    "Move the base of the levitating rotor as recorded, linear between samples: columns time, x and y (fixed frame) with units in the heading, such as "
+    "'time (s),x (m/s^2),y (g)'.",
+)
 KICKS = option(
     "SPEED",
     "Kicks up to this speed in all directions, such as '100 mm/s'; by default the one stated in [survive], or the impact speed of a free fall across "

@@ -30,6 +30,7 @@ def simulate(
     kick: str | None = options.KICK,
     shock: str | None = options.SHOCK,
     blade_loss: str | None = options.BLADE_LOSS,
+    base_record: str | None = options.BASE_RECORD,
     instant: str | None = options.INSTANT,
     drop: bool = DROP,
     regained_after: str | None = options.REGAINED_AFTER,
@@ -56,7 +57,13 @@ def simulate(
     if instant is not None and drop:
         allowed = "not allowed with --drop; carom drop --phase sets where the unbalance is"
         raise InputError("--instant", instant, allowed)
-    ways = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
+    ways = {
+        "--start": start,
+        "--kick": kick,
+        "--shock": shock,
+        "--blade-loss": blade_loss,
+        "--base-record": base_record,
+    }
     begins = released(case, ways, regained_after) if drop else one_of(ways, instant)
     with progress("simulating (the kernels are compiled on first use)") as tell:
         end = read_time(until, case.parameters.scales)
@@ -111,11 +118,13 @@ def _figures(case: Case, motion: Trajectory, *, decaying: bool) -> Drawings:
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
     """
     from carom import plots
+    from carom.cli.tables import MOST_PARTS
     from carom.motions.ledger import energy_ledger
     from carom.plots.words import contacts_in_words
 
     figures: Drawings = {}
-    for place, part in enumerate(motion.parts):
+    parts = motion.parts if len(motion.parts) <= MOST_PARTS else motion.parts[-1:]
+    for place, part in enumerate(parts):
         whole, ends = _shown(part) if decaying else (part, "")
         for shown in whole.at_each:
             mark = f"-{place + 1}" if place else ""

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from carom.base.outcome import InputError, together
-from carom.disturbances.single import Single, read_single, split_text
+from carom.disturbances.single import Single, split_text
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, Field, Requirement, Scales, own_time, read_quantity, read_size
 from carom.parameters.fields import unknown_name
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
@@ -36,7 +36,7 @@ def read_one(option: str, text: str, scales: Scales | None) -> Single:
     """Read the single disturbance, or the state, of an option."""
     from carom.disturbances import Disturbance
 
-    return read_single(Disturbance.of_kind(option.removeprefix("--")), text, scales, option)
+    return Disturbance.of_kind(option.removeprefix("--")).single_of(text, scales, option)
 
 
 def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> float:

@@ -208,9 +208,17 @@ _SINCE = {"drop": "the release", "shock": "the shock began", "kick": "the kick",
 """From what times count."""
 
 
+MOST_PARTS = 12
+"""Stages of a motion that are shown one by one; of more only the last."""
+
+
 def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> None:
     """Print how a motion after a disturbance of a kind ended, and its contacts, stage by stage; then what the bearing bears in all."""
-    for part in motion.parts:
+    parts = motion.parts if len(motion.parts) <= MOST_PARTS else motion.parts[-1:]
+    if before := len(motion.parts) - len(parts):
+        count = sum(len(seen.contacts) for part in motion.earlier for seen in part.at_each)
+        console.print(f"In the {before} stages before: {counted(count, 'contact')}; --csv FILE has all.")
+    for part in parts:
         if len(motion.parts) > 1:
             console.print()
             begun = f"From {format_quantity(part.begins, 'time', case.parameters.scales)}:"

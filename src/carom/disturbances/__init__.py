@@ -9,6 +9,7 @@ co-rotating frame, from which the motion is free.
 :class:`VelocityKick`    a kick: the velocity changes at once, given by size and direction
 :class:`KickPlane`       the same, given by radial and tangential parts, seen from the bearing centre
 :class:`BaseShock`       the housing is accelerated by a half-sine pulse (peak, duration, direction)
+:class:`BaseRecord`      the housing moves as recorded, by samples of its acceleration along two axes
 :class:`BladeLoss`       the unbalance of the machine changes by a vector of a size, at any phase
 :class:`ContactRelease`  levitation is switched on with the rotor on the touchdown bearing
 :class:`StateSlice`      any position, at a given velocity
@@ -21,7 +22,7 @@ co-rotating frame, from which the motion is free.
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
-(with ``shocks``, which follows a rotor through a pulse), ``states`` and ``machine_changes``.  ``plans`` has
+(with ``shocks``, which follows a rotor through a pulse), ``states`` and ``machine_changes``.  ``recorded`` reads and applies base motion from a record.  ``plans`` has
 grids and samples and says what is measured of them, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where
 they end.
 
@@ -35,6 +36,7 @@ from carom.disturbances.kicks_and_shocks import BaseShock, KickPlane, VelocityKi
 from carom.disturbances.machine_changes import BladeLoss, Drop, drop
 from carom.disturbances.model import FASTEST, MODELS, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
+from carom.disturbances.recorded import BaseRecord
 from carom.disturbances.single import Single
 from carom.disturbances.states import AnyState, ContactRelease, GivenState, StateSlice, Whirl, whirl
 
@@ -42,6 +44,7 @@ __all__ = [
     "FASTEST",
     "MODELS",
     "AnyState",
+    "BaseRecord",
     "BaseShock",
     "BladeLoss",
     "ContactRelease",

@@ -143,6 +143,11 @@ class Disturbance:
             raise InputError(name or cls.kind, shown(text), "a kind of disturbance that has a text")
         return read_single(cls, text, rotor_of(machine).scales, name or cls.kind)
 
+    @classmethod
+    def single_of(cls, text: str, scales: Scales | None, option: str) -> Single:
+        """The single one of an option of the command line, which errors name."""
+        return read_single(cls, text, scales, option)
+
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """Return the machine that moves after one disturbance, perhaps in stages or another one than before, and its start.
 

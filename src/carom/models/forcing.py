@@ -53,10 +53,20 @@ class Force(NamedTuple):
         ``σ``, in units of the shaft speed: weight turns with ``−i`` in the co-rotating frame.
     accelerations : ndarray of complex, shape (n,)
         Of the coordinates, at time zero.
+    rates : ndarray of complex, shape (n,), optional
+        Of a force ``(a + ḃt) e^{σt}``, such as that of a base between two samples of its acceleration, how fast it grows; it is a chain of two modes.
     """
 
     exponent: complex
     accelerations: np.ndarray
+    rates: np.ndarray | None = None
+
+    def at(self, times: np.ndarray) -> np.ndarray:
+        """Accelerations (..., n) at times (...)."""
+        turned = np.exp(self.exponent * times)[..., None]
+        grown = 0.0 if self.rates is None else np.multiply.outer(times, self.rates)
+        accelerations: np.ndarray = turned * (self.accelerations + grown)
+        return accelerations
 
 
 def with_forces(system: System, forces: Sequence[Force]) -> System:
@@ -70,6 +80,8 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     n, planes, arrays = system.shapes.shape[0], len(system.arrays["rows"]), system.arrays
     first = planes + system.limits
     modes, last = _Modes.of(system), first + 2 * n
+    growing = [force for force in forces if force.rates is not None]
+    forces = [force for force in forces if force.rates is None]
     pushes = [(force.exponent, force.accelerations, slice(first + n, last)) for force in forces]
     if system.is_anisotropic:
         # Amplitudes by rates of conjugates come last.
@@ -80,6 +92,9 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     for exponent, together in _merged(pushes):
         push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
+    for force in growing:
+        conjugates = slice(last + first + n, None) if system.is_anisotropic else None
+        modes = modes.ramped_by(force, slice(first + n, last), conjugates)
     turns = modes.turn > NO_TURN
     moved = {
         "exponents": modes.exponents,
@@ -163,6 +178,29 @@ class _Modes:
             return self._driven_by(exponent, push, RESONANT)
         except InputError:  # modes that nearly coincide, as those of a thin shaft that tilts about one support
             return self._driven_by(exponent, push, APART)
+
+    def ramped_by(self, force: Force, place: slice, conjugates: slice | None) -> _Modes:
+        """With a force ``(a + ḃt) e^{σt}`` that is in resonance with no mode: with ``ṡ = σs + q`` and ``q̇ = σq`` it adds ``(σ − M)⁻¹ b`` and ``−(σ − M)⁻² b``."""
+        exponent, rates = force.exponent, np.asarray(force.rates)
+        along = rates if rates.any() else force.accelerations
+        push = self.left[:, place] @ along
+        if conjugates is not None:  # of a force that is constant in the fixed frame both exponents are one
+            push = push + self.left[:, conjugates] @ np.conj(along)
+        moved, left = self.free & (np.abs(push) > EQUAL * np.abs(push).max(initial=0.0)), len(push)
+        if (np.abs(self.exponents[moved] - exponent) <= APART**2).any():
+            raise InputError(
+                "base", "a recorded motion", "a rotor that levitates: without levitation nothing brings it back"
+            )
+        whole = exponent * np.eye(left) - np.diag(self.exponents) - np.diag(self.driven[1:].astype(complex), -1)
+        free, solved, again = np.flatnonzero(self.free), np.zeros(left, complex), np.zeros(left, complex)
+        solved[free] = np.linalg.solve(whole[np.ix_(free, free)], push[free])
+        again[free] = np.linalg.solve(whole[np.ix_(free, free)], solved[free])
+        start, growth = (np.vdot(along, each) / np.vdot(along, along) for each in (force.accelerations, rates))
+        with_growth = self._added(left, exponent, -again, growth)
+        found = with_growth._added(left + 1, exponent, np.append(solved, 0.0), start)
+        driven = found.driven.copy()
+        driven[-1] = True
+        return replace(found, driven=driven)
 
     def _driven_by(self, exponent: complex, push: np.ndarray, resonant: float) -> _Modes:
         """The same; modes farther than ``resonant`` from a force, relative to one plus its size, are none that it drives."""
@@ -277,7 +315,7 @@ def checked_forces(given: object, shape: tuple[int, ...]) -> tuple[Force, ...]:
     listed = tuple(given) if isinstance(given, Sequence) and not isinstance(given, Force) else ()
     if not listed or not all(isinstance(each, Force) for each in listed):
         raise InputError("forces", shown(given), "carom.models.Force, one or more")
-    return tuple(_checked_force(each, shape) for each in listed)
+    return tuple(_checked_force(each, shape)._replace(rates=each.rates) for each in listed)
 
 
 def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
@@ -310,4 +348,6 @@ def in_scales(force: Force, before: Scales | None, after: Scales | None) -> Forc
     if before is None or after is None or before == after:
         return force
     exponent = (force.exponent + 1j) * (before.speed / after.speed) - 1j
-    return Force(exponent, force.accelerations * (before.acceleration / after.acceleration))
+    slower = before.acceleration / after.acceleration
+    rates = None if force.rates is None else force.rates * (slower * before.speed / after.speed)
+    return Force(exponent, force.accelerations * slower, rates)

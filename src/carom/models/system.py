@@ -230,8 +230,10 @@ class System(ModeArrays, BesideModes):
         """Amplitudes at rest at a time: those of the forcing modes, and zeros; shape (N,)."""
         if self.forced is None:
             return np.zeros(self.modes, complex)
+        ramps = self.arrays["driven"].astype(bool) & ~self.free  # of a force that grows, each after its rate
+        forced = self.forced + ramps * np.roll(self.outer, 1) * time
         # Other modes may grow beyond all numbers by then.
-        return self.forced * np.exp(np.where(self.forced, self.arrays["exponents"], 0.0) * time)
+        return forced * np.exp(np.where(forced, self.arrays["exponents"], 0.0) * time)
 
     def amplitudes_of(self, states: np.ndarray, time: float = 0.0) -> np.ndarray:
         """Mode amplitudes of states (m, 2n) at a time, each the coordinates and then their rates; shape (m, N)."""

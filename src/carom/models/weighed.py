@@ -91,7 +91,7 @@ class Weighed:
 
 def is_steady(force: Force) -> bool:
     """Whether a force is constant in the fixed frame."""
-    return abs(force.exponent - STEADY) <= EQUAL
+    return force.rates is None and abs(force.exponent - STEADY) <= EQUAL
 
 
 def steady_of(forces: Sequence[Force]) -> np.ndarray | None:

@@ -196,8 +196,7 @@ def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     power, since = np.zeros(times.shape), trajectory.begins + times
     rotor = trajectory.rotor
     for force in (*rotor.acting, *rotor.definition.pull):
-        push = rotor.matrices.mass @ force.accelerations
-        power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
+        power += (velocity.conj() * (force.at(since) @ rotor.matrices.mass.T)).sum(axis=-1).real
     return power
 
 
