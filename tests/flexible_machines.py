@@ -70,7 +70,7 @@ def symmetric(stiffer=1.0, touchdown=None, **changes):
         "clearance": 0.2e-3,
         "bearings": [MagneticBearing(node, 50.0, -1e5, PID(9000.0, 0.0, 10.0, 1e-4)) for node in (1, 2)],
         "touchdowns": [TouchdownPlane(node, spring, 0.015, 0.0) for node in (1, 2)],
-        "gravity": Gravity(),
+        "gravity": Gravity(carried_by="stiffness"),
     }
     return FlexibleMachine(**{**given, **changes})
 

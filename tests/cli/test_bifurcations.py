@@ -41,7 +41,7 @@ def test_where_levitation_of_a_machine_without_closed_forms_is_lost(capsys, tmp_
     with pytest.raises(InputError, match="levitation = unstable: a forward whirl"):
         carom.load(tmp_path / "late.toml", [above])
     assert main([*words, "--from", "1.2 ms"]) == 0
-    assert "Levitation is possible at none of the 5 values" in " ".join(capsys.readouterr().out.split())
+    assert "Levitation is possible at none of the 101 values" in " ".join(capsys.readouterr().out.split())
 
 
 def test_table_and_files(capsys, tmp_path):
