@@ -55,7 +55,7 @@ class BaseRecord(Disturbance):
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> quake = cm.disturbances.BaseRecord((0.0, 1.0, 2.0), x=(0.0, 0.3, 0.0), y=(0.0, 0.1, 0.0))
+    >>> quake = cm.disturbances.BaseRecord((0.0, 1.0, 2.0), x=(0.0, 0.03, 0.0), y=(0.0, 0.01, 0.0))
     >>> motion = cm.simulate(*quake.apply(machine))
     >>> len(motion.parts), motion.outcome.label
     (3, 'levitated')

@@ -14,7 +14,7 @@
 ``tables``            tables of columns with units
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest; how near magnets come
 ``load_sums``         loads, added up piece by piece
-``spin_down``         a drop followed until the shaft stands still
+``standstill``        a drop followed until the shaft stands still
 ``courses``           a drop sampled over all stages, to be drawn
 ``ledger``            energies of a motion
 ====================  ======================================================================================
@@ -28,7 +28,7 @@ from carom.motions.load_sums import drop_loads, follow_loads
 from carom.motions.loads import Braking, CatalogueLoads, DropLoads, LastWhirl, TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
-from carom.motions.spin_down import SpinDown, spin_down
+from carom.motions.standstill import SpinDown, spin_down
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 

@@ -42,12 +42,12 @@ def spin_down_rows(slowed: SpinDown) -> list[tuple[str, str]]:
     if slowed.criticals:
         passed = ", ".join(say.write(each, "speed") for each in slowed.criticals)
         rows.append(("critical speeds", f"of the free rotor, passed on the way down: {passed}"))
-    told = (
+    estimated = (
         "none by steps of speed"
         if slowed.error is None
         else f"{number(100.0 * slowed.error, 2)} % from {slowed.steps} steps of speed"
     )
-    return [*rows, ("error", f"{told}; left out: rolling resistance, torque of the unbalance on the shaft")]
+    return [*rows, ("error", f"{estimated}; left out: rolling resistance, torque of the unbalance on the shaft")]
 
 
 def spin_down_entries(slowed: SpinDown) -> dict[str, object]:

@@ -1,7 +1,7 @@
 """Spin-down: a shaft without levitation, slowed down by friction in contact, windage and its drive until it stands still.
 
 Friction in contact changes the speed within the motion.  All other torques act in steps, half of a step ahead of the motion, and gyroscopic
-moments are those of the middle of each step of speed, so the error is of second order in the step; it is told by twice as large steps.
+moments are those of the middle of each step of speed, so the error is of second order in the step; it is estimated from steps twice as large.
 Left out: the torque ``I_p Ω̇`` about a tilted axis, the torque of the unbalance on the shaft, and rolling resistance, without which a rotor that
 stands rocks for ever.
 """
