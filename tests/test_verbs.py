@@ -29,6 +29,7 @@ SUBJECTS = {
 }
 KICKS = Grid(VelocityKick(fastest=0.5), (2, 2))
 FEW = Sample(VelocityKick(fastest=0.5), 2)
+DRIVE = cm.parameters.Drive("0.05 kg m^2")
 
 
 def settled(machine):
@@ -96,6 +97,7 @@ CALLS = {
     "motions.follow_loads": lambda m: cm.motions.follow_loads(m, cm.kick(0.3), 5.0),
     "motions.settle": lambda m: settled(m),
     "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
+    "motions.spin_down": lambda m: stated(lambda: cm.motions.spin_down(m, cm.drop(), 1.0, steps=2, drive=DRIVE).turns),
     "orbits.find_orbits": lambda m: cm.find_orbits(m, 10.0),
     "orbits.lyapunov_exponents": lambda m: stated(lambda: cm.orbits.lyapunov_exponents(m, cm.kick(0.01), 10)),
     "orbits.orbit_near": lambda m: cm.orbits.orbit_near(

@@ -74,7 +74,8 @@ def test_the_drop_stands_in_the_verdict_with_its_loads_whether_limits_are_stated
     assert studied.drop is not None
     assert not studied.drop.assumed
     for limits in (studied.case.limits, cm.parameters.LoadLimits()):
-        found = replace(studied, case=replace(studied.case, limits=limits))
+        case = replace(studied.case, limits=limits)
+        found = replace(studied, case=case, drop=replace(studied.drop, case=case))
         (drop,) = (fact.text for fact in about(tuple(facts_of(found)), "Verdict") if fact.label == "Drop")
         assert studied.drop.loads.outcome is Outcome.TIME_REACHED
         assert drop.startswith("not settled after 0.2 s")
