@@ -192,7 +192,7 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 """The machine field that is set by each dimensionless number while mass, speed and clearance are fixed."""
 
 NOT_MODELLED: Mapping[str, str] = {
-    "torque": "of a bearing only race_drag, a torque per speed; none at start and none that grows with the load",
+    "torque": "of a bearing only race_drag, a torque per speed, none at start and none that grows with the load; those of drive and brake stand in [drive]",
     "temperature": "heat of slip is computed, no temperatures and no growth of parts",
     "thermal": "heat of slip is computed, no temperatures and no growth of parts",
     "stribeck": "friction is the same at all slip speeds",
@@ -224,9 +224,10 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     partner (``gamma`` for ``damping``) is recognised too; one of what is not modelled says so; ``listed`` adds them to the message, without numbered ones such as
     ``friction_2`` where ``friction`` is known.
     """
-    if why := why_not_modelled(name):
+    best = nearest_name(name, known)
+    if best is None and (why := why_not_modelled(name)):
         return InputError(shown(name), given, why, "is no parameter here")
-    advice = [f"did you mean {best}?"] if (best := nearest_name(name, known)) else []
+    advice = [f"did you mean {best}?"] if best else []
     allowed = [each for each in known if not (part := _NUMBERED.fullmatch(each)) or part[1] not in known]
     remedy = " ".join(advice + ([f"allowed: {', '.join(allowed)}"] if listed else []))
     reason = f"unknown name in {where}" + (f"; {remedy}" if remedy else "")

@@ -221,10 +221,10 @@ class NamedParameters:
 
     def unknown(self, name: str, given: object, besides: Mapping[str, object] | None = None) -> InputError:
         """Error for a name that does not exist: allowed are listed without those of single parts; ``besides`` has names of other things."""
-        if why := why_not_modelled(name):
-            return InputError(shown(name), shown(given), why)
         known = {**self.varied, **(besides or {})}
         nearest = nearest_name(name, known)
+        if nearest is None and (why := why_not_modelled(name)):
+            return InputError(shown(name), shown(given), why)
         advice = f"did you mean {nearest}? " if nearest else ""
         entries = self.entries
         listed = ", ".join(each for each in known if each not in entries or entries[each].entry == each)
