@@ -26,7 +26,7 @@ def reference(rotor, shaken, start):
     """Coordinates in the fixed frame and their rates at the end, by DOP853."""
     mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
     n, times, values = len(mass), np.array(shaken.times), shaken.accelerations
-    weight = np.zeros(n) if rotor.weight is None else rotor.weight
+    weight = np.zeros(n) if rotor.acting.weight is None else rotor.acting.weight
     inverse = np.linalg.inv(mass)
 
     def rates(time, state):

@@ -44,19 +44,19 @@ def test_the_planar_rotor_levitates_as_without_weight_and_falls_with_it():
     # Regained, the currents are back: the motion settles in the centre.
     back = cm.simulate(bias.replace(eccentricity=0.0), cm.drop(regained_after="5 ms"))
     assert back.outcome.label == "levitated"
-    assert back.rotor.weight is None
+    assert back.rotor.acting.weight is None
 
 
 def test_it_is_kept_by_changes_and_by_documents():
     rotor = rotor_of(held(SAGGING))
     moved = rotor.replace(gravity="1.62 m/s^2", speed="6000 rpm")
     assert moved.carried_by_bias
-    assert moved.without_levitation().weight == pytest.approx(
-        rotor_of(held(SAGGING, gravity=1.62, speed="6000 rpm")).whole_weight
+    assert moved.without_levitation().acting.weight == pytest.approx(
+        rotor_of(held(SAGGING, gravity=1.62, speed="6000 rpm")).acting.whole_weight
     )
     again = part_from(document_of(rotor))
     assert again.carried_by_bias
-    assert again.whole_weight == rotor.whole_weight
+    assert again.acting.whole_weight == rotor.acting.whole_weight
     assert "gravity" not in rotor.varied
 
 
@@ -95,7 +95,7 @@ def test_a_tilting_rotor_is_held_by_its_sensors_and_levers_share_the_weight():
     case = cm.load(FOUR_DEGREES)
     rotor = rotor_of(case)
     assert cm.closed_forms.levitation(case).sags == pytest.approx([0.0, 0.0], abs=1e-14)
-    assert rotor.weight is None
+    assert rotor.acting.weight is None
     reduced = rotor.finite_elements
     pull = np.zeros(len(reduced.equations.mass), complex)
     pull[0] = -1j * 9.81 * math.sqrt(12.0)

@@ -6,6 +6,7 @@ from turning_reference import SLIDES, Turning
 
 import carom as cm
 from carom.models import Force, HuntCrossley, KelvinVoigt, Race, Rigid, Shaft, Touchdown, from_matrices
+from carom.models.subjects import refuse_forces
 
 START = cm.State(0.2 + 0.1j, 1.0)
 SOFT = KelvinVoigt(1e3, 3.3)
@@ -197,7 +198,7 @@ def test_what_cannot_be_is_refused():
     with pytest.raises(cm.outcome.InputError, match="start shaft"):
         cm.simulate(single(SOFT, None), cm.State(0.1, 0.0, shaft=(1.0, 0.0)), 1.0)
     with pytest.raises(cm.outcome.InputError, match="a shaft whose speed changes"):
-        single(SOFT, Shaft(2.0)).refuse_forces()
+        refuse_forces(single(SOFT, Shaft(2.0)))
 
 
 @pytest.mark.jit_only

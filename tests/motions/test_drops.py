@@ -49,7 +49,7 @@ def test_a_vertical_rotor_is_pulled_to_no_side(start):
     """Its centre of mass goes on straight, and what whirls goes round it, until the wall is reached."""
     vertical = dataclasses.replace(HEAVY, gravity=cm.parameters.Gravity(direction="axial"))
     motion = cm.simulate(vertical, cm.drop(start, phase=0.0), until=800.0)
-    assert motion.rotor.weight is None
+    assert motion.rotor.acting.weight is None
     whirl = ROTOR.unforced.equilibrium * -1j
     place, speed = (whirl, 0.0) if start is None else (start.position, start.velocity)
     touched = motion.contacts.time[0]
@@ -134,4 +134,4 @@ def test_a_machine_that_states_no_weight_falls_by_it_from_its_centre():
     first = motion.parts[0].contacts.time[0] * machine.parameters.scales.time
     assert first == pytest.approx(math.sqrt(2.0 * machine.machine.clearance / 9.81), rel=1e-12)
     # Levitation that is regained needs no stiffness for the weight.
-    assert motion.parts[1].rotor.weight is None
+    assert motion.parts[1].rotor.acting.weight is None

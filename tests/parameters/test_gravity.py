@@ -30,7 +30,7 @@ def test_along_the_axis_of_a_vertical_shaft(write):
     )
     rotor = rotor_of(vertical.replace(gravity=1.62))
     assert rotor.is_vertical
-    assert rotor.weight is None
+    assert rotor.acting.weight is None
     assert rotor.has_closed_forms
     assert rotor_from(rotor.attributes()) == rotor.replace(gamma=0.5).replace(gamma=rotor.value("gamma"))
 

@@ -249,7 +249,7 @@ class Landing(Measure):
         if varied.name not in RELEASED:
             return super().present(rotor, varied)
         if varied.name == "phase":
-            return math.remainder(self.released.unbalance_angle(rotor) - rotor.direction_of_fall, TURN) % TURN
+            return math.remainder(self.released.unbalance_angle(rotor) - rotor.acting.direction_of_fall, TURN) % TURN
         given = getattr(self.released, varied.name)
         if given is None:
             return 0.0 if varied.name == "race_speed" else math.nan

@@ -260,7 +260,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
         console.print()
         _print_contacts(console, motion)
-    if motion.scales or motion.rotor.weight is not None or len(motion.rotor.system.rest) > 1:
+    if motion.scales or motion.rotor.acting.weight is not None or len(motion.rotor.system.rest) > 1:
         for seen in motion.at_each:
             console.print(_final_words(say, seen))
         return
@@ -317,7 +317,7 @@ def _print_contacts(console: Console, motion: Trajectory) -> None:
     headings = {name: each["heading"] for name, each in motion.contacts.columns.items() if each["heading"]}
     if len(motion.at_each) == 1:
         del headings["touchdown_bearing"]
-    if motion.rotor.weight is not None:
+    if motion.rotor.acting.weight is not None:
         headings["angle"] = "fixed angle"
     shown = {name: shown_from_si(units[name]) for name in headings} | {"angle": (math.degrees(1.0), "°")}
     hidden, note = len(rows) - FIRST_EVENTS - LAST_EVENTS, ""
@@ -338,7 +338,7 @@ def _contact_cells(motion: Trajectory, row: dict[str, Any], factors: dict[str, f
     period = motion.rotor.scales.time if motion.rotor.scales else 1.0
     if "angle" in row:
         # Weight has a direction in the fixed frame alone.
-        turned = 0.0 if motion.rotor.weight is None else row["time"] / period
+        turned = 0.0 if motion.rotor.acting.weight is None else row["time"] / period
         shown["angle"] = math.remainder(row["angle"] + turned, math.tau)
         whirl = "forward" if row["angular_speed"] > -1.0 / period else "backward"
     elif "end" in row:

@@ -46,6 +46,7 @@ from carom.base.arguments import ArgumentKind, Positive, Whole, checked
 from carom.base.outcome import InputError
 from carom.closed_forms.statics import positive_roots
 from carom.models import Subject, System, rotor_of
+from carom.models.subjects import refuse_forces
 
 Exponent = Annotated[float, ArgumentKind(lambda number: number >= 1.0, "a number of at least 1")]
 REAL = 1e-6
@@ -122,7 +123,7 @@ def slipping_whirls(
     1.163219537, 1.000077554
     """
     model = rotor_of(machine)
-    model.refuse_forces()
+    refuse_forces(model)
     system = model.system
     if plane >= (count := len(system.arrays["rows"])):
         raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {count - 1}")

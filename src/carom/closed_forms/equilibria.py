@@ -29,6 +29,7 @@ from carom.core.friction import FORWARD, friction_ratio
 from carom.core.laws.choice import force_change, force_coefficient
 from carom.models import Rotor, Subject, System, rotor_of
 from carom.models.limits import saturates
+from carom.models.subjects import refuse_forces
 from carom.parameters import Scales
 
 
@@ -259,7 +260,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     """
     model = rotor_of(machine)
     system = model.system
-    model.refuse_forces()
+    refuse_forces(model)
     balances = (each for each in rub_forces(system) if not saturates(system, static_state(system, *each)))
     rubs = [_rub(model, *balance) for balance in balances]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))

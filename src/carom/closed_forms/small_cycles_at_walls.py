@@ -45,6 +45,7 @@ from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.statics import exponent_of
 from carom.core.friction import sliding_factor
 from carom.models import Rotor, Subject, System, rotor_of
+from carom.models.subjects import refuse_forces
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,7 +274,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     ('non-smooth fold', [('0.6668', 'subcritical'), ('3.0765', 'subcritical')])
     """
     model = rotor_of(machine)
-    model.refuse_forces()
+    refuse_forces(model)
     system = model.system
     radii = np.abs(system.arrays.offsets)
     place = int(radii.argmax()) if plane is None else plane

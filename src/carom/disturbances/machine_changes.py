@@ -205,7 +205,7 @@ class Drop(Disturbance):
         from carom.models.stages import stages_of
 
         rotor = rotor_of(machine)
-        if not (rotor.is_vertical or rotor.whole_weight is not None or rotor.scales):
+        if not (rotor.is_vertical or rotor.acting.whole_weight is not None or rotor.scales):
             raise InputError("gravity", None, "a drop needs weight, in m/s^2: a machine with mass, clearance and speed")
         if stages_of(rotor)[0].rotor is not rotor:
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
@@ -213,7 +213,7 @@ class Drop(Disturbance):
             rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
         falling = rotor.without_levitation()
-        if rotor.whole_weight is None and not rotor.is_vertical:
+        if rotor.acting.whole_weight is None and not rotor.is_vertical:
             falling = falling.under_gravity(ASSUMED)
         if self.regained_after is None:
             return falling, start
@@ -233,7 +233,7 @@ class Drop(Disturbance):
         if self.phase is None:
             return rotor.unbalance_phase
         ahead = own_size("phase", self.phase, "angle", rotor.scales)
-        return math.remainder(rotor.direction_of_fall + ahead, 2.0 * math.pi)
+        return math.remainder(rotor.acting.direction_of_fall + ahead, 2.0 * math.pi)
 
     def _start(self, rotor: Rotor) -> State:
         """State at the release; by default with the races as the model has them."""

@@ -3,7 +3,7 @@
 ========================  =================================================================
 ``axes``                  :class:`Axis`: any named parameter of any model, to vary; :class:`Span`: an interval of one
 ``rotor``                 :class:`Rotor`: every rotor, asked for what it has
-``weighed``               which of its forces act, and what bias currents carry
+``acting``                :class:`Acting`: the forces that act, and what bias currents carry
 ``definition``            :class:`Definition`: its named parameters, equations and matrices
 ``documents``             a rotor as plain data, and back
 ``mode_arrays``           modes and contact planes as arrays for the kernels

@@ -14,6 +14,7 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.base.results import Result
+from carom.models.acting import Acting, is_steady
 from carom.models.definition import Definition, Matrices
 from carom.models.documents import document_of
 from carom.models.forcing import (
@@ -25,7 +26,6 @@ from carom.models.forcing import (
 )
 from carom.models.limits import Limit, checked_limits, limits_by, with_bias, with_limits
 from carom.models.mode_arrays import STEADY
-from carom.models.weighed import Weighed, is_steady
 from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, read_quantity
 from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.tables import BIAS
@@ -44,7 +44,7 @@ _LEVITATION = ("gamma", "omega")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Rotor(Weighed, Result):
+class Rotor(Result):
     """A rotor in its touchdown bearings, with what acts on it: a value with named parameters.
 
     Makers give it its definition: :func:`~carom.models.jeffcott`, :func:`~carom.models.from_matrices`, flexible machines
@@ -207,6 +207,11 @@ class Rotor(Weighed, Result):
     # What acts on it besides.
 
     @cached_property
+    def acting(self) -> Acting:
+        """The forces that act on it while it levitates, and what bias currents carry of its weight."""
+        return Acting.of(self.definition, self.forces, self.limits, self.carried_by_bias)
+
+    @cached_property
     def system(self) -> System:
         """Modes, contact planes, contact law, limits, and a mode for each force, as arrays for the kernels."""
         if self.stages:
@@ -218,11 +223,11 @@ class Rotor(Weighed, Result):
         limits = self.listed_limits
         if limits:
             system = with_limits(system, limits)
-        asked = self.asked_by_bias
+        asked = self.acting.asked_by_bias
         if not asked.any():
-            return with_forces(system, self.acting) if self.acting else system
+            return with_forces(system, self.acting.forces) if self.acting.forces else system
         # What limits see of the bias currents turns as weight does.
-        turning = Force(STEADY, np.zeros(len(system.rest), complex)), *self.acting
+        turning = Force(STEADY, np.zeros(len(system.rest), complex)), *self.acting.forces
         return with_bias(with_forces(system, turning), limits, asked)
 
     @property
@@ -303,7 +308,7 @@ class Rotor(Weighed, Result):
         found = self.definition.varied
         if self.limits and not isinstance(self.limits, ControlLimit):
             found = {name: field for name, field in found.items() if name not in _LEVITATION}
-        if self._gravity is not None and self.weight is not None:
+        if self._gravity is not None and self.acting.weight is not None:
             found = {**found, GRAVITY_NAME: _GRAVITY_FIELD}
         return found
 
@@ -387,4 +392,6 @@ class Rotor(Weighed, Result):
     @property
     def has_closed_forms(self) -> bool:
         """Whether exact results are known: of the planar rotor in a rigid wall that stands still, without limits and forces that act."""
-        return self.planar is not None and self.definition.has_closed_forms and not self.acting and not self.limits
+        return (
+            self.planar is not None and self.definition.has_closed_forms and not self.acting.forces and not self.limits
+        )

@@ -10,6 +10,7 @@ from typing import Any
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.models.documents import part_from
+from carom.models.forcing import ISOTROPIC_ALONE, WITHOUT_FORCES
 from carom.models.planar import RIGID, jeffcott
 from carom.models.rotor import PLANAR_ALONE, Rotor
 from carom.parameters import Case, Machine, Parameters, Zones
@@ -62,9 +63,20 @@ def exact_rotor_of(subject: Subject) -> Rotor:
         raise InputError("machine", shown(rotor), PLANAR_ALONE)
     if rotor.limits:
         raise InputError("limits", rotor.words_of_limits, _WITHOUT_LIMITS)
-    if rotor.acting:
-        rotor.refuse_forces()
+    if rotor.acting.forces:
+        refuse_forces(rotor)
     raise InputError("touchdown", rotor.definition.words_of_bearing, _RIGID)
+
+
+def refuse_forces(rotor: Rotor) -> None:
+    """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
+    if rotor.system.shaft is not None:
+        rotor.system.refuse_non_stationary()
+    if rotor.is_anisotropic:
+        raise InputError("machine", "anisotropic bearings", ISOTROPIC_ALONE)
+    if rotor.system.outer.any():
+        acting = "forces that change with time" if rotor.acting.weight is None else "gravity"
+        raise InputError("machine", f"a rotor under {acting}", WITHOUT_FORCES)
 
 
 @checked

@@ -78,7 +78,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
         **course,
         impacts=None if is_compliant(rotor.system, plane) else impacts.some(impacts.time <= until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
-        down=rotor.direction_of_fall,
+        down=rotor.acting.direction_of_fall,
         scales=motion.scales,
     )
 

@@ -195,7 +195,7 @@ def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
     power, since = np.zeros(times.shape), trajectory.begins + times
     rotor = trajectory.rotor
-    for force in (*rotor.acting, *rotor.definition.pull):
+    for force in (*rotor.acting.forces, *rotor.definition.pull):
         power += (velocity.conj() * (force.at(since) @ rotor.matrices.mass.T)).sum(axis=-1).real
     return power
 

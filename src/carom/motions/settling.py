@@ -214,7 +214,7 @@ def time_limit(rotor: Rotor, trigger: Trigger) -> float:
 def longest_time(rotor: Rotor) -> float:
     """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds; else :data:`FALLING_TURNS`."""
     decay = rotor.system.decay
-    weighs = rotor.weight is not None or rotor.is_vertical
+    weighs = rotor.acting.weight is not None or rotor.is_vertical
     if weighs and not rotor.system.levitates and rotor.system.shaft is None:
         return 2.0 * math.pi * FALLING_TURNS
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT
@@ -305,7 +305,7 @@ def goes_round(rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, recoll
         return None
     in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
     lasts_on = recollection.turns >= 2 * TURNS or _steady(recollection)
-    if not (in_step or lasts_on) or (rotor.weight is None and not rotor.system.is_time_dependent):
+    if not (in_step or lasts_on) or (rotor.acting.weight is None and not rotor.system.is_time_dependent):
         return None
     plane = next((place for place, each in enumerate(contact.tolist()) if lasts(each)), None)
     if plane is None:
@@ -339,7 +339,7 @@ def lies(rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, recollection
     recollection : record of :func:`carom.core.settling.memory`
     """
     touching = np.array([lasts(int(each)) for each in contact])
-    if rotor.weight is None or not touching.any():
+    if rotor.acting.weight is None or not touching.any():
         return False
     state, contact = amplitudes.copy(), contact.copy()
     arrays, table, log, tools = _apart(rotor.system, STEPS_LOGGED, recollection)

@@ -107,7 +107,7 @@ def levitating(rotor: Rotor, push: complex = 0j, instant: float = 0.0) -> State:
     InputError
         The rotor sags to the wall.
     """
-    if rotor.weight is not None:
+    if rotor.acting.weight is not None:
         rotor.system.require_levitation()
     begun = instant if rotor.depends_on_instant else 0.0
     return State.of(*rotor.system.kicked(push, begun), time=begun)

@@ -16,6 +16,7 @@ from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.settling import memory
 from carom.models import Subject, rotor_of
+from carom.models.subjects import refuse_forces
 from carom.motions.simulation import follow, tools
 from carom.motions.starts import LARGEST_SPEED, State
 from carom.orbits.shooting import Links
@@ -173,7 +174,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
         The rotor does not move toward the wall, its wall is compliant, or it has several coordinates, of which the section is no state.
     """
     rotor = rotor_of(machine)
-    rotor.refuse_forces()
+    refuse_forces(rotor)
     if rotor.system.arrays["stiffness"].any():
         raise InputError("machine", "a compliant wall", "rigid walls: contact with a compliant wall is not an impact")
     if len(rotor.system.rest) > 1:

@@ -292,7 +292,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     end = shown_until(motion)
     within = min(end, first_contacts(motion, FOLLOWED)) if until is None else min(until, motion.begins + motion.time)
     course = sampled(motion, within)
-    falls = motion.rotor.weight is not None
+    falls = motion.rotor.acting.weight is not None
     if not falls:
         course = replace(course, down=0.0)
     # Without weight impacts lie all around: close to the wall they would be a comb.

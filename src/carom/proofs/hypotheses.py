@@ -274,7 +274,9 @@ class StatedEquations:
         if n > LARGEST:
             raise InputError("machine", f"{n} coordinates", f"at most {LARGEST} for a theorem")
         mass, damping, gyroscopic, stiffness, forcing = whole.matrices
-        weight = np.sum([force.accelerations for force in (*whole.acting, *whole.definition.pull)], axis=0) * np.ones(n)
+        weight = np.sum(
+            [force.accelerations for force in (*whole.acting.forces, *whole.definition.pull)], axis=0
+        ) * np.ones(n)
         across, push = whole.equations.conjugate, np.zeros(n)
         with suppress(InputError):  # of several nodes with an unbalance, a step of which is meant?
             push = whole.definition.unbalance_push()

@@ -229,7 +229,7 @@ def _of_model(model: Rotor) -> _Whole:
         model.listed_limits,
         1.0,
         system.shapes @ system.outer,
-        model.asked_by_bias,
+        model.acting.asked_by_bias,
     )
 
 
