@@ -43,10 +43,10 @@ def test_figures_and_a_page(carom, tmp_path):
     assert code == 0
     assert err.strip() == f"Report: {where / 'drop.html'}"
     names = {path.name for path in (where / "figures").iterdir()}
-    assert names == {f"drop-{name}.{kind}" for name in ("orbit", "loads") for kind in ("png", "svg")}
+    assert names == {f"drop-{name}.{kind}" for name in ("landing", "orbit", "loads") for kind in ("png", "svg")}
     written = json.loads((where / "drop.json").read_text(encoding="utf-8"))
     assert written.pop("figures") == [
-        f"figures/drop-{name}.{kind}" for name in ("orbit", "loads") for kind in ("svg", "png")
+        f"figures/drop-{name}.{kind}" for name in ("landing", "orbit", "loads") for kind in ("svg", "png")
     ]
     assert written == json.loads(out)
     assert "Report:" in carom(*SHORT, "--out", str(where))[1]

@@ -26,12 +26,14 @@ def line(axes, name):
 
 def test_the_orbit_and_how_deep_it_goes(soft):
     (plane,) = drop_loads(soft).planes
-    left, right = plots.drop_orbit(soft).axes
+    left, right, bar = plots.drop_orbit(soft).axes
     deepest = np.nanmin(line(right, "contact").get_ydata())
     # Drawn with the time of the largest force, next to which the depth is largest.
     assert deepest == pytest.approx(-1e6 * plane.si()["depth"], rel=1e-4)
-    path = line(left, "path")
-    assert np.hypot(path.get_xdata(), path.get_ydata()).max() == pytest.approx(0.25 - 1e-3 * deepest, rel=1e-6)
+    (path,) = [each for each in left.collections if each.get_gid() == "path"]
+    assert np.hypot(*np.concatenate(path.get_segments()).T).max() == pytest.approx(0.25 - 1e-3 * deepest, rel=1e-6)
+    assert bar.get_xlabel() == "time $t$ (ms)"
+    assert (np.diff(path.get_array()) > 0.0).all()
     # It falls down the y axis, where the angle counts from.
     below = line(right, "path")
     assert abs(below.get_xdata()[np.nanargmin(below.get_ydata())]) < 2.0
@@ -64,5 +66,16 @@ def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole():
     assert dots.max() == pytest.approx(plane.si()["impulse"], rel=1e-12)
     assert "impulse of an impact (right axis)" in words(figure)
     assert "surface of the race" not in words(figure)
-    _, right = plots.drop_orbit(rigid, until=20.0).axes
+    _, right, _ = plots.drop_orbit(rigid, until=20.0).axes
     assert right.get_title() == "close to the wall"
+
+
+def test_forces_of_all_bearings_and_how_fast_races_turn(soft):
+    (plane,) = drop_loads(soft).planes
+    force, turning = plots.landing(soft).axes
+    assert line(force, "normal force").get_ydata().max() == pytest.approx(plane.si()["force"], rel=1e-12)
+    assert line(turning, "shaft").get_ydata() == pytest.approx(9000.0)
+    assert line(turning, "race").get_ydata()[-1] == pytest.approx(9000.0 * plane.race_at_end, rel=1e-9)
+    rigid = cm.simulate(cm.load("tests/machine_files/four-degrees.toml"), cm.drop(), "20 ms")
+    titles = [axes.get_title() for axes in plots.landing(rigid).axes if axes.get_title()]
+    assert titles == ["touchdown bearing 1", "touchdown bearing 2"]

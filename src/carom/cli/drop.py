@@ -46,7 +46,7 @@ UNTIL = option(
 STEPS = option(
     "N", "With --until standstill: steps of speed down to zero; the error is that of half as many.", default=200
 )
-OUT = option("DIR", "Write figures, drop.json and drop.html to this directory.")
+OUT = option("DIR", "Write figures, drop.json and the landing report drop.html to this directory.")
 
 
 def drop(

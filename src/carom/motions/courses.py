@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.base.outcome import InputError
 from carom.motions.contacts import ContactLog
-from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_lead
+from carom.motions.kinematics import is_compliant, presses, race_speed, shaft_lead, shaft_speed
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Scales
@@ -49,6 +49,8 @@ class Course:
     down : float
         Direction of the fall, rad.
     scales : Scales or None
+    turns : ndarray
+        Speed of the shaft, in ``Ω``.
     """
 
     times: np.ndarray
@@ -62,6 +64,7 @@ class Course:
     stages: tuple[float, ...]
     down: float
     scales: Scales | None
+    turns: np.ndarray
     mount: np.ndarray | None = None
     race: np.ndarray | None = None
 
@@ -99,6 +102,7 @@ def _sampled(part: Trajectory, end: float, samples: int) -> dict[str, np.ndarray
         "friction": history.friction_force,
         "slip": np.abs(history.slip),
         "held": presses(phases[:, part.plane]),
+        "turns": shaft_speed(system, amplitudes),
     }
     if part.rotor.planar is not None and len(system.rest) > 1:  # on a mount, whose place is the second coordinate
         columns["mount"] = system.state(amplitudes)[0][:, 1] * np.exp(1j * fixed)

@@ -38,6 +38,8 @@ _STICKS = 1e-6
 """Slip [c_r Ω] below which a contact rolls."""
 _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
+_MOST_STAGES = 12
+"""Number of stages above which their beginnings are not marked."""
 _MOST_MARKED = 300
 """Number of impacts above which they are not marked."""
 _DOTS: Drawn = {"ls": "none", "marker": "o", "ms": 2.2, "color": LOOKS["path"].colour}
@@ -108,7 +110,7 @@ def touchdown(
         panels = list(grid[:, place])
         _distance(panels[0], motion, course)
         if rows > 1:
-            _force(panels[1], course, courses[-1], last=place == len(spans) - 1)
+            draw_force(panels[1], course, courses[-1], last=place == len(spans) - 1)
             _speeds(panels[2], course)
         elif impacts is not None and len(impacts):
             unit = display_unit("impulse", course.scales)[1]
@@ -120,8 +122,7 @@ def touchdown(
         panels[-1].set(xlim=(-margin, float(course.times[-1])), xlabel=axis_time(course.scales))
         for axes in panels:
             axes.label_outer()
-            for begins in course.stages:
-                axes.axvline(begins, color="#7d6a4f", lw=0.8, ls=":", label="next stage", gid="stage")
+            mark_stages(axes, course)
     for axes, letter in zip(grid.T.ravel() if grid.size > 1 else (), "abcdefgh", strict=False):
         axes.set_title(f"({letter})", loc="left", y=1.0)
     if len(spans) > 1:
@@ -129,6 +130,12 @@ def touchdown(
         rests = "until it rests or whirls" if end <= settled < whole else "drawn part of the motion"
         grid[0, 1].set_title("the whole motion" if end == whole else rests, y=1.0)
     return key(figure, grid.ravel().tolist(), columns=4, title=title)
+
+
+def mark_stages(axes: Axes, course: Course) -> None:
+    """Mark where later stages begin, unless these are the many steps of a speed that changes."""
+    for begins in course.stages if len(course.stages) <= _MOST_STAGES else ():
+        axes.axvline(begins, color="#7d6a4f", lw=0.8, ls=":", label="next stage", gid="stage")
 
 
 @checked
@@ -230,7 +237,7 @@ def _zones(axes: Axes, zones: Zones, wall: float) -> None:
         axes.text(0.992, (low + high) / 2.0, letter, transform=beside, ha="right", va="center", fontsize=7)
 
 
-def _force(axes: Axes, course: Course, whole: Course, *, last: bool) -> None:
+def draw_force(axes: Axes, course: Course, whole: Course, *, last: bool = True) -> None:
     """Draw the forces of contact, and impulses if the wall is rigid: on an axis of their own beside forces, if there are any."""
     impacted = course.impacts is not None and len(course.impacts) > 0
     lasts = bool((whole.held & (whole.force > 0.0)).any())

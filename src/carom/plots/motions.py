@@ -5,10 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from carom.base.arguments import Count, Positive, checked
@@ -33,6 +35,7 @@ from carom.plots.plane import (
 from carom.plots.style import LOOKS, Drawn, Look, styled
 from carom.plots.words import (
     axis_label,
+    axis_time,
     clearance,
     contacts_in_words,
     counted,
@@ -261,6 +264,9 @@ def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: floa
     return trajectory.position(np.linspace(start, end, points), frame)
 
 
+BANDS = 256
+"""Colours of a path by time."""
+BY_TIME = "viridis"
 _NEAR = 0.12
 """Distance from the wall, in clearances, up to which the close-up shows the orbit."""
 _REACHES = {15.0: 7, 30.0: 5, 60.0: 5, 90.0: 7, 180.0: 5}
@@ -300,7 +306,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     figure, (left, *close) = frames(1 + touches)
     wall = clearance(course.scales)
     clearance_circle(left, max(1.12, 1.06 * float(np.abs(course.place).max()) / wall), wall)
-    _path(left, course, course.place.real, course.place.imag)
+    _path_by_time(left, course)
     if falls:
         _arrow(left, course.down, wall)
     label_frame(
@@ -349,6 +355,19 @@ def _path(axes: Axes, course: Course, across: Floats, up: Floats) -> None:
         drawn = {**LOOKS["slide"].stroke, "lw": 1.2, "solid_capstyle": "butt", "zorder": 3}
         held = (np.where(course.held, values, np.nan) for values in (across, up))
         axes.plot(*held, **drawn, rasterized=many, label="in contact", gid="contact")
+
+
+def _path_by_time(axes: Axes, course: Course) -> None:
+    """Draw the path coloured by time, in bands each of which is one line, and a colour bar below."""
+    edges = np.linspace(0, len(course.times) - 1, min(BANDS, len(course.times) - 1) + 1).astype(int)
+    points = np.column_stack([course.place.real, course.place.imag])
+    bands = [points[first : last + 1] for first, last in pairwise(edges)]
+    path = LOOKS["path"]
+    lines = LineCollection(bands, array=course.times[edges[:-1]], cmap=BY_TIME, lw=1.2 * path.width, gid="path")
+    lines.set_rasterized(len(points) > MANY_POINTS)
+    axes.add_collection(lines)
+    bar = axes.figure.colorbar(lines, ax=axes, location="bottom", pad=0.02, aspect=40, label=axis_time(course.scales))
+    bar.outline.set_linewidth(0.5)
 
 
 def _arrow(axes: Axes, down: float, wall: float) -> None:

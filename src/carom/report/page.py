@@ -11,9 +11,10 @@ from carom import plots
 from carom.base.arguments import checked
 from carom.base.files import MANIFEST, staged_directory, write_json
 from carom.base.progress import Reporter, ShowProgress, shows_progress
+from carom.models import rotor_of
 from carom.motions import Trajectory
 from carom.motions.courses import shown_until
-from carom.parameters.formats import number
+from carom.parameters.formats import format_entry, number
 from carom.plots.figure import drawing, made_for
 from carom.report.figures import drawable, pictures
 from carom.report.film import Film, film_of, film_script
@@ -21,6 +22,7 @@ from carom.report.html import InlineFigure, ReportPicture, draw_figures, page_te
 from carom.studies import Study
 from carom.studies.drops import DropStudy
 from carom.studies.findings import CHANGES, not_covered
+from carom.studies.landing import Accepted, bearing_words, load_columns
 from carom.studies.levitating import Levitating, frequency_words
 from carom.studies.questions import Fact, about, paragraphs
 from carom.studies.summaries import MOTION_COLUMNS, MotionRow, motion_rows, survived_rows
@@ -137,9 +139,10 @@ def _advice(study: Study) -> tuple[list[Advice], dict[str, str]]:
 
 DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"
 _ORBIT = (
-    "Orbit of the rotor centre in the fixed frame, and its gap to the wall over the angle from the direction of gravity. "
+    "Orbit of the rotor centre in the fixed frame, coloured by time, and its gap to the wall over the angle from the direction of gravity. "
     "The arrow shows the weight."
 )
+_LANDING = "Contact force at each touchdown bearing over time, and how fast the shaft and its race turn, where one of them changes."
 _SOFT = "Distance from the centre, contact forces, slip velocity and surface speed of the race."
 _RIGID = "Distance from the centre, forces in lasting contact, the impulse of each impact, and slip velocity."
 _WALLS = {
@@ -170,6 +173,8 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
     if drawn < found.loads.time and not motion.outcome.settled:
         say = Wording(found.case.parameters.scales)
         cut = f" Drawn: the first {say.time(drawn)} of {say.time(found.loads.time)}."
+    over_time = partial(plots.landing, motion)
+    wanted.append(ReportPicture("drop-landing", "drop", _LANDING + cut, over_time))
     for plane in planes:
         seen, mark = motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
         which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
@@ -184,6 +189,13 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
         write_json(place / DROP_NUMBERS, {**found.document(), "figures": names})
         page = page_template("drop.html.jinja").render(
             found=found,
+            say=Wording(found.loads.scales),
+            rotor=(rotor := rotor_of(found.case)),
+            elements=rotor.finite_elements,
+            mass=format_entry("mass", found.case.parameters.scales.mass),
+            columns=load_columns(found),
+            acceptance=[Accepted.of(check) for check in found.checks],
+            bearings=bearing_words(found),
             heading=machine_heading(found.case),
             machine=found.case.rows(),
             mark="var(--warn)" if any(check.exceeded for check in found.checks) else "var(--rule)",

@@ -11,6 +11,7 @@ Read them in this order.
 ``survives``             the sizes of disturbances up to which none is lost, and what touchdown bearings bear in what must be survived
 ``advice``               the least change that leaves only recovery, in the user's terms and within limits
 ``drops``                loads of touchdowns against limits, and :class:`DropStudy`: what a drop asks of the touchdown bearing
+``landing``              a drop for its report: touchdown bearings and their loads beside each other, and how far from their limits
 ``standstill``           a spin-down to standstill in words and as JSON
 ``levitating``           how a machine levitates: whirls, response, sensitivity, separations
 ``verdict``              what is survived and what is proven, as facts, and the headline

@@ -110,6 +110,11 @@ class LoadCheck:
         return self.value > self.limit or self.endless
 
     @property
+    def margin(self) -> float:
+        """Share of the limit that is left, below zero where the load exceeds it."""
+        return 1.0 - self.value / self.limit if self.limit else -math.inf if self.value else 0.0
+
+    @property
     def words(self) -> str:
         """The check in words."""
         value, limit = (LoadLimits.format(self.name, each) for each in (self.value, self.limit))
@@ -125,7 +130,9 @@ class LoadCheck:
 
     def document(self) -> dict[str, object]:
         """As plain data for JSON; values in the SI unit of the limit."""
-        return record(self, "name exceeded endless still_growing value_si=value limit_si=limit reached_after_si=after")
+        return record(
+            self, "name exceeded endless still_growing value_si=value limit_si=limit margin reached_after_si=after"
+        )
 
 
 @checked
