@@ -18,18 +18,18 @@ LIMITS = {
     "parameters base": 3460,
     "models": 2227,
     "core": 6613,
-    "motions disturbances": 3781,
+    "motions disturbances": 3783,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2197,
-    "studies": 3302,
-    "cli plots report": 5346,
+    "studies": 3359,
+    "cli plots report": 5406,
     "rotors": 3971,
     "proofs": 5900,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 36_933, 291
+TESTS, ANY = 37_002, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""
