@@ -134,6 +134,9 @@ def test_until_the_shaft_stands(carom, tmp_path):
     assert 0.9 < given / (0.5 * 4e-6 * cm.load(path).parameters.scales.speed ** 2) < 1.1
     words = " ".join(carom(*command)[1].split())
     assert "The shaft stands" in words
-    assert "from 20 steps of speed" in words
+    assert "by 20 steps of speed" in words
+    (whirl,) = found["largest_whirl"]
+    assert f"largest whirl {1e3 * whirl['radius_si']:.3f} mm 0-to-peak in the fixed frame, 1.06 of the" in words
+    assert "torque of unbalance left out: up to" in words
     code, _, err = carom(*command, "--map", "phase,speed")
     assert (code, "--until = standstill: a time beside --map" in err) == (2, True)

@@ -35,29 +35,38 @@ def spin_down_rows(slowed: SpinDown) -> list[tuple[str, str]]:
         for name, each in zip(names, planes, strict=True)
     ]
     rows.append(("windage, drag, drive", f"{say.write(slowed.braked, 'energy')} taken from the shaft"))
-    for name, (radius, speed) in zip(names, slowed.largest, strict=True):
-        rows.append(
-            (f"largest whirl{name}", f"{number(radius, 4)} clearances from the centre, at {say.write(speed, 'speed')}")
-        )
+    for name, plane, (radius, speed) in zip(names, planes, slowed.largest, strict=True):
+        size = f"{Wording(plane.scales).length(radius)} 0-to-peak in the fixed frame"
+        share = f"{number(radius, 3)} of the clearance, " if plane.scales else ""
+        rows.append((f"largest whirl{name}", f"{size}, {share}at {say.write(speed, 'speed')}"))
     if slowed.criticals:
         passed = ", ".join(say.write(each, "speed") for each in slowed.criticals)
         rows.append(("critical speeds", f"of the free rotor, passed on the way down: {passed}"))
     estimated = (
         "none by steps of speed"
         if slowed.error is None
-        else f"{number(100.0 * slowed.error, 2)} % from {slowed.steps} steps of speed"
+        else f"estimated {number(100.0 * slowed.error, 2)} % of time, turns and energy by {slowed.steps} steps of speed"
     )
-    return [*rows, ("error", f"{estimated}; left out: rolling resistance, torque of the unbalance on the shaft")]
+    torque, speed, energy = slowed.unbalance_torque
+    if torque and slowed.scales:
+        size = f"up to {number(torque * slowed.scales.energy, 3)} N m in the mean of a step, at {say.write(speed, 'speed')}"
+        rows.append(("torque of unbalance", f"left out: {size}, {say.write(energy, 'energy')} in all"))
+    return [*rows, ("error", f"{estimated}; left out: rolling resistance")]
 
 
 def spin_down_entries(slowed: SpinDown) -> dict[str, object]:
     """A spin-down as JSON."""
     scales = slowed.scales
-    course = ("time", "speed", *(f"largest_radius_{place + 1}" for place in range(len(slowed.loads.planes))))
+    radii = (f"largest_radius_{place + 1}" for place in range(len(slowed.loads.planes)))
+    course = ("time", "speed", *radii, "unbalance_torque")
     return {
         **record(slowed, "stands time: turns speed_at_end:speed braked:energy steps error", slowed.scales),
         "energy_into_bearings": (energies := [each.heat + each.restitution_loss for each in slowed.loads.planes]),
         "energy_into_bearings_si": scales and [each * scales.energy for each in energies],
+        "largest_whirl": [
+            {"radius": radius, "radius_si": plane.scales and radius * plane.scales.length, "speed": speed}
+            for plane, (radius, speed) in zip(slowed.loads.planes, slowed.largest, strict=True)
+        ],
         "criticals": list(slowed.criticals),
         "criticals_si": scales and [each * scales.speed for each in slowed.criticals],
         "course": {name: values.tolist() for name, values in zip(course, slowed.course.T, strict=True)},
