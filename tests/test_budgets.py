@@ -18,7 +18,7 @@ LIMITS = {
     "parameters base": 3460,
     "models": 2227,
     "core": 6613,
-    "motions disturbances": 3833,
+    "motions disturbances": 3844,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2197,
     "studies": 3368,

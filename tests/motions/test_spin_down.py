@@ -12,7 +12,7 @@ import carom as cm
 from carom.base.outcome import InputError
 from carom.models import Force, KelvinVoigt, Rigid, Shaft, Touchdown, from_matrices
 from carom.motions import spin_down
-from carom.motions.standstill import SEEN
+from carom.motions.descent import SEEN
 from carom.parameters import Drive
 
 pytestmark = pytest.mark.jit_only

@@ -15,6 +15,7 @@
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest; how near magnets come
 ``load_sums``         loads, added up piece by piece
 ``standstill``        a drop followed until the shaft stands still
+``descent``           its way down: torques, gyroscopic moments in steps of speed, and what is passed
 ``courses``           a drop sampled over all stages, to be drawn
 ``ledger``            energies of a motion
 ====================  ======================================================================================
