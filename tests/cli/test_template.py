@@ -11,7 +11,7 @@ from carom.parameters.terms import ENTRIES
 from carom.rotors.part_tables import PARTS, ROTOR_ENTRIES
 from carom.rotors.rigid_body import RIGID_FIELDS
 
-SUPPORT = ("node", "kx", "ky", "cx", "cy")
+SUPPORT = ("node", "kx", "ky", "cx", "cy", "rotating", "tilt", "speeds", "internal_damping")
 """How entries of a table begin that is left out as a whole."""
 
 

@@ -20,7 +20,8 @@
 ``starter``               a machine file to start from, for an imported rotor
 ``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
 ``reduction``             few vectors in place of all coordinates
-``equations``             equations of motion in SI units, and free motions
+``equations``             equations of motion in SI units
+``free_motions``          free motions, which of them grow, and the speeds at which levitation begins or ceases to be stable
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it; :func:`rigid_rotor`
 ``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model

@@ -1,10 +1,9 @@
-"""Equations of motion of a flexible rotor on magnetic bearings and supports, in SI units and in the fixed frame, and its free motions."""
+"""Equations of motion of a flexible rotor on magnetic bearings and supports, in SI units and in the fixed frame."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import lru_cache
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,13 +12,28 @@ from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import Basis
 from carom.rotors.shared_controller import ControlLoop, SharedController, loops_in
-from carom.rotors.support import Support
+from carom.rotors.support import Support, turning
+
+
+class SpeedLaw(NamedTuple):
+    """Damping and stiffness that may change with the speed: those of a support, or what turns with the shaft."""
+
+    square: np.ndarray
+    """Shape (n, n)."""
+    law: Callable[[float], np.ndarray]
+    """Factors at a speed, 1/s, shape (2, 2): of damping and stiffness, for coordinates, then for their conjugates."""
+
+    def at(self, speed: float) -> np.ndarray:
+        """Matrices, shape (2, 2, n, n)."""
+        found: np.ndarray = np.multiply.outer(self.law(speed), self.square)
+        return found
 
 
 class RotorEquations(NamedTuple):
     """``M z̈ + (D − iΩG) ż + K z + D′ z̄˙ + K′ z̄ = Ω² e^{iΩt} f`` of vectors with unit modal mass, mounts, and controller states, which have no mass.
 
-    Displacements are ``basis.shapes`` times the first ``v`` coordinates, which are in m √kg.
+    Displacements are ``basis.shapes`` times the first ``v`` coordinates, which are in m √kg.  Damping and stiffness are those of the speed of the
+    machine; :meth:`at` has them at others.
     """
 
     mass: np.ndarray
@@ -48,11 +62,32 @@ class RotorEquations(NamedTuple):
     """The same of supports alone."""
     currents_across: np.ndarray
     """Current of each bearing, A, per conjugate of a coordinate, then per its rate, shape (2, B, n)."""
+    is_anisotropic: bool
+    """Whether a support is anisotropic, at any speed."""
+    speed: float = 0.0
+    """For which damping and stiffness are, 1/s."""
+    held: tuple[SpeedLaw, ...] = ()
+    """What of these may differ at another speed."""
 
-    @property
-    def is_anisotropic(self) -> bool:
-        """Whether a support is anisotropic."""
-        return bool(self.across.any())
+    def at(self, speed: float) -> RotorEquations:
+        """Equations with the damping and the stiffness of another speed, 1/s, levitating and not."""
+        laws = [each for each in self.held if not np.array_equal(each.law(speed), each.law(self.speed))]
+        if not laws:
+            return self
+        (damping, stiffness), across = sum(each.at(speed) - each.at(self.speed) for each in laws)
+        return self._replace(
+            speed=speed,
+            damping=self.damping + damping,
+            stiffness=self.stiffness + stiffness,
+            unlevitated=self.unlevitated + np.stack([damping, stiffness]),
+            across=self.across + across,
+            across_unlevitated=self.across_unlevitated + across,
+        )
+
+    def alike(self, speed: float) -> RotorEquations:
+        """Equations at a speed, 1/s, in which nothing depends on the direction: of the conjugates too where supports are anisotropic."""
+        found = self.at(speed)
+        return found.both if self.is_anisotropic else found
 
     @property
     def both(self) -> RotorEquations:
@@ -71,28 +106,32 @@ class RotorEquations(NamedTuple):
             stiffness=stiffness,
             forcing=np.append(self.forcing, none(self.forcing)),
             across=none(np.stack([damping, stiffness])),
+            is_anisotropic=False,
+            held=(),
         )
 
     def generator(self, speed: float) -> np.ndarray:
-        """Matrix (N, N) of the free motion at a speed, 1/s, of coordinates and of the velocities of those with mass, where nothing depends on the direction."""
-        has_mass = np.asarray(self.mass.any(axis=1))
-        n, masses = len(has_mass), self.mass[has_mass, has_mass][:, None]
-        spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(has_mass, has_mass)]
+        """Matrix (N, N) of the free motion at a speed, 1/s, of coordinates and of the velocities of those with mass; of the conjugates too where supports are anisotropic."""
+        held = self.alike(speed)
+        has_mass = np.asarray(held.mass.any(axis=1))
+        n, masses = len(has_mass), held.mass[has_mass, has_mass][:, None]
+        spin = (held.damping - 1j * speed * held.gyroscopic)[np.ix_(has_mass, has_mass)]
         matrix = np.zeros((n + has_mass.sum(), n + has_mass.sum()), complex)
         matrix[np.flatnonzero(has_mass), n + np.arange(has_mass.sum())] = 1.0
-        matrix[np.flatnonzero(~has_mass), :n] = -self.stiffness[~has_mass]
-        matrix[n:, :n], matrix[n:, n:] = -self.stiffness[has_mass] / masses, -spin / masses
+        matrix[np.flatnonzero(~has_mass), :n] = -held.stiffness[~has_mass]
+        matrix[n:, :n], matrix[n:, n:] = -held.stiffness[has_mass] / masses, -spin / masses
         return matrix
 
     def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
-        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each, where nothing depends on the direction."""
+        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each; of the conjugates too where supports are anisotropic."""
         values, vectors = np.linalg.eig(self.generator(speed))
-        return values, vectors[: len(self.mass)]
+        return values, vectors[: len(self.mass) * (1 + self.is_anisotropic)]
 
     def response(self, speed: float) -> np.ndarray:
-        """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero, where nothing depends on the direction."""
-        dynamic = self.stiffness - speed**2 * self.mass + 1j * speed * (self.damping - 1j * speed * self.gyroscopic)
-        answer: np.ndarray = np.linalg.solve(dynamic, speed**2 * self.forcing)
+        """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero; of the conjugates too where supports are anisotropic."""
+        held = self.alike(speed)
+        dynamic = held.stiffness - speed**2 * held.mass + 1j * speed * (held.damping - 1j * speed * held.gyroscopic)
+        answer: np.ndarray = np.linalg.solve(dynamic, speed**2 * held.forcing)
         return answer
 
 
@@ -137,14 +176,14 @@ def equations_of(
     unbalances: Sequence[Unbalance],
     supports: Sequence[Support],
     shared: Sequence[SharedController],
-    restart: float,
+    speed: float,
 ) -> RotorEquations:
     """Equations of a machine in a basis.
 
     Parameters
     ----------
-    restart : float
-        Rate, 1/s, with which states of controllers that will be reset fade while levitation is lost.
+    speed : float
+        Of the machine, 1/s; also the rate with which states of controllers that will be reset fade while levitation is lost.
     """
     loops = loops_of(rotor, bearings, touchdowns)
     mounts = [(plane, mount) for plane, each in enumerate(touchdowns) if (mount := each.bearing.mount)]
@@ -162,8 +201,9 @@ def equations_of(
     for place, (plane, mount) in enumerate(mounts, vectors):
         mass[place, place], damping[place, place], stiffness[place, place] = mount
         planes[plane, place] = -1.0
-    held = _supported(rotor, basis, supports, size)
-    damping, stiffness = damping + held.alike[0], stiffness + held.alike[1]
+    held = _held(rotor, basis, supports, size)
+    alike, across = _sum(held, speed, size)
+    damping, stiffness = damping + alike[0], stiffness + alike[1]
     states = slice(first, size)
     damping[states, states] = np.eye(size - first)
     left = np.stack([damping, stiffness])
@@ -183,7 +223,7 @@ def equations_of(
         stiffness[own, free], stiffness[own, own] = -(system.B @ seen), -system.A
         if loop.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
-            left[1, own, own], regained[own] = restart * np.eye(system.states), 0.0
+            left[1, own, own], regained[own] = speed * np.eye(system.states), 0.0
         elif loop.at_regain == "running":
             left[1, own] = stiffness[own]
         first = own.stop
@@ -206,9 +246,12 @@ def equations_of(
         amplifiers,
         regained,
         carried,
-        held.across + levitated.matrices if levitated.matrices.any() else held.across,
-        held.across,
+        across + levitated.matrices if levitated.matrices.any() else across,
+        across,
         levitated.currents,
+        bool(levitated.matrices.any() or any(each.is_anisotropic for each in supports)),
+        speed,
+        held,
     )
 
 
@@ -243,36 +286,48 @@ def _on_conjugates(
     return _OnConjugates(matrices, currents)
 
 
-class _Supported(NamedTuple):
-    """Damping and stiffness of all supports, both of shape (2, n, n)."""
+def _held(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int) -> tuple[SpeedLaw, ...]:
+    """What holds the rotor with and without levitation, and the damping that turns with its shaft."""
 
-    alike: np.ndarray
-    """By velocities and displacements; real without cross-coupling."""
-    across: np.ndarray
-    """By their conjugates."""
+    def padded(square: np.ndarray) -> np.ndarray:
+        return np.pad(square, (0, size - len(square)))
 
-
-def _supported(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int) -> _Supported:
-    both = np.zeros((2, 2, size, size), complex)
+    found = []
     for each in supports:
-        pull = rotor.row_at(each.node) @ basis.shapes
-        square = np.zeros((size, size))
-        square[: len(pull), : len(pull)] = np.outer(pull, pull)
-        for place, numbers in enumerate((each.damping, each.stiffness)):
-            both[:, place] += np.multiply.outer(np.array(numbers), square)
-    alike: Any = both[0]
-    return _Supported(alike if alike.imag.any() else alike.real, both[1])
+        laws = [(rotor.row_at(each.node), each.coefficients)]
+        laws += [(rotor.tilt_at(each.node), each.of_tilt)] if each.tilts else []
+        for row, law in laws:
+            pull = row @ basis.shapes
+            found.append(SpeedLaw(padded(np.outer(pull, pull)), law))
+    if rotor.internal_rates is not None:
+        own = _damped(basis, rotor.by_modes(rotor.internal_rates), rotor.internal_rates)
+        found.append(SpeedLaw(padded(own), turning))
+    return tuple(found)
+
+
+def _sum(held: Sequence[SpeedLaw], speed: float, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Damping and stiffness, both of shape (2, n, n): by velocities and displacements, real without cross-coupling, and by their conjugates."""
+    both = np.zeros((2, 2, size, size), complex)
+    for each in held:
+        both += each.at(speed)
+    return both[0] if both[0].imag.any() else both[0].real, both[1]
 
 
 def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:
-    """Damping of the vectors: of each mode its own, which couples it with nothing, unless a matrix of damping is given."""
-    matrix = basis.shapes.T @ rotor.damping_matrix @ basis.shapes
-    if rotor.damping_rates is not None:
-        matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
-        matrix[range(basis.modes), range(basis.modes)] = rotor.damping_rates[: basis.modes]
+    """Damping of the vectors by what stands still, and of those that are no modes beside it."""
+    matrix = _damped(basis, rotor.damping_matrix, rotor.damping_rates)
     beside = range(basis.modes, len(basis.frequencies))
     matrix[beside, beside] += 2.0 * basis.damping_ratio * basis.frequencies[basis.modes :]
-    return 0.5 * (matrix + matrix.T)
+    return matrix
+
+
+def _damped(basis: Basis, given: np.ndarray, rates: np.ndarray | None) -> np.ndarray:
+    """Damping of the vectors: of each mode its own, which couples it with nothing, unless a matrix alone is given."""
+    matrix = basis.shapes.T @ given @ basis.shapes
+    if rates is not None:
+        matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
+        matrix[range(basis.modes), range(basis.modes)] = rates[: basis.modes]
+    return np.asarray(0.5 * (matrix + matrix.T))
 
 
 def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:
@@ -280,70 +335,3 @@ def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:
     matrix = basis.shapes.T @ rotor.matrices.gyroscopic @ basis.shapes
     matrix[: rotor.translations], matrix[:, : rotor.translations] = 0.0, 0.0
     return 0.5 * (matrix + matrix.T)
-
-
-STRAIGHT = 1e-9
-"""Sense up to which a whirl counts as going to and fro along lines."""
-ROUNDING = 1e-13
-"""Growth over the size of the largest exponent that is rounding: of rotors without damping it is up to 2e-15."""
-KEPT = 8
-"""Machines whose exponents are kept: unbalance, weight and walls, which are changed often, change none of them."""
-
-
-class FreeMotions(NamedTuple):
-    """Free motions of a machine, each once: ``ahead e^{λt} + behind e^{λ̄t}``."""
-
-    exponents: np.ndarray
-    """1/s, shape (N,)."""
-    ahead: np.ndarray
-    """Coordinates, shape (n, N)."""
-    behind: np.ndarray
-
-
-def motions_at(equations: RotorEquations, speed: float) -> FreeMotions:
-    """Free motions at a speed, 1/s; of two conjugate exponents that stand for one motion the one whose sense prevails."""
-    if not equations.is_anisotropic:
-        exponents, coordinates = equations.exponents(speed)
-        return FreeMotions(exponents, coordinates, np.zeros_like(coordinates))
-    exponents, coordinates = equations.both.exponents(speed)
-    ahead, behind = np.split(coordinates, 2)
-    has_mass = equations.mass.any(axis=1)
-    prevails = np.linalg.norm(ahead[has_mass], axis=0) - np.linalg.norm(behind[has_mass], axis=0)
-    # Of one to and fro along lines neither does.
-    level = STRAIGHT * np.linalg.norm(coordinates, axis=0)
-    chosen = (prevails > level) | ((np.abs(prevails) <= level) & (exponents.imag > 0.0)) | (exponents.imag == 0.0)
-    return FreeMotions(exponents[chosen], ahead[:, chosen], behind[:, chosen].conj())
-
-
-def growing(exponents: np.ndarray) -> np.ndarray:
-    """Which of all exponents of a machine, shape (..., N), are those of motions that grow by more than rounding."""
-    rounding = ROUNDING * np.abs(exponents).max(axis=-1, keepdims=True, initial=0.0)
-    return np.asarray(exponents.real > rounding)
-
-
-class Slowest(NamedTuple):
-    """What decides whether a machine levitates."""
-
-    exponents: np.ndarray
-    """Those of motions that grow, 1/s, the fastest first; where none does, the one that comes back last."""
-    grows: bool
-    rounding: float
-    """Growth, 1/s, that is rounding."""
-
-
-def slowest_of(equations: RotorEquations, speed: float) -> Slowest:
-    """What decides whether a machine levitates, from all its exponents; where supports are not alike in both directions without the sense of whirls."""
-    matrix = (equations.both if equations.is_anisotropic else equations).generator(speed)
-    exponents = _exponents(matrix.tobytes(), len(matrix))
-    rounding = ROUNDING * float(np.abs(exponents).max(initial=0.0))
-    if equations.is_anisotropic:  # each motion has two conjugate exponents
-        exponents = exponents[exponents.imag >= -rounding]
-    grows = exponents.real > rounding
-    return Slowest(exponents[grows] if grows.any() else exponents[:1], bool(grows.any()), rounding)
-
-
-@lru_cache(KEPT)
-def _exponents(matrix: bytes, size: int) -> np.ndarray:
-    """Exponents of a matrix, the one with the largest real part first."""
-    exponents = np.linalg.eigvals(np.frombuffer(matrix, complex).reshape(size, size))
-    return np.asarray(exponents[np.argsort(-exponents.real, kind="stable")])

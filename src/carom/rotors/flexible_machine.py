@@ -19,7 +19,8 @@ from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.tables import read_entries
 from carom.rotors.attachments import PLANE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import Series, controller_of
-from carom.rotors.equations import Slowest, loops_of, slowest_of
+from carom.rotors.equations import loops_of
+from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import WHOLE, NamedParameters
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
@@ -103,6 +104,8 @@ class FlexibleMachine(NamedParameters):
         for name in ("touchdowns", "unbalances", "supports"):
             for part in getattr(self, name):
                 self.rotor.check_node(f"{name.removesuffix('s')} node", part.node)
+        for support in self.supports:
+            support.at(self.speed)  # which refuses a speed that its table does not have
         for name in ("bearings", "touchdowns"):
             nodes = [part.node for part in getattr(self, name)]
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
@@ -121,6 +124,7 @@ class FlexibleMachine(NamedParameters):
     def _rows(self) -> list[np.ndarray]:
         """Where forces act and displacements are measured, each place once."""
         held = [self.rotor.row_at(each.node)[None] for each in self.supports]
+        held += [self.rotor.tilt_at(each.node)[None] for each in self.supports if each.tilts]
         rows = np.concatenate([*loops_of(self.rotor, self.bearings, self.touchdowns), *held])
         return list(np.unique(rows, axis=0))
 
@@ -174,6 +178,12 @@ class FlexibleMachine(NamedParameters):
     def whole(self) -> ReducedMachine:
         """The machine with all modes: nothing is reduced."""
         return self.with_modes(len(self.rotor.free_modes.frequencies))
+
+    @property
+    def speed_range(self) -> tuple[float, float]:
+        """Lowest and highest speed for which the coefficients of all its supports are known, rad/s."""
+        tables = [each.speeds for each in self.supports if each.speeds]
+        return max((each[0] for each in tables), default=0.0), min((each[-1] for each in tables), default=math.inf)
 
     @property
     def slowest(self) -> Slowest:
@@ -266,7 +276,8 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
         listed = ", ".join(str(number + 1) for number in shared.numbers(machine.bearings))
         yield f"shared controller {place}", f"of magnetic bearings {listed}: {'; '.join(laws)}"
     for place, support in enumerate(machine.supports, start=1):
-        yield f"support {place}", f"at {at(support.node)}: {_entries(support, SUPPORT_FIELDS)}"
+        known = f"; from a table of {len(support.speeds)} speeds" if support.speeds else ""
+        yield f"support {place}", f"at {at(support.node)}: {_entries(support.at(machine.speed), SUPPORT_FIELDS)}{known}"
     for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):
         room = format_entry(PLANE_FIELDS["clearance"], clearance)
         others = {name: field for name, field in PLANE_FIELDS.items() if name != "clearance"}

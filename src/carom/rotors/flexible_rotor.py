@@ -38,6 +38,8 @@ class FlexibleRotor(BendingRotor):
         There is no default: without damping of the bending modes, results of contacts with stiff walls depend on details of the model.
     longest_element : float or str, optional
         m; by default a 32nd of the shaft.
+    internal : ProportionalDamping or ModalDamping, optional
+        Damping that turns with the shaft, such as that of its material, ``D_i (ż − iΩz)``; a loss factor is twice the damping ratio.  By default there is none.
 
     Raises
     ------
@@ -49,6 +51,7 @@ class FlexibleRotor(BendingRotor):
     discs: Sequence[Disc]
     damping: Damping
     longest_element: float | None = None
+    internal: Damping | None = None
 
     def __post_init__(self) -> None:
         for name, kind in (("sections", ShaftSection), ("discs", Disc)):
@@ -63,6 +66,7 @@ class FlexibleRotor(BendingRotor):
         if not isinstance(self.damping, Damping):
             allowed = "carom.rotors.ModalDamping, such as ModalDamping(0.005), or ProportionalDamping"
             raise InputError("damping", shown(self.damping), allowed)
+        self._check_internal()
         given = self.longest_element
         longest = self.length / ELEMENTS if given is None else read_quantity(LONGEST, given)
         object.__setattr__(self, "longest_element", longest)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.base.outcome import InputError
+from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.formats import number
 from carom.rotors.shaft_parts import Damping, Disc
@@ -75,7 +75,7 @@ class FreeRotor(ABC):
 
     In its complex coordinates, with the speed ``Ω`` of the shaft in the fixed frame,
 
-        M z̈ + (D − iΩG) ż + K z = f.
+        M z̈ + (D − iΩG) ż + D_i (ż − iΩz) + K z = f.
     """
 
     mass: float
@@ -96,6 +96,8 @@ class FreeRotor(ABC):
     """Damping over mass of each free mode, 1/s; ``None`` where damping couples modes."""
     damping_matrix: np.ndarray
     """``D``, shape (n, n): N s/m, N s, N m s."""
+    internal_rates: np.ndarray | None = None
+    """As ``damping_rates``, of the damping ``D_i`` that turns with the shaft; ``None`` without such damping."""
     free_modes: FreeModes
     """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
     words: str
@@ -119,8 +121,18 @@ class FreeRotor(ABC):
         """Displacement at a node per coordinate, shape (n,)."""
 
     @abstractmethod
+    def tilt_at(self, node: int) -> np.ndarray:
+        """Tilt at a node per coordinate, shape (n,)."""
+
+    @abstractmethod
     def displacements(self, shapes: np.ndarray) -> np.ndarray:
         """Displacements at all places, shape (N, v), of shapes (n, v)."""
+
+    def by_modes(self, rates: np.ndarray | None) -> np.ndarray:
+        """Matrix (n, n) of a damping over mass of each free mode, 1/s."""
+        pushed = self.matrices.mass @ self.free_modes.shapes
+        matrix: np.ndarray = pushed * rates @ pushed.T
+        return matrix
 
     def check_node(self, name: str, node: int) -> None:
         """Refuse a node that the shaft does not have."""
@@ -138,6 +150,7 @@ class BendingRotor(FreeRotor):
     """A rotor with a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at each of its places in turn as coordinates."""
 
     damping: Damping | np.ndarray
+    internal: Damping | None
 
     @property
     def own_damping(self) -> Damping | None:
@@ -149,6 +162,10 @@ class BendingRotor(FreeRotor):
         row = np.zeros(len(self.matrices.mass))
         row[2 * self.place_of(node)] = 1.0
         return row
+
+    def tilt_at(self, node: int) -> np.ndarray:
+        """Tilt at a node per coordinate, shape (n,)."""
+        return np.roll(self.row_at(node), 1)
 
     def displacements(self, shapes: np.ndarray) -> np.ndarray:
         """Displacements at all places, shape (N, v), of shapes (n, v)."""
@@ -170,9 +187,20 @@ class BendingRotor(FreeRotor):
         """``D``, shape (n, n): N s/m, N s, N m s."""
         if not isinstance(self.damping, Damping):
             return self.damping
-        pushed = self.matrices.mass @ self.free_modes.shapes
-        matrix: np.ndarray = pushed * self.damping_rates @ pushed.T
-        return matrix
+        return self.by_modes(self.damping_rates)
+
+    @cached_property
+    def internal_rates(self) -> np.ndarray | None:  # type: ignore[override]
+        """Damping over mass of each free mode that turns with the shaft, 1/s."""
+        own = self.internal
+        return None if own is None else np.array([own.rate(each) for each in self.free_modes.frequencies.tolist()])
+
+    def _check_internal(self) -> None:
+        """Refuse internal damping of another kind, and that of the rotor as a whole, which does not bend then."""
+        own: object = self.internal
+        if not isinstance(own, Damping | None) or (own and vars(own).get("of_mass")):
+            allowed = "carom.rotors.ModalDamping, or ProportionalDamping of the stiffness alone: only what bends has internal damping"
+            raise InputError("internal", shown(own), allowed)
 
     @cached_property
     def free_modes(self) -> FreeModes:  # type: ignore[override]

@@ -12,8 +12,9 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.rotors.equations import block, loops_of, motions_at
+from carom.rotors.equations import block, loops_of
 from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.free_motions import motions_at
 from carom.rotors.shared_controller import loops_in
 from carom.rotors.whirls import WhirlMode, speeds_of
 
@@ -123,8 +124,8 @@ class _Loop:
         self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
         self.spin = held.unlevitated[0][vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
         # Anisotropic supports, where they hold the rotor.
-        across = [each for each in machine.supports if each.stiffness.across or each.damping.across]
-        nodes = [(each.node, each.stiffness.across, each.damping.across) for each in across]
+        laws = ((each.node, each.coefficients(machine.speed)[1].tolist()) for each in machine.supports)
+        nodes = [(node, stiffness, damping) for node, (damping, stiffness) in laws if stiffness or damping]
         nodes += [(each.node, each.magnet[1], 0j) for each in self.bearings if each.magnet[1]]
         rows = [machine.rotor.row_at(node) @ whole.basis.shapes for node, *_ in nodes]
         self.held = np.reshape(rows, (len(nodes), whole.vectors))

@@ -22,7 +22,17 @@ from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
 from carom.rotors.flexible_rotor import MOST_ELEMENTS, FlexibleRotor
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.matrix_rotor import MatrixRotor
-from carom.rotors.part_tables import ATTACHED, PARTS, PLACED, RENAMED, ROTOR_ENTRIES, damping_of, entries_in, require
+from carom.rotors.part_tables import (
+    ATTACHED,
+    PARTS,
+    PLACED,
+    RENAMED,
+    ROTOR_ENTRIES,
+    damping_of,
+    entries_in,
+    internal_of,
+    require,
+)
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS, RigidRotor
 from carom.rotors.rotor_files import read_rotor
 from carom.rotors.shaft_parts import MATERIAL_FIELDS, Disc, Material
@@ -158,11 +168,11 @@ def _read_rotor(
     if not tables.parts.get("section"):
         allowed = "one or more tables, each with its length and outer_diameter; or [rotor] source = a file of matrices"
         problems.errors.append(InputError("[[section]]", None, allowed))
-    damping = problems.attempt(damping_of, whole)
+    damping, internal = problems.attempt(damping_of, whole), problems.attempt(internal_of, whole)
     return (
         None
         if problems.errors or damping is None
-        else FlexibleRotor(sections, discs, damping, whole.get("longest_element"))
+        else FlexibleRotor(sections, discs, damping, whole.get("longest_element"), internal)
     )
 
 
@@ -177,7 +187,8 @@ def _of_source(tables: MachineTables, whole: Mapping[str, object], discs: list[D
         found = "[[section]]" if tables.parts.get("section") else "longest_element"
         raise InputError("source", shown(given), f"not allowed beside {found}: the file holds the whole shaft")
     stated = any(name in whole for name in RENAMED)
-    return read_rotor(tables.folder / given, damping_of(whole) if stated else None, discs)
+    own = damping_of(whole) if stated else None
+    return read_rotor(tables.folder / given, own, discs, internal_of(whole))
 
 
 def _check_rigid(tables: MachineTables, whole: Mapping[str, object]) -> None:

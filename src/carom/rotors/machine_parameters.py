@@ -28,6 +28,8 @@ WHOLE: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "
 """Parameters of the machine as a whole, beside its weight."""
 OF_STATES = ("integral", "derivative", "filter_time", "delay")
 """Entries at zero of which a controller has fewer states."""
+_LEFT_OUT = (("exponent", 1.0), ("tilt_stiffness", 0.0), ("tilt_damping", 0.0), ("ks_tilt", 0.0))
+"""Entries with values that are as none, for which nothing is prepared."""
 _Path = tuple[str | int, ...]
 _Paths = dict[str, tuple[_Path, Field]]
 """By the name of an entry, the attributes that lead to it from its part, and its field."""
@@ -51,12 +53,12 @@ _KINDS: Mapping[str, tuple[str, _Paths]] = {
 
 
 def _read(part: Any, path: _Path) -> Any:
-    """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth, or changes no motion."""
+    """Number of an entry; ``None`` where it is not there, as the exponent of a force that grows like the depth, changes no motion, or has several numbers over speed."""
     if path[0] == "bearing" and path[1] not in getattr(part, path[0]).of_motion:
         return None
     for name in path:
         part = part[name] if isinstance(name, int) else getattr(part, name, None)
-    return None if path[-1] == "exponent" and part == 1.0 else part
+    return None if isinstance(part, tuple) or (path[-1], part) in _LEFT_OUT else part
 
 
 def _changed(part: Any, path: _Path, value: float) -> Any:

@@ -149,6 +149,8 @@ class MatrixRotor(BendingRotor):
         A name for each node; empty ones have none.
     discs : sequence of Disc, optional
         What is put on the shaft beside what the matrices hold.
+    internal : ProportionalDamping or ModalDamping, optional
+        Damping that turns with the shaft, ``D_i (ż − iΩz)``, beside ``D``, which stands still.
 
     Raises
     ------
@@ -164,6 +166,7 @@ class MatrixRotor(BendingRotor):
     damping: Damping | np.ndarray
     names: Sequence[str] = ()
     discs: Sequence[Disc] = ()
+    internal: Damping | None = None
 
     def __post_init__(self) -> None:
         for name in ("nodes", "places", "node_places"):
@@ -180,6 +183,7 @@ class MatrixRotor(BendingRotor):
                 raise InputError("damping", None, allowed)
             object.__setattr__(self, "damping", checked_matrix("D", self.damping, size))
             check_damping(self.damping)
+        self._check_internal()
         object.__setattr__(self, "names", _names(self.names, len(self.nodes)))
         given: Any = self.discs
         listed = tuple(given) if isinstance(given, Iterable) else (None,)

@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 
 RENAMED = {"damping_ratio": "ratio", "damping_of_mass": "of_mass", "damping_of_stiffness": "of_stiffness"}
 """Entries of ``[rotor]``, and the numbers of a damping that they are."""
+INTERNAL = {"internal_damping_ratio": "ratio", "internal_damping_of_stiffness": "of_stiffness"}
+"""The same of damping that turns with the shaft."""
 ROTOR_ENTRIES: Mapping[str, Any] = {
     "speed": MACHINE_FIELDS["speed"],
     **MATERIAL_FIELDS,
@@ -58,7 +60,7 @@ ROTOR_ENTRIES: Mapping[str, Any] = {
         "modes", "", "modes of the free rotor, in place of an accuracy", "a whole number", "", 1, 1e4, "8", whole=True
     ),
     "clearance": MACHINE_FIELDS["clearance"],
-    **dict.fromkeys(RENAMED),
+    **dict.fromkeys((*RENAMED, *INTERNAL)),
     **RIGID_FIELDS,
 }
 ATTACHED = {
@@ -110,22 +112,28 @@ def require(entry: Mapping[str, object], names: Iterable[str]) -> None:
             raise InputError(name, None, "must be stated")
 
 
-def damping_of(whole: Mapping[str, Any]) -> ModalDamping | ProportionalDamping:
-    """Damping by the entries of ``[rotor]``, one of which has to be there."""
+def damping_of(whole: Mapping[str, Any], names: Mapping[str, str] = RENAMED) -> ModalDamping | ProportionalDamping:
+    """Damping by the entries of ``[rotor]`` with these names, one of which has to be there."""
     modal, proportional = (
-        {RENAMED[name]: whole[name] for name in RENAMED if name in whole and RENAMED[name] in fields}
+        {names[name]: whole[name] for name in names if name in whole and names[name] in fields}
         for fields in (MODAL_FIELDS, PROPORTIONAL_FIELDS)
     )
     if bool(modal) == bool(proportional):
-        allowed = "damping_ratio (of all bending modes, such as 0.005), or damping_of_mass and damping_of_stiffness"
-        raise InputError("damping", None if not modal else "both", f"one of: {allowed}")
+        own, *others = names
+        allowed = f"{own} (of all bending modes, such as 0.005), or {' and '.join(others)}"
+        raise InputError(own.removesuffix("_ratio"), None if not modal else "both", f"one of: {allowed}")
     try:
         return ModalDamping(**modal) if modal else ProportionalDamping(**proportional)
     except InputError as problem:
-        entries = {number: name for name, number in RENAMED.items()}
+        entries = {number: name for name, number in names.items()}
         raise together(
             [InputError(entries.get(each.field, each.field), each.value, each.allowed) for each in problem.errors]
         ) from None
+
+
+def internal_of(whole: Mapping[str, object]) -> ModalDamping | ProportionalDamping | None:
+    """Damping that turns with the shaft, if it is stated."""
+    return damping_of(whole, INTERNAL) if entries_in(whole, INTERNAL) else None
 
 
 def _section(entry: Mapping[str, Any]) -> ShaftSection:
@@ -245,7 +253,7 @@ PARTS: Mapping[str, PartTable] = {
     "disc": PartTable({**_NODE, **DISC_FIELDS, "width": None, **_DIAMETERS, **MATERIAL_FIELDS}, ("node",), _disc),
     "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER, "y": None}, ("node", "ki", "ks"), _bearing),
     "shared_controller": PartTable({"bearings": None, **dict.fromkeys(_PARTS_OF_SHARED), **dict.fromkeys("ABCD"), **_SAMPLED, "at_regain": None}, (), _shared),
-    "support": PartTable({**_PLACE, **SUPPORT_FIELDS}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
+    "support": PartTable({**_PLACE, **SUPPORT_FIELDS, "speeds": MACHINE_FIELDS["speed"]}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
     "touchdown": PartTable({**_PLACE, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS}, ("node", "law", "rotor_radius", "friction", "clearance"), _plane),
     "unbalance": PartTable({**_PLACE, **UNBALANCE_FIELDS}, ("node", "size"), lambda entry: Unbalance(**entry)),
 }  # fmt: skip
@@ -259,7 +267,8 @@ def machine_toml(machine: FlexibleMachine, modes: int) -> str:
         return ""
     damping = getattr(rotor, "own_damping", None)
     own = {"speed": machine.speed, "clearance": machine.clearance, **({"modes": modes} if rotor.bends else {})}
-    own |= {entry: getattr(damping, name) for entry, name in RENAMED.items() if hasattr(damping, name)}
+    for given, names in ((damping, RENAMED), (getattr(rotor, "internal", None), INTERNAL)):
+        own |= {entry: getattr(given, name) for entry, name in names.items() if hasattr(given, name)}
     tables = [_table("[rotor]", own | dict(rotor.entries), ROTOR_ENTRIES)]
     for kind, part in _parts(machine):
         entries = _entries(part)
@@ -298,8 +307,10 @@ def _entries(part: Any) -> dict[str, Any]:
             raise InputError("controller", "matrices with an ideal derivative", "one that a machine file can hold")
         elif name == "rate":
             continue
-        elif value is not None:
-            found[name] = value.tolist() if isinstance(value, np.ndarray) else value
+        elif isinstance(value, np.ndarray):
+            found[name] = value.tolist()
+        elif value is not None and (name, value) != ("speeds", ()):
+            found[name] = value
     return found
 
 

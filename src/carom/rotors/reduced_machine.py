@@ -15,13 +15,15 @@ from carom.models import Limit, Matrices, Rotor, Touchdown
 from carom.models.planar import law_of, race_of
 from carom.models.touchdown import FARTHEST
 from carom.parameters import Scales
+from carom.parameters.fields import RPM
 from carom.parameters.restitution import damping_ratio_of
 from carom.parameters.touchdown_bearing import OF_BALLS, OF_LIFE
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
-from carom.rotors.equations import RotorEquations, equations_of, loops_of, slowest_of
+from carom.rotors.equations import RotorEquations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleDefinition
+from carom.rotors.free_motions import slowest_of, stability_limits
 from carom.rotors.part_tables import machine_toml
 from carom.rotors.reduction import Basis
 from carom.rotors.shared_controller import loops_in
@@ -39,6 +41,8 @@ SLOWER = 0.5
 """Rate at which the reduced rotor comes back, over that of the whole machine, that is enough."""
 FINER = 2.0
 """Times as many vectors, by which a motion is followed again to see what the others change."""
+SLOW, LOOKED = 0.05, 20
+"""Lowest speed at which a machine that does not levitate is looked at, over its own, and the number of speeds."""
 ROUNDED = 1e-6
 """Share of its stiffness up to which a bearing has none, and frequency in ``Ω`` up to which a motion is no whirl."""
 
@@ -108,7 +112,7 @@ class ReducedMachine(Result):
     def _equations(self, basis: Basis) -> RotorEquations:
         at = self.machine
         parts = at.bearings, at.touchdowns, at.unbalances, at.supports, at.shared_controllers
-        return equations_of(at.rotor, basis, *parts, restart=at.speed)
+        return equations_of(at.rotor, basis, *parts, speed=at.speed)
 
     @cached_property
     def damped(self) -> Basis:
@@ -170,13 +174,23 @@ class ReducedMachine(Result):
             more = len(slowest.exponents) - 1
             others = f", {more} more slowly" if more else ""
             stated = f"unstable: {self._named(worst)} grows with {worst.real:.4g} 1/s{others}"
-            raise InputError(UNHELD, stated, needed)
+            raise InputError(UNHELD, stated, needed + self._slower)
         if abs(worst) <= slowest.rounding:
             raise InputError(UNHELD, "not stable: a displacement to one side does not come back", needed)
         if self.unchecked.system.decay < 0.0 and not self.comes_back:
             grown = complex(slowest_of(self.equations, speed).exponents[0])
             stated = f"{self.vectors} vectors, of which {self._named(grown)} grows that the machine does not have"
             raise InputError("reduction", stated, "more modes, or a smaller accuracy")
+
+    @property
+    def _slower(self) -> str:
+        """Below which speed a machine levitates that does not at its own, in words; empty if it does not there either."""
+        low, speed = self.machine.speed_range[0], self.machine.speed
+        found = stability_limits(
+            self.machine.whole.equations, np.linspace(max(low, SLOW * speed), speed, LOOKED).tolist()
+        )
+        below = [each.speed for each in found if each.stable_below]
+        return f"; it levitates below {below[-1] / RPM:.6g} rpm" if below else ""
 
     def _named(self, exponent: complex) -> str:
         """A motion that grows, by its exponent, 1/s."""

@@ -35,7 +35,7 @@ class RigidRotor(FreeRotor):
 
         m z̈ = Σ f_j,      I_t θ̈ − iΩ I_p θ̇ = Σ l_j f_j.
 
-    Held at a point ``p`` it only tilts, ``z = −p θ``, and its inertia is that about this point, ``I_t + m p²``.
+    SpeedLaw at a point ``p`` it only tilts, ``z = −p θ``, and its inertia is that about this point, ``I_t + m p²``.
 
     Parameters
     ----------
@@ -128,6 +128,10 @@ class RigidRotor(FreeRotor):
         """Displacement at a station per coordinate."""
         row: np.ndarray = self.rows(self.node_places[node : node + 1])[0]
         return row
+
+    def tilt_at(self, node: int) -> np.ndarray:
+        """Tilt per coordinate, the same at all stations."""
+        return np.eye(len(self.matrices.mass))[-1]
 
     def displacements(self, shapes: np.ndarray) -> np.ndarray:
         """Displacements at all places, shape (N, v), of shapes (n, v)."""

@@ -16,7 +16,7 @@ from carom.base.arguments import checked
 from carom.base.files import write_whole
 from carom.base.outcome import InputError, shown
 from carom.rotors.matrix_rotor import MatrixRotor
-from carom.rotors.shaft_parts import Disc
+from carom.rotors.shaft_parts import Damping, Disc
 
 KEYS: Mapping[str, str] = {
     "M": "mass matrix",
@@ -34,7 +34,9 @@ _SECONDS = 60
 
 
 @checked
-def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequence[Disc] = ()) -> MatrixRotor:
+def read_rotor(
+    path: str | os.PathLike[str], damping: Any = None, discs: Sequence[Disc] = (), internal: Damping | None = None
+) -> MatrixRotor:
     """Read a rotor from a file of matrices.
 
     Parameters
@@ -46,6 +48,8 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
         In place of ``D``, where the file has none.
     discs : sequence of Disc, optional
         What is put on the shaft beside what the matrices hold.
+    internal : ProportionalDamping or ModalDamping, optional
+        Damping that turns with the shaft.
 
     Raises
     ------
@@ -64,7 +68,7 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
         allowed = "damping_ratio, or damping_of_mass and damping_of_stiffness; or an array D in the file of the rotor"
         raise InputError("damping", None if matrix is None else "both", f"one of: {allowed}")
     given: dict[str, Any] = {key: arrays[key] for key in NEEDED}
-    given |= {"damping": matrix if damping is None else damping, "discs": discs}
+    given |= {"damping": matrix if damping is None else damping, "discs": discs, "internal": internal}
     if "names" in arrays:
         given["names"] = arrays["names"]
     is_complex = "coordinates" not in arrays and arrays["M"].shape == (2 * arrays["nodes"].size,) * 2

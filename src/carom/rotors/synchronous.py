@@ -219,6 +219,7 @@ def _of_model(model: Rotor) -> _Whole:
             across=np.zeros((2, n, n)) if conjugate is None else conjugate,
             across_unlevitated=np.zeros((2, n, n)),
             currents_across=np.zeros((2, 0, n)),
+            is_anisotropic=conjugate is not None,
         ),
         scales.speed,
         scales.length * widths,
@@ -264,8 +265,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
 
 def _answers(equations: RotorEquations, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates (m, n) of what goes with the shaft and of what goes against it, at time zero."""
-    held = equations.both if equations.is_anisotropic else equations
-    answers = np.array([_answer(held, speed) for speed in speeds.tolist()])
+    answers = np.array([_answer(equations, speed) for speed in speeds.tolist()])
     if not equations.is_anisotropic:
         return answers, np.zeros_like(answers)
     forward, backward = np.split(answers, 2, axis=1)

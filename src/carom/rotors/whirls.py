@@ -13,8 +13,9 @@ from scipy.optimize import linear_sum_assignment  # type: ignore[import-untyped]
 from carom.base.arguments import Count, Positive, checked
 from carom.base.outcome import InputError, shown
 from carom.base.results import Result
-from carom.rotors.equations import STRAIGHT, RotorEquations, growing, motions_at
+from carom.rotors.equations import RotorEquations
 from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.free_motions import STRAIGHT, growing, motions_at
 
 LEAST_LIKENESS = 0.7
 """Least likeness of a motion at two speeds for it to count as the same; below, the speed between both is looked at too."""
@@ -40,11 +41,10 @@ def followed(equations: RotorEquations, speeds: np.ndarray) -> np.ndarray:
     same motion, whatever its size.  Where two whirls come near each other their shapes mix, and a whirl keeps its shape rather than its
     place.  Where supports are anisotropic, the exponent of each motion is that with the sense that prevails in it.
     """
-    followed_of = equations.both if equations.is_anisotropic else equations
-    here = _at(followed_of, float(speeds[0]))
+    here = _at(equations, float(speeds[0]))
     rows = [here]
     for before, after in zip(speeds[:-1].tolist(), speeds[1:].tolist(), strict=True):
-        here = _step(followed_of, here, before, after, HALVINGS)
+        here = _step(equations, here, before, after, HALVINGS)
         rows.append(here)
     if not equations.is_anisotropic:
         return np.array([each.exponents for each in rows])
@@ -62,7 +62,7 @@ def _with_sense(motions: MotionBranches, coordinates: int) -> np.ndarray:
 
 def _at(equations: RotorEquations, speed: float) -> MotionBranches:
     exponents, coordinates = equations.exponents(speed)
-    has_mass = equations.mass.any(axis=1)
+    has_mass = np.tile(equations.mass.any(axis=1), 1 + equations.is_anisotropic)
     states = np.concatenate([coordinates, exponents * coordinates[has_mass]])
     # Motions of a free rotor that stay where they are may be one and the same: no inverse.
     return MotionBranches(exponents, states, np.linalg.pinv(states))

@@ -26,7 +26,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar  # type: ignore[import-untyped]
 
 from carom.base.results import record
-from carom.models import Subject, rotor_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.parameters.fields import RPM
 from carom.parameters.formats import number
 from carom.rotors import SynchronousResponse, WhirlMode, synchronous_response
@@ -149,11 +149,18 @@ class Critical:
         return record(self, CRITICAL) | {"speed_rpm": self.speed / RPM}
 
 
-def usual_range(whirls: Iterable[WhirlMode], run: tuple[float, float]) -> tuple[float, float]:
-    """Speeds of a response that are not stated, rad/s: around the operating ones and the slowest whirl that may resonate."""
+def usual_range(rotor: Rotor, whirls: Iterable[WhirlMode], run: tuple[float, float]) -> tuple[float, float]:
+    """Speeds of a response that are not stated, rad/s: around the operating ones and the slowest whirl that may resonate, where all supports are known."""
     slow = [abs(each.exponent.imag) for each in whirls if each.sense != "backward" and each.damping_ratio < HALF_POWER]
     known = [*run, *([min(slow)] if slow else [])]
-    return SEARCHED_RANGE[0] * min(known), SEARCHED_RANGE[1] * max(known)
+    low, high = known_speeds(rotor)
+    return max(SEARCHED_RANGE[0] * min(known), low), min(SEARCHED_RANGE[1] * max(known), high)
+
+
+def known_speeds(rotor: Rotor) -> tuple[float, float]:
+    """Lowest and highest speed for which all of a rotor is known, rad/s."""
+    elements = rotor.finite_elements
+    return (0.0, math.inf) if elements is None else elements.machine.speed_range
 
 
 def response_curve(

@@ -31,9 +31,10 @@ from carom.rotors import (
     sensitivity,
     synchronous_response,
 )
+from carom.rotors.free_motions import StabilityLimit, stability_limits
 from carom.rotors.loop_sensitivity import Collocation, collocations, zone_of
 from carom.rotors.whirls import turns
-from carom.studies.critical_speeds import Critical, response_curve, usual_range
+from carom.studies.critical_speeds import Critical, known_speeds, response_curve, usual_range
 from carom.studies.questions import Fact
 from carom.studies.wording import listed, micrometres, rpm
 
@@ -82,6 +83,8 @@ class Levitating(Result):
     machine : FlexibleMachine or None
         What follows is known of a flexible machine alone.
     campbell : Campbell or None
+    limits : tuple of StabilityLimit
+        Speeds at which levitation begins or ceases to be stable.
     sensitivity : Sensitivity or None
         ``None`` without a magnetic bearing too.
     collocations : tuple of Collocation
@@ -96,6 +99,7 @@ class Levitating(Result):
     criticals: tuple[Critical, ...] = ()
     machine: FlexibleMachine | None = None
     campbell: Campbell | None = None
+    limits: tuple[StabilityLimit, ...] = ()
     sensitivity: Sensitivity | None = None
     collocations: tuple[Collocation, ...] = ()
 
@@ -106,6 +110,10 @@ class Levitating(Result):
         found: dict[str, object] = {
             "whirls": [record(each, "frequency_hz=frequency sense damping_ratio") for each in self.whirls],
             "levitates_over_speed": [{"speed_rpm": speed / RPM, "levitates": holds} for speed, holds in speeds],
+            "stability_limits": [
+                {"speed_rpm": each.speed / RPM, "frequency_hz": each.hertz, "stable_below": each.stable_below}
+                for each in self.limits
+            ],
             "critical_speeds": [each.document() for each in self.criticals],
             "collocation": [
                 record(each, COLLOCATION) | {"sensor": abs(each.sensor), "magnet": abs(each.magnet)}
@@ -128,16 +136,20 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
     found = Levitating(speed, rotor.scales is None, whirls[:WHIRLS], ())
     if rotor.scales and (rotor.value("rho") if machine is None else machine.unbalances):
         run = speed, speed
-        response, criticals = response_curve(case, whirls, usual_range(whirls, run), run)
+        response, criticals = response_curve(case, whirls, usual_range(rotor, whirls, run), run)
         found = replace(found, response=response, at_speed=synchronous_response(case, [speed]), criticals=criticals)
     if machine is None:
         return replace(found, loops=_loop_of_mass(case.si))
-    seen, speeds = sensitivity(machine) if machine.bearings else None, np.linspace(SLOWEST, FASTEST, FOLLOWED) * speed
+    seen = sensitivity(machine) if machine.bearings else None
+    low, high = known_speeds(rotor)
+    speeds = np.linspace(max(SLOWEST * speed, low), min(FASTEST * speed, high), FOLLOWED).tolist()
+    known = campbell(machine, speeds, WHIRLS)
     return replace(
         found,
         loops=() if seen is None else _loops(seen),
         machine=machine,
-        campbell=campbell(machine, speeds.tolist(), WHIRLS),
+        campbell=known,
+        limits=() if known.levitates.all() else stability_limits(machine.whole.equations, speeds),
         sensitivity=seen,
         collocations=collocations(machine, found.whirls),
     )
@@ -187,6 +199,9 @@ def levitation_facts(found: Levitating) -> Iterator[Fact]:
         yield Fact("Levitation", "Every free motion decays within one revolution of its own.", "Whirls")
     if found.campbell is not None:
         yield Fact("Levitation", other_speeds_words(found.campbell), "Other speeds")
+    for limit in found.limits:
+        values = {"speed_si": limit.speed, "stable_below": limit.stable_below}
+        yield Fact("Levitation", limit_words(limit), "Limit of speed", "closed form", values)
     if found.at_speed is not None and found.machine is not None:
         yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
     if found.machine is not None and found.response is None:
@@ -224,6 +239,15 @@ def other_speeds_words(found: Campbell) -> str:
         return f"Levitation is stable at all {looked}."
     grows = found.speeds[~found.levitates]
     return f"Of {looked}, levitation is unstable at {len(grows)}, between {rpm(grows[0])} and {rpm(grows[-1])}: the rotor cannot levitate there."
+
+
+def limit_words(limit: StabilityLimit) -> str:
+    """Where levitation begins or ceases to be stable, and which motion grows beyond."""
+    turning = f"whirl of {number(limit.hertz, 4)} Hz" if turns(np.array(limit.exponent)) else "displacement to one side"
+    sense = "forward " if limit.exponent.imag > 0.0 else "backward "
+    side, other = ("below", "faster") if limit.stable_below else ("above", "slower")
+    motion = f"a {sense if limit.hertz and turning.startswith('w') else ''}{turning}"
+    return f"Levitation is stable {side} {number(limit.speed / RPM, 6)} rpm: {other}, {motion} grows."
 
 
 def response_words(at_speed: SynchronousResponse) -> str:

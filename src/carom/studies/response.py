@@ -181,7 +181,7 @@ def unbalance_response(
     along, present, whirls = axis(case, "speed"), model.scales.speed, whirls_of(model, 4 * WHIRLS)
     ends = [read_quantity(along.field, end) for end in operating or (present, present)]
     run = min(ends), max(ends)
-    low, high = read_interval(along, interval or usual_range(whirls, run))
+    low, high = read_interval(along, interval or usual_range(model, whirls, run))
     whirl, criticals = response_curve(case, whirls, (low, high), run, (low, high, present, FULL_SPEED))
     found = UnbalanceResponse(case, whirl, (low, high), run, criticals, exact_results(model).rubs)
     found = replace(found, rubs=_rubs(found, model, along))

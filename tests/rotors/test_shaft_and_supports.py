@@ -1,0 +1,171 @@
+"""What turns with the shaft or changes with its speed: internal damping, coefficients of supports over speed, tilts; against own matrices and closed forms."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import scipy.linalg
+from flexible_machines import munich, replaced, symmetric
+from machines import machine_text
+
+import carom as cm
+from carom.base.outcome import InputError
+from carom.models import rotor_of
+from carom.parameters import TouchdownBearing
+from carom.rotors import (
+    ModalDamping,
+    ProportionalDamping,
+    Support,
+    TouchdownPlane,
+    Unbalance,
+    find_whirls,
+    load_machine,
+    rigid_rotor,
+    synchronous_response,
+)
+from carom.rotors.free_motions import stability_limits
+from carom.studies.levitating import levitating, levitation_facts
+
+WALL = TouchdownBearing("rigid", restitution=0.8)
+TABLE = Support(
+    1, kxx=("2e5 N/m", "3e5 N/m", 7e5), kyy=(1e5, 3e5, 5e5), kxy=1e4, kyx=[-1e4, -3e4, 2e4], cxx=90.0, cyy=(50.0, 60.0, 80.0),
+    rotating_damping=(5.0, 6.0, 6.0), tilt_stiffness=(900.0, 800.0, 400.0), tilt_damping=3.0, speeds=("1000 rpm", 400.0, "9000 rpm"),
+)  # fmt: skip
+OTHER = Support(2, 4e5, 4e5, cxx=100.0, cyy=100.0)
+
+
+def rigid(external, internal, speed=200.0):
+    return rigid_rotor(
+        mass=12.0,
+        polar_inertia=0.04,
+        diametral_inertia=0.15,
+        stations=(-0.15, 0.15),
+        speed=speed,
+        clearance="0.25 mm",
+        supports=[
+            Support(node, 4e5, 4e5, cxx=external, cyy=external, rotating_damping=internal, tilt_stiffness=1e5)
+            for node in (0, 1)
+        ],
+        touchdowns=[TouchdownPlane(node, WALL, "20 mm", 0.15) for node in (0, 1)],
+    )
+
+
+@pytest.mark.parametrize(("external", "internal"), [(300.0, 200.0), (30.0, 500.0), (900.0, 3.0)])
+def test_rotating_damping_limits_the_speed_as_in_closed_form(external, internal):
+    closed = np.sqrt(8e5 / 12.0) * (1.0 + external / internal)
+    (found,) = stability_limits(rigid(external, internal).whole.equations, [0.5 * closed, 1.7 * closed])
+    assert found.speed == pytest.approx(closed, rel=1e-8)
+    assert found.exponent == pytest.approx(1j * np.sqrt(8e5 / 12.0), rel=1e-8)
+    assert found.stable_below
+    with pytest.raises(InputError, match=rf"levitates below {closed * 30.0 / np.pi:.6g} rpm"):
+        _ = rigid(external, internal, 1.2 * closed).model
+    assert rigid(external, internal, 0.9 * closed).model.system.decay > 0.0
+
+
+def own_planes(machine, speed):
+    """Damping and stiffness (4N, 4N) of displacements and tilts in x, then in y."""
+    rotor, turning, both = machine.rotor, np.array([[0.0, 1.0], [-1.0, 0.0]]), np.eye(2)
+    mass, stiffness, gyroscopic = (getattr(rotor.matrices, name) for name in ("mass", "stiffness", "gyroscopic"))
+    squares, shapes = scipy.linalg.eigh(stiffness, mass)
+    rates = np.sqrt(np.maximum(squares, 0.0)) * (squares > 1e-6 * squares[2])
+    pushed = mass @ shapes
+    internal = pushed * (2.0 * rotor.internal.ratio * rates) @ pushed.T
+    external = pushed * (2.0 * rotor.damping.ratio * rates) @ pushed.T
+    damping = np.kron(both, internal + external) + speed * np.kron(turning, gyroscopic)
+    held = np.kron(both, stiffness) + speed * np.kron(turning, internal)
+    for each in machine.supports:
+        at = {
+            name: np.interp(speed, each.speeds, getattr(each, name)) if each.speeds and np.ndim(getattr(each, name)) else getattr(each, name)
+            for name in ("kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", "rotating_damping", "tilt_stiffness", "tilt_damping")
+        }  # fmt: skip
+        x = 2 * rotor.place_of(each.node)
+        place, tilts = (
+            np.ix_((x, x + len(mass)), (x, x + len(mass))),
+            np.ix_(
+                (x + 1, x + 1 + len(mass)),
+            )
+            * 2,
+        )
+        held[place] += [[at["kxx"], at["kxy"]], [at["kyx"], at["kyy"]]] + speed * at["rotating_damping"] * turning
+        damping[place] += [[at["cxx"], at["cxy"]], [at["cyx"], at["cyy"]]] + at["rotating_damping"] * both
+        held[np.ix_(tilts[0], tilts[1])] += at["tilt_stiffness"] * both
+        damping[np.ix_(tilts[0], tilts[1])] += at["tilt_damping"] * both
+    return np.kron(both, mass), damping, held
+
+
+def on_tables(**changes):
+    shaft = dataclasses.replace(
+        symmetric().rotor, damping=ModalDamping(0.01), internal=ModalDamping(0.02), longest_element=0.2
+    )
+    return symmetric(rotor=shaft, bearings=[], supports=[TABLE, OTHER], gravity=None, unbalances=[Unbalance(1, "20 g mm")], **changes)  # fmt: skip
+
+
+@pytest.mark.parametrize("speed", [110.0, 300.0, 400.0, 700.0])
+def test_exponents_and_response_at_any_speed_are_those_of_own_matrices(speed):
+    machine = on_tables()
+    mass, damping, held = own_planes(machine, speed)
+    none, one = np.zeros_like(mass), np.eye(len(mass))
+    shapes = scipy.linalg.eigh(own_planes(machine, 110.0)[2] + own_planes(machine, 110.0)[2].T, mass)[
+        1
+    ]  # in which digits are kept
+    own = np.linalg.eigvals(np.block([[none, one], [-shapes.T @ held @ shapes, -shapes.T @ damping @ shapes]]))
+    for equations in (machine.whole.equations, replaced(machine, speed=speed).whole.equations):
+        found = equations.exponents(speed)[0]
+        assert np.abs(found[:, None] - own).min(axis=0) == pytest.approx(0.0, abs=1e-8 * np.abs(own).max())
+        slow = own[np.abs(own) < 3e3]
+        assert (np.abs(found[:, None] - slow).min(axis=0) < 1e-8 * np.abs(slow)).all()
+    push, place = np.zeros(len(mass), complex), 2 * machine.rotor.place_of(1)
+    push[[place, place + len(mass) // 2]] = 20e-6 * speed**2 * np.array([1.0, -1j])
+    answer = np.linalg.solve(held + 1j * speed * damping - speed**2 * mass, push)
+    whirl = synchronous_response(machine, [speed]).touchdowns
+    x, y = answer[place], answer[place + len(mass) // 2]
+    assert whirl.forward[0, 0] == pytest.approx(0.5 * (x + 1j * y), rel=1e-8)
+    assert whirl.backward[0, 0] == pytest.approx(0.5 * np.conj(x - 1j * y), rel=1e-8)
+
+
+def test_a_file_holds_them(tmp_path):
+    path = tmp_path / "machine.toml"
+    machine = replaced(munich(0.06), supports=[replaced(TABLE, node=7)], speed="2000 rpm")
+    machine = replaced(machine, rotor=dataclasses.replace(machine.rotor, internal=ProportionalDamping(0.0, "20 us")))
+    path.write_text(machine.with_modes(6).to_toml())
+    again = load_machine(path)
+    assert (again.supports, again.rotor.internal) == (machine.supports, machine.rotor.internal)
+    assert [each.exponent for each in find_whirls(again, 300.0)] == [
+        each.exponent for each in find_whirls(machine, 300.0)
+    ]
+    assert dict(again.rows())["support 1"].endswith("; from a table of 3 speeds")
+    assert again.speed_range == pytest.approx((1000.0 * np.pi / 30.0, 9000.0 * np.pi / 30.0))
+    for name, given, message in (
+        ("speed", "900 rpm", "speed = 900 rpm: 1,000 to 9,000 rpm"),
+        ("speed", "9001 rpm", "a support at node 7 are not known"),
+        ("kxx_1", "5e5 N/m", "unknown parameter"),
+    ):
+        with pytest.raises(InputError, match=message):
+            load_machine(path, [f"{name}={given}"])
+    for changes, message in (
+        ({"speeds": (1.0, 1.0)}, "increasing"),
+        ({"kxx": (1.0, 2.0)}, "3 values"),
+        ({"speeds": ()}, "two or more"),
+    ):
+        with pytest.raises(InputError, match=message):
+            replaced(TABLE, **changes)
+    with pytest.raises(InputError, match="only what bends"):
+        dataclasses.replace(machine.rotor, internal=ProportionalDamping(1.0))
+
+
+def test_a_study_states_the_limit_of_speed(tmp_path):
+    path = tmp_path / "machine.toml"
+    text = machine_text("flexible").replace("[rotor]", "[rotor]\ninternal_damping_ratio = 0.3", 1)
+    path.write_text(text + "[[support]]\nnode = 1\nkxx = [0, 0]\nkyy = 0\nspeeds = ['500 rpm', '40000 rpm']\n")
+    case = cm.load(path, ["speed=14000 rpm"])
+    found = levitating(case, rotor_of(case))
+    (fact,) = [each for each in levitation_facts(found) if each.label == "Limit of speed"]
+    assert fact.text == "Levitation is stable below 16,499.7 rpm: faster, a forward whirl of 220.4 Hz grows."
+    assert found.document()["stability_limits"] == [
+        {
+            "speed_rpm": pytest.approx(16499.7, rel=1e-6),
+            "frequency_hz": pytest.approx(220.37, rel=1e-5),
+            "stable_below": True,
+        }
+    ]
+    assert found.campbell.speeds[0] == pytest.approx(700.0 * np.pi / 30.0)
