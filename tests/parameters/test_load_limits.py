@@ -44,6 +44,7 @@ def test_written_limits_are_read_as_the_same(write):
         ('[limits]\ndepth = "20 um"', "depth = 2e-05: a limit needs a table [touchdown] of a compliant bearing"),
         ("[limits]\npressure = 4e9", "pressure = 4000000000.0: a limit needs balls in the table [touchdown]"),
         ("[limits]\nlife_share = 0.1", "life_share = 0.1: a limit needs dynamic_rating in the table [touchdown]"),
+        ("[limits]\ntemperature = '80 °C'", "temperature = 80.0: a limit needs race_mass in the table [touchdown]"),
         ('[limits]\ndepth = "20 GPa"', "depth = 20 GPa: must be a length in m"),
         ('[limits]\nforces = "2 kN"', "forces = 2 kN: unknown name in [limits]; did you mean force?"),
         ('[limits]\nforce = "2 kg"', "force = 2 kg: must be a force in N"),

@@ -1,5 +1,7 @@
 """The table ``[touchdown]``: what it says, what it refuses in one line, and settings."""
 
+import math
+
 import pytest
 from machines import machine_text
 
@@ -65,7 +67,10 @@ def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
         ("restitution = 0.9\nrestitution_speed = 0.1", "restitution_speed = 0.1: must be left out: the restitution of kelvin-voigt"),
         ("restitution = 0.9\nmount_mass = 2\nmount_stiffness = 1e7", "restitution = 0.9: must be left out: it is that of the rotor on a fixed"),
         ("damping = 500\nstiffnes = 3", "stiffnes = 3"),
-        ("damping = 500\nstarting_torque = 0.1", "starting_torque = 0.1: not modelled: of a bearing only race_drag"),
+        ("damping = 500\nstarting_torque = 0.1", "race_inertia = nothing given: a torque of the balls needs a race that turns"),
+        ('damping = 500\ntemperature = "300 K"', "'K' is not a unit of temperature"),
+        ("damping = 500\ncage_mass = 2", "cage_mass = 2: not modelled: balls stay evenly spaced, the cage turns as they roll"),
+        ("damping = 500\nmount_mass = 2\nmount_stiffness = 1e7\nmount_loss_factor = 0.1", "mount_loss_frequency = nothing given: a loss factor and the frequency"),
         ("damping = 500\nstribeck_speed = 0.1", "stribeck_speed = 0.1: not modelled: friction is the same at all slip speeds"),
         ("damping = 500\nballs = 8", "ball_diameter = nothing given: the data of balls need balls, ball_diameter, race_diameter"),
         ("damping = 500\nconformity = 0.52", "balls = nothing given: the data of balls need"),
@@ -93,6 +98,33 @@ def test_what_a_law_does_not_have(tmp_path, table, words):
     with pytest.raises(InputError, match=r".*") as caught:
         load(tmp_path, table, machine=MACHINE + ("restitution = 0.9\n" if "rigid" in table else ""))
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (
+            {"running_torque": 0.1, "load_factor": 0.1},
+            "running_torque = 0.1: must be left out: give it or torque_factor",
+        ),
+        ({"torque_factor": 2}, "viscosity = nothing given: the viscous torque needs it"),
+        ({"inner_conductance": 2}, "race_mass = nothing given: temperatures need it"),
+    ],
+)
+def test_what_torque_and_temperature_need(given, words):
+    with pytest.raises(InputError, match=words):
+        TouchdownBearing(
+            "kelvin-voigt", 1e8, 500, race_inertia=1, balls=9, ball_diameter=5e-3, race_diameter=0.03, **given
+        )
+
+
+def test_a_mount_loses_what_its_loss_factor_says():
+    """A damper takes ``πcωx²`` in a cycle, a loss factor ``η`` the share ``2πη`` of ``½kx²``."""
+    size = {"law": "kelvin-voigt", "stiffness": 1e8, "damping": 5, "mount_mass": 2, "mount_stiffness": 1e7}
+    mount = TouchdownBearing(**size, mount_loss_factor=0.2, mount_loss_frequency="150 Hz").mount
+    assert math.pi * mount.damping * 2.0 * math.pi * 150.0 == pytest.approx(2.0 * math.pi * 0.2 * 0.5e7, rel=1e-14)
+    with pytest.raises(InputError, match=r"mount_damping = 3\.0: must be left out: give it or a loss factor"):
+        TouchdownBearing(**size, mount_damping=3, mount_loss_factor=0.2, mount_loss_frequency=150)
 
 
 def test_a_restitution_of_the_machine_beside_the_law_is_refused(tmp_path):

@@ -11,7 +11,7 @@ from carom.base.files import as_json
 from carom.base.outcome import InputError, Outcome
 from carom.motions import drop_loads
 from carom.motions.loads import LastWhirl
-from carom.parameters import Scales
+from carom.parameters import LoadLimits, Scales
 from carom.studies import DropStudy, check_loads
 from carom.studies.drops import LoadCheck, _whirl_words, worst_of
 
@@ -65,6 +65,29 @@ def test_a_limit_of_pressure_needs_balls(whirl):
     rigid = dropped("dropped-rotor", "12 ms")
     with pytest.raises(InputError, match=r"pressure = 4.2e\+09|pressure = 4200000000.0"):
         check_loads(rigid.loads.planes[0], whirl.case.limits)
+
+
+def test_temperature_torque_and_cage_of_a_landing():
+    given = (
+        "race_mass=0.05 kg",
+        "load_factor=0.01",
+        "starting_torque=0.01",
+        "internal_clearance=0",
+        "temperature=40 °C",
+    )
+    found = dropped("touchdown-balls", "60 ms", settings=[f"touchdown_{each}" for each in given])
+    (plane,), ((_, rows),), (entry,) = found.loads.planes, found.tables, found.document()["touchdown_bearings"]
+    shown = dict(rows)
+    assert shown["temperatures at the end"].startswith("sleeve 40.")
+    assert shown["growth by heat"].endswith("GPa)")
+    assert "state race_drag = " in shown["torque of balls"]
+    assert shown["starting torque"] == "overcome by friction from a force of 3.29 N"
+    assert shown["cage"].endswith("if the balls roll")
+    assert entry["temperatures"]["highest"] == plane.si()["temperature"] > 40.0
+    assert entry["turning"]["heat_si"] == pytest.approx(plane.turning.heat * found.loads.scales.energy)
+    (check,) = (each for each in check_loads(plane, LoadLimits(temperature=40)) if each.name == "temperature")
+    assert check.exceeded
+    assert check.words.startswith("highest temperature: 40.")
 
 
 def test_the_worst_check_of_each_limit_where_not_all_bearings_have_it():

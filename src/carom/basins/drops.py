@@ -25,7 +25,7 @@ from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends
 from carom.motions import DropLoads, follow_loads
 from carom.motions.starts import Until
-from carom.parameters import Case, Field, LoadLimits, Scales, own_size, own_time
+from carom.parameters import LIMIT_FIELDS, Case, Field, LoadLimits, Scales, own_size, own_time
 from carom.parameters.formats import number
 
 if TYPE_CHECKING:
@@ -43,6 +43,7 @@ MEASURES = {
     "pressure": Quantity("Pa", "ball pressure"),
     "static_share": Quantity("1", "force over the static rating"),
     "life_share": Quantity("1", "share of the bearing life"),
+    "temperature": Quantity("degC", "highest temperature"),
     "contacts": Quantity("1", "contacts, or impacts on a rigid wall"),
     "contact_time": Quantity("s", "time in contact"),
     "settled_at": Quantity("s", "time after the release from which the rotor rests or whirls"),
@@ -302,7 +303,7 @@ def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:
     """Numbers of a drop by the names of :data:`MEASURES`, in SI units."""
     si = [plane.si() or {} for plane in found.planes]
     soft = any(plane.is_compliant for plane in found.planes)
-    largest = ("impulse", "power", "pressure", "static_share", "life_share", *(("force", "depth") if soft else ()))
+    largest = (MEASURES.keys() & LIMIT_FIELDS.keys()) - ({"heat"} if soft else {"heat", "force", "depth"})
     whirls = [plane.whirl for plane in found.planes if plane.whirl is not None and plane.whirl.direction]
     turning = max((whirl.angular_speed for whirl in whirls), key=abs, default=math.nan)
     return dict.fromkeys(MEASURES, math.nan) | {

@@ -13,6 +13,7 @@
 ``kinematics``        speeds at the touchdown bearings, and the course there with forces and slip
 ``tables``            tables of columns with units
 ``loads``             what the touchdown bearing bears, over all stages: forces, impulses, heat, race, whirl and rest; how near magnets come
+``heating``           torque of balls, temperatures and growth of a touchdown bearing
 ``load_sums``         loads, added up piece by piece
 ``standstill``        a drop followed until the shaft stands still
 ``descent``           its way down: torques, gyroscopic moments in steps of speed, and what is passed
@@ -23,6 +24,7 @@
 
 from carom.motions.contacts import ContactLog
 from carom.motions.ensembles import Endings, settle
+from carom.motions.heating import Network, RaceRun, Temperatures, ball_torque, thermal_network
 from carom.motions.kinematics import ContactHistory, LastingContact
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.load_sums import drop_loads, follow_loads
@@ -44,14 +46,19 @@ __all__ = [
     "EnergyLedger",
     "LastWhirl",
     "LastingContact",
+    "Network",
+    "RaceRun",
     "SpinDown",
     "State",
+    "Temperatures",
     "TouchdownLoads",
     "Trajectory",
+    "ball_torque",
     "drop_loads",
     "energy_ledger",
     "follow_loads",
     "settle",
     "simulate",
     "spin_down",
+    "thermal_network",
 ]

@@ -11,6 +11,7 @@ import numpy as np
 from carom.base.outcome import Outcome
 from carom.base.results import KINDS, Result
 from carom.models import Rotor
+from carom.motions.heating import RaceRun, Temperatures
 from carom.motions.trajectories import Trajectory
 from carom.parameters import Scales
 from carom.parameters.formats import number
@@ -135,6 +136,9 @@ class TouchdownLoads(Result):
     first : FirstContact or None
         ``None`` without one, or of a rigid wall, whose impacts have no force.
     catalogue : CatalogueLoads
+    turning : RaceRun
+    temperatures : Temperatures or None
+        ``None`` where the touchdown bearing does not state the mass of its race.
     scales : Scales or None
     """
 
@@ -161,6 +165,8 @@ class TouchdownLoads(Result):
     whirl: LastWhirl | None
     first: FirstContact | None
     catalogue: CatalogueLoads
+    turning: RaceRun
+    temperatures: Temperatures | None = None
     scales: Scales | None = None
 
     @property
@@ -173,6 +179,8 @@ class TouchdownLoads(Result):
         if self.scales is None:
             return None
         si = {name: getattr(self, name) * getattr(self.scales, KINDS[name]) for name in MEASURED}
+        if self.temperatures is not None:
+            si["temperature"] = self.temperatures.highest
         return si | {name: value for name, value in self.catalogue._asdict().items() if value is not None}
 
     @property

@@ -10,6 +10,7 @@
 ``numbers``               :class:`Parameters`, :class:`Numbers`: the same plain, unchecked
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``touchdown_bearing``     :class:`TouchdownBearing`: a compliant touchdown bearing
+``ball_heat``             its entries about torque and temperature
 ``balls``                 balls of a touchdown bearing: contacts by Hertz, the force of all balls, inertia
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a compliant wall dissipates

@@ -192,13 +192,12 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 """The machine field that is set by each dimensionless number while mass, speed and clearance are fixed."""
 
 NOT_MODELLED: Mapping[str, str] = {
-    "torque": "of a bearing only race_drag, a torque per speed, none at start and none that grows with the load; those of drive and brake stand in [drive]",
-    "temperature": "heat of slip is computed, no temperatures and no growth of parts",
-    "thermal": "heat of slip is computed, no temperatures and no growth of parts",
-    "stribeck": "friction is the same at all slip speeds",
-    "static_friction": "friction is the same at all slip speeds, and at rest",
-    "cage": "balls stay evenly spaced, without cage, cage slip and skidding",
-    "viscosity": "races and balls without lubricant, but for race_drag",
+    "torque": "other torques than those of a bearing (race_drag, starting_torque, running_torque, load_factor) and those of drive and brake, in [drive]",
+    "thermal": "temperatures of parts as wholes alone, by race_mass and conductances such as inner_conductance",
+    "stribeck": "friction is the same at all slip speeds: compare its smallest and its largest value",
+    "static_friction": "friction is the same at all slip speeds, and at rest: compare its smallest and its largest value",
+    "cage": "balls stay evenly spaced, the cage turns as they roll, without cage slip and skidding",
+    "lubricant": "races and balls without an oil film; viscosity and torque_factor give its torque",
     "misalignment": "races stay parallel: no tilt stiffness of a touchdown bearing",
 }
 """What is asked for and not modelled, by a part of its name, and what is."""

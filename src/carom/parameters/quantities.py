@@ -118,6 +118,8 @@ COMMON_UNITS: Mapping[str, tuple[Decimal, Roots]] = {
     for unit in units.split(", ")
 }
 """Factor and root units of each unit."""
+_CELSIUS = dict.fromkeys(("°C", "degC", "celsius"), (Decimal(1), frozenset({("celsius", Decimal(1))})))
+"""Temperatures are stated in these alone: from those in kelvins or degrees Fahrenheit they differ by more than a factor."""
 
 
 class Written(float):
@@ -273,7 +275,7 @@ def _roots(unit: str) -> tuple[Decimal, Roots]:
 
     Raises an exception of any kind for text that is no unit, or a unit with an offset or a logarithm.
     """
-    return COMMON_UNITS.get(unit) or _roots_by_pint(unit)
+    return COMMON_UNITS.get(unit) or _CELSIUS.get(unit) or _roots_by_pint(unit)
 
 
 @cache

@@ -42,6 +42,12 @@ _KINDS = {
     "N m s": "a drag",
     "N m s^2": "a windage",
     "kg/m^3": "a density",
+    "m^2/s": "a viscosity",
+    "Hz": "a frequency",
+    "°C": "a temperature",
+    "J/(kg K)": "a specific heat",
+    "W/K": "a conductance",
+    "1/K": "an expansion",
 }
 """What is counted in an SI unit."""
 _ENTRIES: dict[type, dict[str, Field]] = {}
@@ -69,9 +75,10 @@ def entry(
 
 
 def entries_of(table: type[Table]) -> dict[str, Field]:
-    """The numbers of a table, by their names."""
+    """The numbers of a table, by their names; those that it has from another class, by keyword alone, come last."""
     if table not in _ENTRIES:
-        declared = {each.name: each.metadata.get("field") for each in dataclasses.fields(table)}
+        ordered = sorted(dataclasses.fields(table), key=lambda each: bool(each.kw_only))
+        declared = {each.name: each.metadata.get("field") for each in ordered}
         _ENTRIES[table] = {name: dataclasses.replace(field, name=name) for name, field in declared.items() if field}
     return _ENTRIES[table]
 
@@ -301,6 +308,8 @@ class LoadLimits(Table):
         Peak force over the static load rating; 1 for a bearing that states that rating.
     life_share : float or str, optional
         Share of the life that a touchdown may use; the bearing has to state its dynamic load rating.
+    temperature : float or str, optional
+        Highest temperature of a part of the bearing or of the sleeve, °C; the bearing has to state the mass of its race.
     impacts : int or str, optional
         Number of impacts of the whole touchdown.
 
@@ -319,9 +328,15 @@ class LoadLimits(Table):
     pressure: float | None = entry("", "ball pressure", "Pa", 1.0, 1e13, '"4.2 GPa"', True, usual=("GPa", 1e9))
     static_share: float | None = entry("", "force over the static rating", "", 1e-12, 1e6, "0.5", True)
     life_share: float | None = entry("", "share of the bearing life", "", 1e-15, 1e6, "0.01", True)
+    temperature: float | None = entry("", "highest temperature", "°C", -273.15, 3000.0, '"150 °C"')
 
     heading: ClassVar = "limits"
-    needed: ClassVar = {"pressure": "balls", "static_share": "static_rating", "life_share": "dynamic_rating"}
+    needed: ClassVar = {
+        "pressure": "balls",
+        "static_share": "static_rating",
+        "life_share": "dynamic_rating",
+        "temperature": "race_mass",
+    }
     """Entries of a touchdown bearing that limits need."""
 
     @staticmethod

@@ -11,8 +11,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from carom.base.outcome import InputError, shown, together
+from carom.parameters.ball_heat import OF_HEAT, OF_TORQUE, BallHeat
 from carom.parameters.formats import number
-from carom.parameters.tables import DOWN, Table, entries_of, entry
+from carom.parameters.tables import DOWN, entries_of, entry
 
 if TYPE_CHECKING:
     from carom.parameters.balls import BallRing, PowerLaw
@@ -30,13 +31,21 @@ OF_BALLS = (
 """Entries of its balls: they change motions where the stiffness is left out, or where a density adds their inertia to that of the race."""
 OF_LIFE = ("dynamic_rating", "static_rating")
 """Ratings of the catalogue, which change no motion."""
+OF_CATALOGUE = (*OF_BALLS, *OF_LIFE, *OF_TORQUE, *OF_HEAT)
+"""All entries that a bearing of the catalogue has beside its law, race and mount."""
 _MM = ("mm", 1e-3)
 _OF_MOUNT, _PER_ROW = ("mount_mass", "mount_stiffness"), 5
+_LOST_IN_MOUNT = ("mount_loss_factor", "mount_loss_frequency")
+_PALMGREN = ("torque_factor", "load_factor", "viscosity")
 _TOGETHER = (
     (("offset_direction",), ("offset",), "a direction needs the distance too"),
     (("race_drag",), ("race_inertia",), "a race with drag needs it"),
-    ((*_OF_MOUNT, "mount_damping"), _OF_MOUNT, f"a mount needs {' and '.join(_OF_MOUNT)}"),
-    (OF_BALLS, _NEEDED_OF_BALLS, f"the data of balls need {', '.join(_NEEDED_OF_BALLS)}"),
+    ((*_OF_MOUNT, "mount_damping", *_LOST_IN_MOUNT), _OF_MOUNT, f"a mount needs {' and '.join(_OF_MOUNT)}"),
+    (_LOST_IN_MOUNT, _LOST_IN_MOUNT, "a loss factor and the frequency at which it holds belong together"),
+    ((*OF_BALLS, *OF_HEAT, *_PALMGREN), _NEEDED_OF_BALLS, f"the data of balls need {', '.join(_NEEDED_OF_BALLS)}"),
+    (OF_TORQUE, ("race_inertia",), "a torque of the balls needs a race that turns"),
+    (("torque_factor",), ("viscosity",), "the viscous torque needs it"),
+    (OF_HEAT, ("race_mass",), "temperatures need it"),
     (("dynamic_rating",), ("race_inertia",), "a share of the life needs a race that turns"),
     (("preload",), ("contact_angle",), "an axial preload needs it"),
     (("ball_density",), ("race_inertia",), "it adds the inertia of the balls to that of the race"),
@@ -70,7 +79,7 @@ class Mount(NamedTuple):
 
 
 @dataclass(frozen=True)
-class TouchdownBearing(Table):
+class TouchdownBearing(BallHeat):
     """A touchdown bearing whose force grows with the depth to which the rotor presses into it.
 
     Every value is a number in the SI unit below, or text with a unit such as ``"1e8 N/m"``.
@@ -96,7 +105,10 @@ class TouchdownBearing(Table):
         Inner race that turns: moment of inertia with what turns with it, kg m², and torque that slows it down per speed, N m s.
         Without an inertia it stands still.  With ``ball_density`` the balls are added to it.
     mount_mass, mount_stiffness, mount_damping : float or str, optional
-        Mass on which the bearing sits, kg, and what holds that, N/m and N s/m.  Without these it is fixed.
+        Mass on which the bearing sits, kg, and what holds that, N/m and N s/m: a corrugated ribbon, a tolerance ring, O-rings.  Without these it is fixed.
+    mount_loss_factor, mount_loss_frequency : float or str, optional
+        In place of a damping: loss factor ``η`` of the mount at a frequency ``f``, Hz, for which the damper ``ηk/(2πf)`` stands; away from it the
+        damper loses in proportion to the frequency, a mount with a constant factor does not.
     offset, offset_direction : float or str, optional
         Where the centre of the bearing lies, seen from the place at which levitation holds the rotor: distance, m, and angle in the
         fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.  Positions are counted from that centre.
@@ -121,6 +133,8 @@ class TouchdownBearing(Table):
         Density of the balls, kg/m³: their inertia, rolling on the outer race, is added to ``race_inertia``, which then is that of the race alone.
     dynamic_rating, static_rating : float or str, optional
         Dynamic and static load rating ``C`` and ``C_0`` of the catalogue, N: a landing has a share of the life, and a static limit.
+    **others
+        Torque and temperatures: those of :class:`carom.parameters.ball_heat.BallHeat`.
 
     Raises
     ------
@@ -142,6 +156,8 @@ class TouchdownBearing(Table):
     mount_mass: float | None = entry("", "mass of the mount", "kg", 1e-9, 1e9, '"2 kg"')
     mount_stiffness: float | None = entry("", "stiffness of the mount", "N/m", 1e-6, 1e18, '"2e7 N/m"')
     mount_damping: float | None = entry("", "damping of the mount", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True)
+    mount_loss_factor: float | None = entry("η", "loss factor of the mount", "", 1e-9, 10.0, "0.1", True)
+    mount_loss_frequency: float | None = entry("", "frequency of that loss factor", "Hz", 1e-6, 1e9, '"150 Hz"')
     offset: float | None = entry("", "distance of the bearing's centre", "m", 1e-12, 1e3, '"0.05 mm"', True)
     offset_direction: float | None = entry("", "direction of the bearing's centre", "rad", -1e6, 1e6, '"-90 deg"')
     balls: float | None = entry("Z", "balls that share the force", "", 5, 1000, "12", whole=True)
@@ -216,7 +232,7 @@ class TouchdownBearing(Table):
     def _rules(self, present: Set[str]) -> tuple[list[_Rule], list[_Rule]]:
         """Entries that a bearing of this law must not have, and those that it needs."""
         if not self.is_compliant:
-            others = sorted({*OF_LAW, *OF_BALLS, *OF_LIFE} - {"restitution"})
+            others = sorted({*OF_LAW, *OF_CATALOGUE} - {"restitution"})
             return [(name, "the law of a rigid wall has none", True) for name in others], []
         law, is_linear = self.law, self.law == "kelvin-voigt"
         own, other = ("damping", "dissipation") if is_linear else ("dissipation", "damping")
@@ -231,6 +247,8 @@ class TouchdownBearing(Table):
             ("restitution", _ON_MOUNT, not present.isdisjoint(_OF_MOUNT)),
             ("exponent", "it belongs to a stiffness; without one both come from the balls", by_balls),
             ("internal_clearance", "give it or a preload, not both", "preload" in present),
+            ("mount_damping", "give it or a loss factor, not both", "mount_loss_factor" in present),
+            ("running_torque", f"give it or {', '.join(_PALMGREN)}", not present.isdisjoint(_PALMGREN)),
         ]
         needed = [
             (
@@ -294,7 +312,7 @@ class TouchdownBearing(Table):
     @property
     def of_motion(self) -> Set[str]:
         """Names of the entries that change motions, where they are stated."""
-        left_out = {*OF_LIFE, *(() if self.law_of_balls or self.ball_density else OF_BALLS)}
+        left_out = set(OF_CATALOGUE) - set(OF_BALLS if self.law_of_balls or self.ball_density else ())
         return TOUCHDOWN_FIELDS.keys() - left_out
 
     @property
@@ -302,7 +320,10 @@ class TouchdownBearing(Table):
         """Its mount; ``None`` if it is fixed."""
         if self.mount_mass is None or self.mount_stiffness is None:
             return None
-        return Mount(self.mount_mass, self.mount_damping or 0.0, self.mount_stiffness)
+        damping = self.mount_damping or 0.0
+        if self.mount_loss_factor and self.mount_loss_frequency:
+            damping = self.mount_loss_factor * self.mount_stiffness / (2.0 * math.pi * self.mount_loss_frequency)
+        return Mount(self.mount_mass, damping, self.mount_stiffness)
 
     @property
     def centre(self) -> complex:

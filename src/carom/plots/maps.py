@@ -188,6 +188,7 @@ _SHOWN = {
     "pressure": (1e-9, "GPa"),
     "static_share": (100.0, "%"),
     "life_share": (100.0, "%"),
+    "temperature": (1.0, "°C"),
     "contacts": (1.0, ""),
     "contact_time": (1e3, "ms"),
     "settled_at": (1e3, "ms"),

@@ -17,7 +17,7 @@ from carom.models.touchdown import FARTHEST
 from carom.parameters import Scales
 from carom.parameters.fields import RPM
 from carom.parameters.restitution import damping_ratio_of
-from carom.parameters.touchdown_bearing import OF_BALLS, OF_LIFE
+from carom.parameters.touchdown_bearing import OF_CATALOGUE
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
@@ -356,5 +356,5 @@ class ReducedMachine(Result):
         wide, ratio = clearance / whole.length, plane.rotor_radius / clearance
         scales = Scales(whole.mass / wide**2, clearance, whole.speed)
         law, race = law_of(bearing, scales, bearing.restitution or 0.0), race_of(bearing, ratio, scales)
-        stated = None if plane.bearing.given.keys().isdisjoint((*OF_BALLS, *OF_LIFE)) else plane.bearing
+        stated = None if plane.bearing.given.keys().isdisjoint(OF_CATALOGUE) else plane.bearing
         return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide, stated, plane.farthest or FARTHEST)

@@ -42,6 +42,13 @@ _IN_BOTH = (
     ("heating continues", "at {lasting_power}"),
     ("friction power", "up to {power}"),
     ("inner race", "{race_at_end:speed} at the end, at most {fastest_race:speed}"),
+    ("race over shaft", "{turning.speed_ratio} of its speed at the end"),
+    ("race up to speed", "{turning.up_to_speed_at:time} after {since} (95 % of the shaft's surface speed)"),
+    ("cage", "{turning.cage_speed:speed} at the end, if the balls roll"),
+    ("traction of balls", "{turning.ball_traction:percent} of their load, to follow the race while the rotor slips"),
+    ("heat of balls", "{turning.heat:energy}"),
+    ("torque of balls", "{turning.torque_words}"),
+    ("starting torque", "overcome by friction from a force of {turning.starts_at:newton}"),
     ("in contact to the end", "since {in_contact_since:time} after {since}"),
 )
 COMPLIANT = (
@@ -62,6 +69,7 @@ RIGID = (
     *_IN_BOTH,
 )
 """Loads of a touchdown bearing as shown to people: labels, and attributes by name and kind; zero or unknown ones are left out."""
+TURNING = "speed_ratio cage_speed:speed up_to_speed_at:time ball_traction heat:energy torque_si=torque neglected drag_si=drag starts_at_si=starts_at"
 _KEYS = {"ball_load": "ball_load_si", "pressure": "pressure_si"}
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
@@ -79,7 +87,7 @@ class LoadCheck:
 
     Attributes
     ----------
-    name : {"impulse", "force", "power", "heat", "depth", "pressure", "static_share", "life_share", "impacts"}
+    name : {"impulse", "force", "power", "heat", "depth", "pressure", "static_share", "life_share", "temperature", "impacts"}
     value : float
         Load of the motion, up to where its end was known.
     limit : float
@@ -164,6 +172,7 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
         if endless and name == "heat" and value <= limit:
             after = (limit - value) / si["lasting_power"]
         growing = loads.still_growing and name in ("force", "depth", "pressure", "static_share")
+        growing |= name == "temperature" and grows["heat"]
         found.append(LoadCheck(name, value, limit, endless, growing, loads.outcome.settled, after))
     return tuple(found)
 
@@ -231,6 +240,7 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
     if bearing and (law := bearing.law_of_balls):
         beyond = "; the peak force lies above" if (plane.si() or {})["force"] > law.highest else ""
         rows.append(("stiffness of balls", law.words + beyond))
+    rows += plane.temperatures.rows() if plane.temperatures else []
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 
 
@@ -248,6 +258,8 @@ def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, object]:
         "touchdown_bearing": plane.plane + 1,
         **record(plane, PLANE, plane.scales),
         "loads": loads,
+        "turning": None if plane.race_at_end is None else record(plane.turning, TURNING, plane.scales),
+        **record(plane, "temperatures"),
         "whirl": whirl and record(whirl, WHIRL, whirl.scales) | often,
         "limits": [check.document() for check in check_loads(plane, limits)],
     }
