@@ -30,6 +30,7 @@ from carom.core.anisotropy import add_conjugate_forces
 from carom.core.compiling.decorators import inlined, kernel
 from carom.core.compliance import force_in_wall, indent, rolling_grip
 from carom.core.equations import solve
+from carom.core.flow import displacement
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
 from carom.core.limits import drive_by_excess, saturate
@@ -54,13 +55,14 @@ def rub_series(rotor, contact, amplitudes, work):
     for k in range(ORDER + 1):
         _contact(rotor, contact, k, work)
         if k < ORDER:
+            share = 1.0 / (k + 1)
             for m in range(modes):
                 rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, 0] * work.force[0, k]
                 for station in range(1, stations):
                     rate += rotor.columns[m, station] * work.force[station, k]
                 if rotor.driven[m]:
                     rate += work.series[k, m - 1]
-                work.series[k + 1, m] = rate / (k + 1)
+                work.series[k + 1, m] = complex(share * rate.real, share * rate.imag)
             for station in range(stations):
                 if rotor.race[station] >= 0:
                     work.series[k + 1, rotor.race[station]] -= (
@@ -91,8 +93,11 @@ def _contact(rotor, contact, k, work):
     if rotor.limit_bounds.shape[0] > 0:
         saturate(rotor, k, work)
     for station in range(stations):
-        _free_motion(rotor, station, k, work)
-        if is_compliant(rotor, station) and stays(contact[station]):
+        in_wall = is_compliant(rotor, station) and stays(contact[station])
+        _motion(rotor, station, k, work)
+        if not in_wall or contact[station] == ROLLING:
+            _free_acceleration(rotor, station, k, work)
+        if in_wall:
             indent(rotor, station, k, work)
         else:
             _push_and_slip(rotor, station, k, work)
@@ -103,20 +108,30 @@ def _contact(rotor, contact, k, work):
 
 
 @inlined
-def _free_motion(rotor, station, k, work):
-    """Coefficients ``k`` of position and speed, and of acceleration without contact forces."""
-    position, speed, free = 0j, 0j, 0j
+def _motion(rotor, station, k, work):
+    """Coefficients ``k`` of position and speed; no force changes a position at once, so the speed gives those of the position."""
+    speed = 0j
     for m in range(rotor.rows.shape[1]):
-        position += rotor.rows[station, m] * work.series[k, m]
         speed += rotor.rate_rows[station, m] * work.series[k, m]
+    work.speed[station, k] = speed
+    if k == 0:
+        work.position[station, 0] = displacement(rotor, station, work.series[0])
+    else:
+        before, share = work.speed[station, k - 1], 1.0 / k
+        work.position[station, k] = complex(share * before.real, share * before.imag)
+
+
+@inlined
+def _free_acceleration(rotor, station, k, work):
+    """Coefficient ``k`` of the acceleration without contact forces."""
+    free = 0j
+    for m in range(rotor.rows.shape[1]):
         free += rotor.acceleration_rows[station, m] * work.series[k, m]
     if rotor.shaft.shape[0] > 0:
         free += rotor.unbalance_rows[station] * work.whirl[k]
     if rotor.limit_bounds.shape[0] > 0:
         for each in range(rotor.limit_bounds.shape[0]):
             free += rotor.limit_pulls[station, each] * work.excess[each, k]
-    work.position[station, k] = position + rotor.offsets[station] if k == 0 else position
-    work.speed[station, k] = speed
     work.free[station, k] = free
 
 

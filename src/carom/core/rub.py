@@ -136,7 +136,7 @@ def first_transition(rotor, station, phase, step, work):
         first, following, met = first_release(rotor, station, phase, step, work)
         if phase == SEPARATED:
             return first, following, met
-        rounding = compliant_rounding(rotor, station, work.series[0])
+        rounding = compliant_rounding(rotor, station, work.series[0]) if phase == ROLLING else 0.0
     else:
         rounding = push_rounding(rotor, station, work.series[0])
         first = first_fall(push, step, rounding)

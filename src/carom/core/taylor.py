@@ -22,13 +22,18 @@ def series_step(work):
     modes = work.series.shape[1]
     start, last, before, total = 0.0, 0.0, 0.0, 0.0
     for m in range(modes):
-        total += abs(work.series[ORDER, m]) + abs(work.series[ORDER - 1, m])
-        start = max(start, abs(work.series[0, m]))
-        last = max(last, abs(work.series[ORDER, m]))
-        before = max(before, abs(work.series[ORDER - 1, m]))
+        first, end, beside = work.series[0, m], work.series[ORDER, m], work.series[ORDER - 1, m]
+        total += abs(end.real) + abs(end.imag) + abs(beside.real) + abs(beside.imag)
+        start, last, before = _larger(start, first), _larger(last, end), _larger(before, beside)
     if not total < math.inf:
         return 0.0
     return _step(max(start, 1.0), last, before)
+
+
+@inlined
+def _larger(size, number):
+    """The larger of a size and a modulus, whose root is taken only where it may be the larger one."""
+    return max(size, abs(number)) if abs(number.real) + abs(number.imag) > size else size
 
 
 @kernel
@@ -52,10 +57,11 @@ def _step(scale, last, before):
 def sum_series(work, time, amplitudes):
     """Amplitudes at a time within the step."""
     for m in range(amplitudes.shape[0]):
-        total = work.series[ORDER, m]
-        for k in range(ORDER - 1, -1, -1):
-            total = total * time + work.series[k, m]
-        amplitudes[m] = total
+        amplitudes[m] = work.series[ORDER, m]
+    for k in range(ORDER - 1, -1, -1):  # of one order all modes: their sums do not wait for one another
+        for m in range(amplitudes.shape[0]):
+            total, part = amplitudes[m], work.series[k, m]
+            amplitudes[m] = complex(total.real * time + part.real, total.imag * time + part.imag)
 
 
 @kernel

@@ -321,10 +321,16 @@ def _last_whirl(last: Trajectory, turned_back: dict[int, float], held_since: flo
         return None
     # What fades without turning, such as the state of a filter, may be faster by far and moves nothing round.
     fastest, lasted = float(np.abs(last.rotor.system.arrays["exponents"].imag).max()), last.time - begins
-    count = 2 + math.ceil(lasted * fastest * PER_RADIAN)
-    times = np.unique(np.append(np.linspace(begins, last.time, count), last.segment_starts.clip(begins)))
+    times = np.linspace(begins, last.time, 2 + math.ceil(lasted * fastest * PER_RADIAN))
+    # At the wall a step of the series is too short to go half round.
+    flying = ~touching[np.searchsorted(last.segment_starts, times, side="right").clip(1) - 1]
+    flying[[0, -1]] = True
+    later, times = last.segment_starts > begins, times[flying]
+    places = last.at_plane(times)[0], last.rotor.system.at_plane(last.segment_amplitudes[later], last.plane)[0]
+    times = np.append(times, last.segment_starts[later])
+    order = np.argsort(times)
     # From one time to the next it goes less than half round.
-    angles = np.unwrap(np.angle(last.at_plane(times)[0]) + times)
+    angles = np.unwrap((np.angle(np.concatenate(places)) + times)[order])
     turned, goes_on = float(angles[-1] - angles[0]), last.outcome in GOING_ROUND
     seen = held_since if goes_on and held_since is not None else last.begins + begins
     return LastWhirl(
