@@ -9,7 +9,8 @@ import pytest
 from compilation import sized
 from linear_rotors import FixedFrame, random_rotor, single, tilting
 
-from carom.disturbances.shocks import states_after_shocks
+from carom.disturbances import BaseShock
+from carom.disturbances.shocks import states_after
 
 pytestmark = pytest.mark.jit_only
 
@@ -69,8 +70,8 @@ def three_masses():
 )
 def test_state_after_a_shock_is_that_of_the_matrices(rotor, peak, duration, direction):
     place, speed, impacts = shaken(rotor, peak, duration, direction).after()
-    positions, velocities, ended, touched = states_after_shocks(
-        rotor.model, np.array([peak]), duration, np.array([direction])
+    positions, velocities, ended, touched = states_after(
+        BaseShock(peak, duration), rotor.model, np.array([peak]), np.array([direction])
     )
     assert not ended[0]
     assert touched[0] == (impacts > 0)
@@ -101,7 +102,9 @@ def test_random_rotors_and_shocks():
         place, speed, impacts = shaken(rotor, peak, duration, direction).after()
         if impacts > 10:  # chatter, which the reference follows bounce by bounce
             continue
-        positions, velocities, _, _ = states_after_shocks(model, np.array([peak]), duration, np.array([direction]))
+        positions, velocities, _, _ = states_after(
+            BaseShock(peak, duration), model, np.array([peak]), np.array([direction])
+        )
         assert np.allclose(positions[0], place, rtol=0, atol=1e-7), seed
         assert np.allclose(velocities[0], speed, rtol=0, atol=1e-6), seed
         checked += 1

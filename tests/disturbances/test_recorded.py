@@ -79,7 +79,7 @@ def test_a_file_has_units(tmp_path):
     assert np.array(found.times) * scales.time == pytest.approx([0.0, 2e-3, 5e-3])
     assert found.accelerations * scales.acceleration == pytest.approx([0.0, 9.80665j, -4.903325j])
     assert BaseRecord.from_description(found.scaled(2.0).describe()) == found.scaled(2.0)
-    said = found.echo(rotor_of(machine)).words
+    said = found.echo(rotor_of(machine), found.peak, 0.0).words
     assert said.startswith("Base motion quake.csv: 3 samples over 5 ms, linear in between, at most 1 g")
 
 
@@ -118,3 +118,80 @@ def test_what_has_no_record(tmp_path):
     falling = rotor_of(cm.load(WEIGHS)).without_levitation()
     with pytest.raises(InputError, match="levitat"):
         record(0.01).apply(falling)
+
+
+@pytest.mark.parametrize(
+    ("path", "size"),
+    [
+        (KEOGH, 0.05),
+        (WEIGHS, 1e-2),
+        ("tests/machines/limits.toml", 1e-2),
+        ("tests/machines/race.toml", 0.1),
+        pytest.param("tests/machines/flexible-support.toml", 0.05, marks=pytest.mark.deep),
+    ],
+)
+@pytest.mark.parametrize("kind", ["record", "series"])
+def test_many_motions_end_where_each_does_alone(path, size, kind):
+    """Through amplitudes that are set where a section begins, and through stages; with contacts."""
+    rotor = rotor_of(cm.load(path))
+    model = record(size, 21) if kind == "record" else cm.BaseShock(4.0 * size, 2.0, pulses=3, pause=1.5)
+    sizes, angles = model.coordinates[0].high * np.array([0.5, 1.0]), np.array([0.7, 2.0])
+    instants = np.array([0.3, 1.0]) * rotor.depends_on_instant
+    starts, sections = model.starts(rotor, sizes, angles, instant=instants), len(model.sections(rotor))
+    for place, given in enumerate(zip(sizes, angles, strict=True)):
+        motion = cm.simulate(*model.apply(rotor, *given, instant=instants[place]))
+        if starts.ended[place]:
+            assert motion.outcome == starts.ended[place]
+            continue
+        ended = motion.parts[sections - 1].final
+        assert ended.position == pytest.approx(starts.positions[place], abs=1e-10)
+        assert ended.velocity == pytest.approx(starts.velocities[place], abs=1e-10)
+        assert starts.touched[place] == any(len(part.contacts) for part in motion.parts[:sections])
+
+
+def test_a_series_of_pulses_is_a_record_that_is_sampled_finely():
+    """Along one line in the fixed frame, whatever the shaft turns between the pulses."""
+    rotor, series = rotor_of(cm.load(KEOGH)), cm.BaseShock(0.01, 2.0, pulses=3, pause=1.5)
+    last = cm.simulate(*series.apply(rotor, 0.01, 0.4)).earlier[-1]
+    times = np.linspace(0.0, 9.0, 2251)
+    pulse = np.where(times % 3.5 <= 2.0, np.sin(np.pi * np.minimum(times % 3.5, 2.0) / 2.0), 0.0)
+    values = 0.01 * np.exp(0.4j) * pulse
+    sampled = cm.simulate(*BaseRecord(tuple(times), tuple(values.real), tuple(values.imag)).apply(rotor)).earlier[-1]
+    # Straight lines between samples leave h²/12 of the curvature.
+    assert last.at(np.array(last.time))[0] == pytest.approx(sampled.at(np.array(sampled.time))[0], abs=3e-8)
+
+
+def test_sizes_of_a_record_and_of_a_series(tmp_path):
+    path, machine = tmp_path / "quake.csv", cm.load(KEOGH)
+    path.write_text("t [ms],y (g)\n5,0\n7,1\n10,-0.5\n", encoding="utf-8")
+    scales, rotor = machine.parameters.scales, rotor_of(machine)
+    single = BaseRecord.single_of(f"{path}, 2 g, 30 deg", scales, "--base-record")
+    assert "at most 2 g (2 times the record), turned by 30°" in single.echo(rotor).words
+    as_is = BaseRecord.single_of(str(path), scales, "--base-record")
+    assert as_is.values == (as_is.model.peak, 0.0)
+    for text in ("2", "3 ms", "0 g", "2 g, 0, 1"):
+        with pytest.raises(InputError, match=r"^--base-record = "):
+            BaseRecord.single_of(f"{path}, {text}", scales, "--base-record")
+    faster = rotor.replace(speed=2.0 * rotor.value("speed"))
+    moved = single.model.rescaled(scales, faster.scales)
+    assert moved.peak * faster.scales.acceleration == pytest.approx(single.model.peak * scales.acceleration)
+    assert moved.times[-1] * faster.scales.time == pytest.approx(5e-3)
+    series = cm.BaseShock.read("5 g, 11 ms, 0, 3, 20 ms", machine)
+    assert (series.model.pulses, series.model.pause * scales.time) == (3, pytest.approx(0.02))
+    assert "3 pulses with pauses of 20 ms" in series.echo(rotor).words
+    with pytest.raises(InputError, match="a whole number for PULSES"):
+        cm.BaseShock.read("5 g, 11 ms, 0, some", machine)
+    with pytest.raises(InputError, match="pulses: a whole number from 1 to 100"):
+        cm.BaseShock.read("5 g, 11 ms, 0, 0", machine)
+
+
+def test_records_are_mapped_and_searched_as_shocks_are():
+    """Of one pulse that is sampled finely: the smallest that does not come back is that of the shock."""
+    machine, times = cm.load("examples/keogh-cole.toml"), np.linspace(0.0, 0.9, 31)
+    record = BaseRecord(tuple(times), tuple(np.sin(np.pi * times / 0.9)), (0.0,) * 31)
+    shares = [
+        cm.map_basins(machine, cm.Grid(model, (4, 6))).share_recovered for model in (record, cm.BaseShock(1.0, 0.9))
+    ]
+    assert shares[0].count == shares[1].count
+    record, shock = (cm.basins.smallest_unrecovered(machine, each).size for each in (record, cm.BaseShock(1.0, 0.9)))
+    assert record == pytest.approx(shock, rel=2e-2)

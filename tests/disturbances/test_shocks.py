@@ -10,7 +10,7 @@ from machines import PAPER, rest_position
 
 import carom
 from carom.disturbances.following import follow_machines
-from carom.disturbances.shocks import states_after_shocks
+from carom.disturbances.shocks import states_after
 from carom.models import Force
 
 pytestmark = pytest.mark.jit_only
@@ -41,7 +41,9 @@ def followed(parameters, peak, duration, direction, weight=0j):
 
 
 def after(parameters, peak, duration, direction):
-    found = states_after_shocks(carom.models.jeffcott(parameters), np.array([peak]), duration, np.array([direction]))
+    found = states_after(
+        carom.BaseShock(peak, duration), carom.models.jeffcott(parameters), np.array([peak]), np.array([direction])
+    )
     return complex(found[0][0]), complex(found[1][0]), bool(found[2][0])
 
 
@@ -147,8 +149,10 @@ def test_a_rotor_that_weighs_something_goes_on_under_the_weight_as_it_points_the
 def test_a_shock_knows_of_no_other():
     machine = carom.models.jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
     peaks, directions = np.linspace(0.1, 12.0, 9), np.linspace(0.0, 6.0, 9)
-    together = states_after_shocks(machine, peaks, 1.7, directions)
+    together = states_after(carom.BaseShock(12.0, 1.7), machine, peaks, directions)
     for place in range(9):
-        alone = states_after_shocks(machine, peaks[place : place + 1], 1.7, directions[place : place + 1])
+        alone = states_after(
+            carom.BaseShock(12.0, 1.7), machine, peaks[place : place + 1], directions[place : place + 1]
+        )
         for one, all_ in zip(alone, together, strict=True):
             assert one[0] == all_[place]

@@ -18,8 +18,7 @@ from carom.basins.classification import Basin
 from carom.basins.drops import MEASURES, DropMap
 from carom.basins.maps import WANTED, GainMap
 from carom.basins.shares import Share
-from carom.basins.sizes import SmallestUnrecovered
-from carom.closed_forms import contact_free_blade_loss, contact_free_shock
+from carom.basins.sizes import SmallestUnrecovered, contact_free_size
 from carom.disturbances import BaseShock, BladeLoss
 from carom.disturbances.plans import plan_words
 from carom.parameters import Case, in_terms_of
@@ -114,10 +113,8 @@ def basin_document(
     if smallest is not None and smallest.kind != "kick":
         document |= _loss(smallest, basin, smallest.kind)
     proven: dict[str, float] = {}
-    if isinstance(model, BladeLoss):
-        proven["harmless_blade_loss"] = contact_free_blade_loss(basin.rotor, model.node)
-    if isinstance(model, BaseShock):
-        proven["harmless_shock"] = contact_free_shock(basin.rotor, model.duration)
+    if isinstance(model, BladeLoss | BaseShock):
+        proven[f"harmless_{model.kind.replace('-', '_')}"] = contact_free_size(basin.rotor, model)
     kind = "acceleration" if isinstance(model, BaseShock) else "unbalance"
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:

@@ -30,7 +30,7 @@ def contact_free_size(rotor: Rotor, model: Disturbance) -> float:
         return contact_free_kick(rotor)
     if isinstance(model, BladeLoss):
         return contact_free_blade_loss(rotor, model.node)
-    return contact_free_shock(rotor, model.duration) if type(model) is BaseShock else 0.0
+    return contact_free_shock(rotor, model.duration) if type(model) is BaseShock and model.pulses == 1 else 0.0
 
 
 @dataclass(frozen=True, repr=False)

@@ -102,4 +102,5 @@ def _where(smallest: SmallestUnrecovered) -> str:
         return f"{where} from the unbalance before it"
     turned = smallest.instant
     after = "" if turned is None else f" when the shaft has turned by {format_angle(turned)}"
-    return f"{where} from the x axis that turns with the shaft{after}"
+    axis = "the record as it is" if smallest.kind == "base-record" else "the x axis that turns with the shaft"
+    return f"{where} from {axis}{after}"

@@ -46,6 +46,7 @@ def basins(
     kick: str | None = options.KICKS,
     shock: str | None = options.SHOCKS,
     blade_loss: str | None = options.BLADE_LOSSES,
+    base_record: str | None = options.BASE_RECORDS,
     disturbance: str | None = OTHERS,
     grid: str | None = GRID,
     instant: str | None = options.INSTANT,
@@ -67,7 +68,13 @@ def basins(
     with progress("loading") as tell:
         from carom.cli.starts import read_cells, read_plane, refuse_without
 
-        ways = {"--kick": kick, "--shock": shock, "--blade-loss": blade_loss, "--disturbance": disturbance}
+        ways = {
+            "--kick": kick,
+            "--shock": shock,
+            "--blade-loss": blade_loss,
+            "--base-record": base_record,
+            "--disturbance": disturbance,
+        }
         plan = _plan(case, _model(case, ways), grid, starts, seed, instant)
         if gains is None:
             refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y})

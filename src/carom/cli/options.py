@@ -48,8 +48,8 @@ KICK = option(
     "turns with the shaft, like the unbalance phase.",
 )
 SHOCK = option(
-    "PEAK[,DURATION[,ANGLE]]",
-    "Start with a half-sine base shock of the levitating rotor, such as '5 g, 11 ms, 30 deg'. The angle is measured from the same axis at the instant the "
+    "PEAK[,DURATION[,ANGLE[,PULSES[,PAUSE]]]]",
+    "Start with a half-sine base shock of the levitating rotor, such as '5 g, 11 ms, 30 deg', or with a series of them, such as '5 g, 11 ms, 0, 3, 20 ms'. The angle is measured from the same axis at the instant the "
     "shock begins; the log begins then.",
 )
 BLADE_LOSS = option(
@@ -58,9 +58,14 @@ BLADE_LOSS = option(
     "for a flexible rotor the node.",
 )
 BASE_RECORD = option(
-    "FILE.csv",
+    "FILE.csv[,PEAK[,ANGLE]]",
     "Move the base of the levitating rotor as recorded, linear between samples: columns time, x and y (fixed frame) with units in the heading, such as "
-    "'time (s),x (m/s^2),y (g)'.",
+    "'time (s),x (m/s^2),y (g)'; scaled to a peak acceleration and turned by an angle where these are given, such as 'quake.csv, 2 g, 30 deg'.",
+)
+BASE_RECORDS = option(
+    "FILE.csv[,PEAK]",
+    "Base motion of this record, scaled up to this peak acceleration (by default its own) and turned to all directions, such as 'quake.csv, 2 g'.",
+    "--base-record",
 )
 KICKS = option(
     "SPEED",
@@ -70,7 +75,8 @@ KICKS = option(
 )
 SHOCKS = option(
     "PEAK[,DURATION]",
-    "Half-sine base shocks with peaks up to this value in all directions, such as '5 g, 11 ms'; 11 ms is the default duration.",
+    "Half-sine base shocks with peaks up to this value in all directions, such as '5 g, 11 ms'; 11 ms is the default duration. carom basins takes a series "
+    "too, such as '5 g, 11 ms, 0, 3, 20 ms'.",
     "--shock",
 )
 BLADE_LOSSES = option(

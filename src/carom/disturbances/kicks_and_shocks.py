@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -10,19 +11,22 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
+from carom.disturbances.base_motion import BaseMotion, Section
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.single import Echo, Part, Single, angles_words
 from carom.parameters.formats import format_angle, format_quantity
 from carom.parameters.requirement import SHOCK_DURATION
 
 if TYPE_CHECKING:
-    from carom.models import Rotor, Subject
+    from carom.models import Force, Rotor, Subject
     from carom.motions.starts import State
     from carom.parameters import Scales
 
 LONGEST_SHOCK = 1e4
 """Longest duration, in ``1/Ω``: every pulse is followed to its end, over at most some 1600 turns of the shaft."""
+MOST_PULSES = 100
+"""Most pulses of a series."""
 
 
 @dataclass(frozen=True)
@@ -168,7 +172,7 @@ class KickPlane(Disturbance):
 
 
 @dataclass(frozen=True)
-class BaseShock(Disturbance):
+class BaseShock(BaseMotion):
     """The housing and its bearings are accelerated by ``a(t) = â sin(πt/T)`` along a line for a time ``T``.
 
     The motion of the levitating rotor relative to the housing is followed exactly through the pulse, contacts included
@@ -182,6 +186,10 @@ class BaseShock(Disturbance):
         Largest peak acceleration ``â``, in ``c_r Ω²``.
     duration : float
         ``T``, in ``1/Ω``.
+    pulses : int
+        How many such pulses come one after another, all along one line in the fixed frame.
+    pause : float
+        Time from the end of a pulse to the beginning of the next, in ``1/Ω``.
 
     See Also
     --------
@@ -199,13 +207,17 @@ class BaseShock(Disturbance):
 
     peak: float
     duration: float
+    pulses: int = 1
+    pause: float = 0.0
     kind: ClassVar[str] = "shock"
     noun: ClassVar[str] = "shocks"
-    measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
+    measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time", "pause": "time"}
     parts: ClassVar = (
         Part("peak", "PEAK", "acceleration", optional=False),
         Part("duration", "DURATION", "time", SHOCK_DURATION),
         Part("direction", "ANGLE", "angle", 0.0),
+        Part("pulses", "PULSES", "count"),
+        Part("pause", "PAUSE", "time"),
     )
     example: ClassVar = "'5 g,11 ms,30 deg'"
 
@@ -213,6 +225,10 @@ class BaseShock(Disturbance):
         super().__post_init__()
         if self.duration > LONGEST_SHOCK:
             raise InputError("duration", self.duration, f"at most {LONGEST_SHOCK:g}, in 1/Omega: a shock is short")
+        if not 1 <= self.pulses <= MOST_PULSES or int(self.pulses) != self.pulses:
+            raise InputError("pulses", self.pulses, f"a whole number from 1 to {MOST_PULSES}")
+        if not 0.0 <= self.pause <= LONGEST_SHOCK:
+            raise InputError("pause", self.pause, f"from 0 to {LONGEST_SHOCK:g}, in 1/Omega")
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -220,53 +236,18 @@ class BaseShock(Disturbance):
         peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", True)
         return peak, angle_coordinate("direction", "direction of the shock")
 
-    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
-        """State at the end of the pulse, which begins at the instant."""
-        from carom.disturbances.shocks import states_after_shocks
-        from carom.models.stages import stages_of
+    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
+        """The two exponentials of a half-sine."""
+        from carom.models import Force
 
-        peaks, directions, begun = np.broadcast_arrays(*values, instant)
-        if rotor.system.rest_radius >= 1.0:
-            return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        if rotor.system.is_externally_forced:
-            rotor.system.refuse_non_stationary()
-        positions, velocities, ended, touched = states_after_shocks(
-            stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
-        )
-        begins = begun + self.duration if rotor.depends_on_instant else np.zeros(peaks.shape)
-        return Starts(positions, velocities, np.ones(peaks.shape, bool), ended, touched, begins)
+        frequency, push = math.pi / self.duration, turn / 2j * rotor.carried_by_housing
+        return Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)
 
-    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
-        """Return the machine under a shock and then without, and its start at levitation, for :func:`carom.simulate`.
-
-        Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
-        levitates about its static sag when the shock begins.
-
-        Parameters
-        ----------
-        machine : Machine, Case, Parameters or model
-        *values : float
-            Peak, by default the largest, and direction of the acceleration, rad.
-        instant : float
-            Angle by which the shaft has turned when the shock begins, rad, since the frame that turns with it coincided with the fixed
-            one: under weight it says where this points.
-
-        Raises
-        ------
-        InputError
-            The rotor cannot levitate inside the wall.
-        """
-        from carom.disturbances.shocks import shaken
-        from carom.models import Stage, Trigger, in_stages, rotor_of
-        from carom.models.stages import stages_of
-        from carom.motions.starts import levitating
-
-        further = stages_of(rotor_of(machine))
-        rotor = further[0].rotor
-        peak, direction, begun = self.whole(values, instant, rotor.scales)
-        size, start = cmath.rect(peak, direction) / 2j, levitating(rotor, instant=begun)
-        pulse = Stage(shaken(rotor, self.duration, size, start.time), Trigger(time=self.duration))
-        return in_stages((pulse, *further)), start
+    def sections(self, rotor: Rotor) -> list[Section]:
+        """Pulses, with pauses between them."""
+        pulse, pause = Section(self.duration, np.ones(1)), Section(self.pause, np.zeros(1))
+        between = [pause, pulse] if self.pause else [pulse]
+        return [pulse, *between * (self.pulses - 1)]
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
         """See :meth:`carom.disturbances.Disturbance.echo`."""
@@ -274,11 +255,15 @@ class BaseShock(Disturbance):
         size = f"{format_quantity(peak, 'acceleration', scales)} for {format_quantity(self.duration, 'time', scales)} at {format_angle(angle)}"
         counted = angles_words(rotor.unbalance_phase, " at the instant the shock begins")
         sizes = {"peak": (peak, "acceleration"), "duration": (self.duration, "time"), "angle": (angle, "")}
+        if self.pulses > 1:
+            size += f", {self.pulses} pulses with pauses of {format_quantity(self.pause, 'time', scales)}"
+            sizes |= {"pulses": (self.pulses, ""), "pause": (self.pause, "time")}
         return Echo(self.kind, f"Base shock: half-sine, {size}; {counted}; times count from its start", sizes)
 
     def up_to_words(self, before: float | None, scales: Scales | None) -> str:
         """See :meth:`carom.disturbances.Disturbance.up_to_words`."""
-        return f"{super().up_to_words(before, scales)} for {format_quantity(self.duration, 'time', scales)}"
+        several = f", {self.pulses} pulses" if self.pulses > 1 else ""
+        return f"{super().up_to_words(before, scales)} for {format_quantity(self.duration, 'time', scales)}{several}"
 
     def release(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.
@@ -296,7 +281,7 @@ class BaseShock(Disturbance):
         InputError
             The rotor cannot levitate inside the wall, or its motion ends during the pulse, as where it grazes the wall undecidedly.
         """
-        return super().apply(machine, direction, instant=instant)[1]
+        return Disturbance.apply(self, machine, direction, instant=instant)[1]
 
 
 def outward_from(machine: Subject) -> complex:

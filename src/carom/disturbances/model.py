@@ -65,6 +65,8 @@ class Disturbance:
 
     def __init_subclass__(cls, **keywords: object) -> None:
         super().__init_subclass__(**keywords)
+        if cls.__dict__.get("kind") == "":  # the base of several kinds
+            return
         if "kind" not in cls.__dict__:
             cls.kind = cls.__name__.lower()
         known = _KNOWN.get(cls.kind, cls)
@@ -297,7 +299,13 @@ class Disturbance:
             A kind of disturbance that is not known.
         """
         model = Disturbance.of_kind(description["kind"])
-        return model(**{one.name: _from_plain(one, description[one.name]) for one in dataclasses.fields(model)})
+        return model(
+            **{
+                one.name: _from_plain(one, description[one.name])
+                for one in dataclasses.fields(model)
+                if one.name in description
+            }
+        )
 
 
 _KNOWN: dict[str, type[Disturbance]] = {}

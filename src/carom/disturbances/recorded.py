@@ -10,32 +10,33 @@ from __future__ import annotations
 import csv
 import dataclasses
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
+from carom.base.arguments import checked
 from carom.base.outcome import InputError, printable, shown
-from carom.disturbances.coordinates import Coordinate, Starts
-from carom.disturbances.model import Disturbance
-from carom.disturbances.single import Echo, Single
-from carom.parameters import read_size
-from carom.parameters.formats import format_quantity
+from carom.disturbances.base_motion import BaseMotion, Section
+from carom.disturbances.coordinates import Coordinate, angle_coordinate
+from carom.disturbances.single import Echo, Part, Single, read_part
+from carom.parameters import Scales, read_size
+from carom.parameters.formats import format_angle, format_quantity, number
 
 if TYPE_CHECKING:
-    from carom.models import Rotor, Subject
-    from carom.motions.starts import State
-    from carom.parameters import Scales
+    from carom.models import Force, Rotor, Subject
 
 MOST_SAMPLES = 20_000
 """Samples of a record: each interval is a stage, which takes about a millisecond."""
 _HEADING = re.compile(r"\s*(time|t|x|y)\s*[(\[]([^)\]]+)[)\]]\s*", re.IGNORECASE)
+_SIZES = Part("peak", "PEAK", "acceleration"), Part("direction", "ANGLE", "angle")
 _ALLOWED = "a CSV file with a heading such as 'time (s),x (m/s^2),y (g)', of which x or y may be left out, and a row for each sample"
 
 
 @dataclass(frozen=True)
-class BaseRecord(Disturbance):
+class BaseRecord(BaseMotion):
     """The housing and its bearings move as recorded, from levitation; when the record ends the housing moves at constant velocity.
 
     Attributes
@@ -46,6 +47,8 @@ class BaseRecord(Disturbance):
         Accelerations of the housing along the axes of the fixed frame, in ``c_r Ω²``.
     name : str
         What it is called.
+    largest : float, optional
+        Largest peak acceleration to which it is scaled, in ``c_r Ω²``; by default that of the record.
 
     See Also
     --------
@@ -65,10 +68,11 @@ class BaseRecord(Disturbance):
     x: tuple[float, ...]
     y: tuple[float, ...]
     name: str = "record"
+    largest: float | None = None
     kind: ClassVar[str] = "base-record"
     noun: ClassVar[str] = "recorded base motions"
-    many: ClassVar[bool] = False
     example: ClassVar = "quake.csv"
+    turns_with_shaft: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -80,6 +84,8 @@ class BaseRecord(Disturbance):
             raise InputError("times", f"{len(self.times)} samples", allowed)
         if self.times[0] != 0.0 or not (np.diff(columns[0]) > 0.0).all() or not np.isfinite(columns).all():
             raise InputError("times", shown(self.times[:3]), "finite numbers that increase from 0")
+        if not self.peak > 0.0:
+            raise InputError("x, y", "zeros", "some acceleration")
 
     @classmethod
     def read_csv(cls, path: str | Path, machine: Subject) -> BaseRecord:
@@ -98,87 +104,81 @@ class BaseRecord(Disturbance):
 
     @classmethod
     def single_of(cls, text: str, scales: Scales | None, option: str) -> Single:
-        """The motion of a file, by its path."""
-        return Single(_read(text, scales, option), ())
+        """The motion of a file, by its path, perhaps with the peak acceleration to which it is scaled and the angle by which it is turned."""
+        path, *sizes = [text] if Path(text).exists() else map(str.strip, text.split(","))
+        found = _read(path, scales, option)
+        if len(sizes) > len(_SIZES):
+            raise InputError(option, printable(text), "must be FILE.csv[,PEAK[,ANGLE]] such as 'quake.csv,2 g,30 deg'")
+        stated = [read_part(option, part, each, scales) for part, each in zip(_SIZES, sizes, strict=False)]
+        peak, angle = (*stated, *(found.peak, 0.0)[len(stated) :])
+        if not peak > 0.0:
+            raise InputError(option, printable(text), "must have a peak above 0")
+        return Single(dataclasses.replace(found, largest=peak), (peak, angle))
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """None: all of it is stated."""
-        return ()
+        """Peak acceleration to which it is scaled, and angle by which it is turned."""
+        largest = self.peak if self.largest is None else self.largest
+        size = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, largest, "acceleration", True)
+        return size, angle_coordinate("direction", "angle by which the record is turned")
 
     @property
     def accelerations(self) -> np.ndarray:
         """Of the samples, complex: along x and, as imaginary part, y."""
         return np.array(self.x) + 1j * np.array(self.y)
 
+    @property
+    def peak(self) -> float:
+        """Largest acceleration of the samples, in ``c_r Ω²``."""
+        return float(np.abs(self.accelerations).max())
+
     def scaled(self, factor: float) -> BaseRecord:
         """Return the same with its accelerations multiplied by a factor."""
         x, y = (tuple(factor * each for each in axis) for axis in (self.x, self.y))
-        return dataclasses.replace(self, x=x, y=y)
+        return dataclasses.replace(self, x=x, y=y, largest=self.largest and factor * self.largest)
 
-    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
-        """A record is followed by :func:`carom.simulate` alone."""
-        raise InputError("disturbance", self.kind, "followed by carom.simulate")
+    @checked
+    def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
+        """See :meth:`carom.disturbances.Disturbance.rescaled`: all of it stays the same in SI units."""
+        if before is None or after is None or before == after:
+            return self
+        slower = before.acceleration / after.acceleration
+        times = tuple((np.array(self.times) * (before.time / after.time)).tolist())
+        x, y = (tuple(slower * each for each in axis) for axis in (self.x, self.y))
+        return dataclasses.replace(self, times=times, x=x, y=y, largest=self.largest and slower * self.largest)
 
-    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
-        """Return the machine in a stage for each interval of the record and then without, and its start at levitation.
-
-        Parameters
-        ----------
-        instant : float or str
-            Angle by which the shaft has turned when the record begins, rad, since the frame that turns with it coincided with the fixed one.
-
-        Raises
-        ------
-        InputError
-            The rotor cannot levitate inside the wall.
-        """
-        from carom.models import Stage, Trigger, in_stages, rotor_of
-        from carom.models.stages import stages_of
-        from carom.motions.starts import State
-
-        further = stages_of(rotor_of(machine))
-        rotor = further[0].rotor
-        rotor.system.require_levitation()
-        (begun,) = self.whole(values, instant, rotor.scales)
-        intervals = zip(self._moving(rotor, begun), np.diff(self.times).tolist(), strict=True)
-        stages = [Stage(moved, Trigger(time=duration)) for moved, duration in intervals]
-        return in_stages((*stages, *further)), State.of(*_first(rotor, begun), time=begun)
-
-    def _moving(self, rotor: Rotor, begun: float) -> list[Rotor]:
-        """The rotor in each interval."""
+    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
+        """A force that grows; one along each axis of anisotropic bearings, whose conjugates are no multiples by complex numbers."""
         from carom.models import Force
         from carom.models.mode_arrays import STEADY
 
-        times, values = np.array(self.times), self.accelerations
-        parts: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
-        slopes, along = np.diff(values) / np.diff(times), -rotor.carried_by_housing
-        # At time zero, as that of all forces.
-        starts = values[:-1] - slopes * (begun + times[:-1])
-        if rotor.is_anisotropic:  # whose conjugates are no multiples by complex numbers: one force along each axis
-            parts = ((starts.real, slopes.real, along), (starts.imag, slopes.imag, 1j * along))
-        else:
-            parts = ((starts, slopes, along),)
-        found = []
-        for place in range(len(slopes)):
-            acting = [Force(STEADY, a[place] * v, b[place] * v) for a, b, v in parts if a[place] or b[place]]
-            found.append(rotor.under(*acting) if acting else rotor)
-        return found
+        along = -turn * rotor.carried_by_housing
+        axes = (along, 1j * along) if rotor.is_anisotropic else (along,)
+        return tuple(Force(STEADY, axis, axis) for axis in axes)
+
+    def sections(self, rotor: Rotor) -> list[Section]:
+        """The intervals between samples."""
+        durations, values = np.diff(self.times), self.accelerations / self.peak
+        each = np.stack([np.diff(values) / durations, values[:-1]], axis=1)
+        if rotor.is_anisotropic:
+            each = np.concatenate([each.real, each.imag], axis=1)
+        return list(map(Section, durations.tolist(), each))
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
         """See :meth:`carom.disturbances.Disturbance.echo`."""
-        peak, scales = float(np.abs(self.accelerations).max()), rotor.scales
+        (peak, angle), scales = values, rotor.scales
+        turned = f", turned by {format_angle(angle)}" if angle else ""
+        scaled = "" if peak == self.peak else f" ({number(peak / self.peak)} times the record)"
         words = (
             f"Base motion {printable(self.name)}: {len(self.times)} samples over {format_quantity(self.times[-1], 'time', scales)}, linear in "
-            f"between, at most {format_quantity(peak, 'acceleration', scales)} along axes of the fixed frame; times count from its first sample"
+            f"between, at most {format_quantity(peak, 'acceleration', scales)}{scaled}{turned}, along axes of the fixed frame; times count from its first sample"
         )
-        return Echo(self.kind, words, {"peak": (peak, "acceleration"), "duration": (self.times[-1], "time")})
+        sizes = {"peak": (peak, "acceleration"), "duration": (self.times[-1], "time"), "angle": (angle, "")}
+        return Echo(self.kind, words, sizes | {"factor": (peak / self.peak, "")})
 
-
-def _first(rotor: Rotor, begun: float) -> tuple[np.ndarray, np.ndarray]:
-    """Levitation at an instant, as numbers of a rotor of one coordinate."""
-    position, velocity = rotor.system.kicked(0j, begun)
-    return (position[0], velocity[0]) if len(position) == 1 else (position, velocity)
+    def up_to_words(self, before: float | None, scales: Scales | None) -> str:
+        """See :meth:`carom.disturbances.Disturbance.up_to_words`."""
+        return f"{super().up_to_words(before, scales)} ({printable(self.name)}, {format_quantity(self.peak, 'acceleration', scales)} as recorded)"
 
 
 def _read(path: str | Path, scales: Scales | None, option: str) -> BaseRecord:

@@ -1,4 +1,4 @@
-"""Exact motion of a levitating rotor in a housing shaken by a half-sine pulse, contacts included.
+"""Exact motion of a levitating rotor in a housing that is shaken, contacts included: by half-sine pulses, or as recorded.
 
 The housing carries magnetic bearings and touchdown bearings.  With the coordinates ``Z`` of the rotor relative to it and the
 translation ``t`` of the rotor as a whole, all masses feel its acceleration ``a(τ) = â sin(ντ) e^{iα}``, ``ν = π/T``,
@@ -12,16 +12,18 @@ their own (:mod:`carom.models.forcing`),
 
     −t (â e^{iα}/2i) e^{s₁τ} + t (â e^{iα}/2i) e^{s₂τ},   s₁ = i(ν − 1),  s₂ = −i(ν + 1).
 
-So the certified flight, the impacts and the lasting contact of :mod:`carom.core` apply unchanged during the pulse, which is a
-stage of the motion.  At its end position and velocity are kept: the housing then moves at constant velocity.
+Of a record ``a`` is a constant and a ramp between two samples, a chain of two modes.  So the certified flight, the impacts and the lasting contact of
+:mod:`carom.core` apply unchanged during each section, which is a stage of one motion; many motions of one rotor are followed through the sections side by side,
+with the amplitudes of the forcing modes set where one begins.  At the end position and velocity are kept: the housing then moves at constant velocity.
 
-Limits: the housing is rigid and moves along a line.
+Limit: the housing is rigid.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -31,8 +33,8 @@ from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.settling import memory
-from carom.models import Force, Rotor, System
-from carom.models.mode_arrays import EQUAL, STEADY
+from carom.disturbances.base_motion import BaseMotion, Moved
+from carom.models import Rotor, System
 from carom.motions.ensembles import MOST_EVENTS
 
 LOGGED = 256
@@ -41,75 +43,64 @@ TOGETHER = 64
 """Shocks in one compiled call, in which Ctrl-C is not heard."""
 
 
-def shaken(rotor: Rotor, duration: float, size: complex, begins: float = 0.0) -> Rotor:
-    """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``, from a time."""
-    frequency, push = math.pi / duration, size * rotor.carried_by_housing
-    exponents = 1j * (frequency - 1.0), -1j * (frequency + 1.0)
-    first, second = (Force(each, cmath.exp(-each * begins) * push) for each in exponents)
-    return rotor.under(first._replace(accelerations=-first.accelerations), second)
-
-
-def states_after_shocks(
-    rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray | float = 0.0
+def states_after(
+    motion: BaseMotion, rotor: Rotor, sizes: np.ndarray, angles: np.ndarray, begins: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """State at the end of half-sine pulses on a rotor that levitates inside the wall.
+    """State at the end of motions of the base of a rotor that levitates inside the wall.
 
-    Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, durations and times at which the pulses begin in ``1/Ω``.  Return positions
+    Peak accelerations are in ``c_r Ω²``, angles in rad, times at which they begin in ``1/Ω``.  Return positions
     (on the wall where the rotor is in contact then) and velocities in the co-rotating frame, for ``n > 1`` coordinates
-    with a last axis of that length; the outcome that has ended the motion during the pulse, ``CLEAR`` where none has, and whether the wall was
-    reached during the pulse.
+    with a last axis of that length; the outcome that has ended the motion during it, ``CLEAR`` where none has, and whether the wall was
+    reached during it.
     """
-    begins = np.broadcast_to(begins, peaks.shape)
-    if rotor.system.is_anisotropic or rotor.system.shaft is not None:
-        return _states_one_by_one(rotor, peaks, duration, directions, begins)
-    system = shaken(rotor, duration, 1.0).system
-    at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))
-    # Levitation under weight goes round a circle; its amplitudes are those of the weight, whatever the shock.
-    (whole,) = system.amplitudes_of(np.concatenate(rotor.system.kicked(0.0))[None])
-    steady = np.where(np.abs(system.arrays["exponents"] - STEADY) <= EQUAL, system.outer, 0.0)
-    unit, weight = (whole - steady).tolist(), steady.tolist()
+    shape, turns = sizes.shape, motion.turns_with_shaft
+    each = zip(*(part.ravel().tolist() for part in np.broadcast_arrays(sizes, angles, begins)), strict=True)
     # Number by number: the last bit of array arithmetic depends on the place in the array.
-    sizes = [cmath.rect(*pair) / 2j for pair in zip(peaks.ravel().tolist(), directions.ravel().tolist(), strict=True)]
-    turns = [cmath.exp(STEADY * time) for time in begins.ravel().tolist()]
-    each = [
-        [size * value + turn * constant for value, constant in zip(unit, weight, strict=True)]
-        for size, turn in zip(sizes, turns, strict=True)
-    ]
-    motions = np.array(each, complex).reshape(-1, system.modes)
-    contacts, outcomes, events = _follow(system, motions, begins.ravel(), duration)
-    positions, velocities = np.split(_states(system.basis, motions) + at_rest, 2, axis=1)
+    given = [(size, cmath.rect(1.0, angle + begun * turns), begun) for size, angle, begun in each]
+    if rotor.system.is_anisotropic or rotor.system.shaft is not None:  # a direction is no factor then
+        groups = [(turn, [(size, begun)]) for size, turn, begun in given]
+    else:
+        groups = [(1.0, [(size * turn, begun) for size, turn, begun in given])] if given else []
+    found = [_after(motion, rotor, *group) for group in groups]
+    states, ended, touched = map(np.concatenate, zip(*found, strict=True)) if found else np.zeros((3, 0))
+    n = len(rotor.system.rest)
+    positions, velocities = np.split(np.reshape(states, (-1, 2 * n)), 2, axis=1)
+    whole = shape + ((n,) if n > 1 else ())
+    return positions.reshape(whole), velocities.reshape(whole), ended.reshape(shape), touched.reshape(shape)
+
+
+def _after(
+    motion: BaseMotion, rotor: Rotor, turn: complex, given: Sequence[tuple[complex, float]]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """States (m, 2n), outcomes and whether the wall was reached after motions along a direction, of these sizes from these times."""
+    sections, moved = motion.sections(rotor), Moved.by(rotor, motion.forces(rotor, turn))
+    system, (sizes, begins) = moved.rotor.system, map(np.array, zip(*given, strict=True))
+    quiet = moved.at(0.0 * sections[0].values, 0.0).system
+    motions = np.array(
+        [quiet.amplitudes_of(np.concatenate(rotor.system.kicked(0.0, begun))[None], begun)[0] for begun in begins]
+    )
+    contacts = np.full((len(motions), len(system.arrays["rows"])), AWAY)
+    outcomes, events, times = np.zeros(len(motions), np.int64), np.zeros(len(motions), np.int64), begins.copy()
+    for section in sections:
+        on = np.flatnonzero(outcomes == Outcome.CLEAR)
+        values = sizes[on, None] * np.exp(-1j * times[on])[:, None] * section.values * moved.units
+        going, touching = system.with_forcing(motions[on], moved.places, values), contacts[on]
+        outcomes[on], more = _follow(system, going, touching, times[on], section.duration)
+        motions[on], contacts[on] = going, touching
+        events[on] += more
+        times += section.duration
+    states = system.states_of(motions)
     if rotor.system.is_planar:
         touches = contacts[:, 0] != AWAY
-        positions[touches] /= np.abs(positions[touches])
-    shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
-    ended, touched = outcomes.reshape(peaks.shape), (events > 0).reshape(peaks.shape)
-    return positions.reshape(shape), velocities.reshape(shape), ended, touched
-
-
-def _states_one_by_one(
-    rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """:func:`states_after_shocks` where bearings are anisotropic or the shaft changes its speed: the motion is no multiple of that of another shock."""
-    found, ended, touched = [], [], []
-    for peak, direction, begun in zip(*(each.ravel().tolist() for each in (peaks, directions, begins)), strict=True):
-        system = shaken(rotor, duration, cmath.rect(peak, direction) / 2j, begun).system
-        motion = system.amplitudes_of(np.concatenate(rotor.system.kicked(0.0, begun))[None], begun)
-        _, outcomes, events = _follow(system, motion, np.array([begun]), duration)
-        found.append(system.states_of(motion)[0])
-        ended.append(outcomes[0])
-        touched.append(events[0] > 0)
-    positions, velocities = np.split(np.reshape(found, (-1, 2 * len(rotor.system.rest))), 2, axis=1)
-    shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
-    shaped = np.reshape(ended, peaks.shape), np.reshape(touched, peaks.shape)
-    return positions.reshape(shape), velocities.reshape(shape), *shaped
+        states[touches, 0] /= np.abs(states[touches, 0])
+    return states, outcomes, events > 0
 
 
 def _follow(
-    system: System, motions: np.ndarray, begins: np.ndarray, duration: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Follow amplitudes (m, N) through a pulse, in place; contacts (m, P) at its end, how it was ended, and numbers of events, both (m,)."""
+    system: System, motions: np.ndarray, contacts: np.ndarray, begins: np.ndarray, duration: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Follow amplitudes (m, N) and contacts (m, P) through a section, in place; how it was ended, and numbers of events, both (m,)."""
     planes, clocks = len(system.arrays["rows"]), np.mod(begins, TURN)
-    contacts = np.full((len(motions), planes), AWAY)
     outcomes, events = np.zeros((2, len(motions)), np.int64)
     tools = (
         EventLog.empty(LOGGED, system.modes, planes, system.limits),
@@ -120,14 +111,6 @@ def _follow(
     for first in range(0, len(motions), TOGETHER):
         here = slice(first, first + TOGETHER)
         given = clocks[here], duration, MOST_EVENTS, contacts[here]
-        advance_in_turn(system.arrays, system.table, motions[here], *given, *tools, outcomes[here], events[here])
+        advance_in_turn(*system.own_records(), motions[here], *given, *tools, outcomes[here], events[here])
     outcomes[outcomes == Outcome.TIME_REACHED] = Outcome.CLEAR
-    return contacts, outcomes, events
-
-
-def _states(basis: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
-    """States of amplitudes (M, N), summed mode by mode: the last bit of a product of matrices depends on the place in it."""
-    states = np.zeros((len(amplitudes), len(basis)), complex)
-    for column, values in zip(basis.T, amplitudes.T, strict=True):
-        states += values[:, None] * column
-    return states
+    return outcomes, events

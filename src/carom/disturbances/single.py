@@ -105,7 +105,7 @@ class Part(NamedTuple):
     called: str
     """What errors and help call it, such as ``"SPEED"``."""
     kind: str
-    """Property of :class:`~carom.parameters.Scales` that gives its unit, ``"angle"``, or ``"node"``."""
+    """Property of :class:`~carom.parameters.Scales` that gives its unit, ``"angle"``, ``"node"`` or ``"count"``."""
     usual: float | None = None
     """What it is where the text ends before it, in SI units (of a node, the only one there is); ``None`` if it must be stated."""
     optional: bool = True
@@ -165,13 +165,13 @@ def read_single(model: type[Disturbance], text: str, scales: Scales | None, opti
     if len(given) < len(parts) and scales is None and parts[len(given)].usual:
         raise InputError(option, text, allowed)  # what is usual is in SI units
     found: dict[str, float | None] = {
-        part.name: _number(option, part, each, scales, model.bare) for part, each in zip(parts, given, strict=False)
+        part.name: read_part(option, part, each, scales, model.bare) for part, each in zip(parts, given, strict=False)
     }
     for part in parts[len(given) :]:
         usual = part.usual
         found[part.name] = usual / float(getattr(scales, part.kind)) if usual else usual
     fields = {each.name for each in dataclasses.fields(model)}
-    stated: dict[str, Any] = {name: value for name, value in found.items() if name in fields}
+    stated: dict[str, Any] = {name: value for name, value in found.items() if name in fields and value is not None}
     try:
         made = model(**stated)
         # A size that is a field is that of the disturbance itself.
@@ -194,12 +194,17 @@ _OWN = "0.4,0.2"
 """Sizes with an angle of a machine in units of the equations."""
 
 
-def _number(option: str, part: Part, text: str, scales: Scales | None, bare: bool) -> float:
-    """The number of a part, in units of the equations; where the scales are known it needs a unit, but an angle of zero."""
-    if part.kind == "node":
+def read_part(option: str, part: Part, text: str, scales: Scales | None, bare: bool = False) -> float:
+    """Read the number of a part, in units of the equations; where the scales are known it needs a unit, but an angle of zero."""
+    if part.kind in ("node", "count"):
         number = text.removeprefix("node").strip()
         if not number.isdecimal():
-            raise InputError(option, text, "must be the number of a node, from 0 on, such as 'node 7'")
+            whole = (
+                "the number of a node, from 0 on, such as 'node 7'"
+                if part.kind == "node"
+                else f"a whole number for {part.called}, such as 3"
+            )
+            raise InputError(option, text, f"must be {whole}")
         return int(number)
     if part.kind == "angle" and not text.strip("0."):
         return 0.0

@@ -21,7 +21,7 @@ from carom.parameters.formats import format_entry, format_quantity, number, own_
 from carom.parameters.indentation import indentation_of_force, indentation_of_impact, is_compliant
 from carom.parameters.numbers import own_numbers
 
-SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
+SIZES = {"kick": "velocity", "shock": "acceleration", "base_record": "acceleration", "blade_loss": "unbalance"}
 """What the size of a kick, a shock or a loss of a blade is."""
 _UNTOLD = ("phi", "radius_ratio")
 """Numbers that a line of present values leaves out."""

@@ -1,0 +1,142 @@
+"""What moves the base of a levitating rotor: the parts that shocks and records share.
+
+The acceleration of the base is a course of sections.  In each it is a half-sine, or a constant and a ramp, so that all sections have the same forcing modes
+with other amplitudes, and the modes of the rotor are found once (:mod:`carom.disturbances.shocks`).
+"""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+import numpy as np
+
+from carom.disturbances.coordinates import Starts, displaced
+from carom.disturbances.model import Disturbance
+
+if TYPE_CHECKING:
+    from carom.models import Force, Rotor, Subject
+    from carom.motions.starts import State
+
+
+class Section(NamedTuple):
+    """A part of a course.
+
+    Attributes
+    ----------
+    duration : float
+        In ``1/Ω``.
+    values : ndarray
+        At its beginning, in the fixed frame, relative to the size: one factor of all forces, or of each force that grows its rate and its value.
+    """
+
+    duration: float
+    values: np.ndarray
+
+
+class Moved(NamedTuple):
+    """A rotor under forces of one along the motion of its base, the places of their modes, and the amplitudes of these at time zero."""
+
+    rotor: Rotor
+    forces: tuple[Force, ...]
+    places: np.ndarray
+    units: np.ndarray
+
+    @classmethod
+    def by(cls, rotor: Rotor, forces: tuple[Force, ...]) -> Moved:
+        """A rotor under these forces: all of them grow, or none does."""
+        from carom.models.mode_arrays import EQUAL
+
+        moved = rotor.under(*forces)
+        system = moved.system
+        if forces[0].rates is None:
+            apart = np.abs(system.arrays["exponents"][:, None] - [force.exponent for force in forces]).min(axis=1)
+            places = np.flatnonzero((apart <= EQUAL * (1.0 + abs(forces[0].exponent))) & (system.outer != 0.0))
+        else:
+            places = np.flatnonzero(system.ramps | np.roll(system.ramps, -1))
+        return cls(moved, forces, places, system.outer[places])
+
+    def at(self, values: np.ndarray, time: float) -> Rotor:
+        """The rotor in a section with these values, which begins at a time."""
+        if self.forces[0].rates is None:
+            factors = values * np.exp(-(1j + self.rotor.system.arrays["exponents"][self.places]) * time)
+            acting = [
+                force._replace(accelerations=force.accelerations * values[0] * cmath.exp(-(1j + force.exponent) * time))
+                for force in self.forces
+            ]
+        else:
+            slopes, starts = values[::2], values[1::2] - values[::2] * time
+            factors = np.stack([slopes, starts], axis=1).ravel()
+            acting = [
+                force._replace(accelerations=force.accelerations * start, rates=force.accelerations * slope)
+                for force, start, slope in zip(self.forces, starts, slopes, strict=True)
+            ]
+        return self.rotor.with_amplitudes(acting, self.places, self.units * factors)
+
+
+@dataclass(frozen=True)
+class BaseMotion(Disturbance):
+    """Base class of disturbances that move the base; their coordinates are the peak acceleration and an angle."""
+
+    kind: ClassVar[str] = ""
+    turns_with_shaft: ClassVar[bool] = True
+    """Whether the angle counts from the axes that turn with the shaft, at the instant when it begins, or from those of the fixed frame."""
+
+    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
+        """Forces of one on a rotor when the base moves along a direction, a complex number of modulus one."""
+        raise NotImplementedError
+
+    def sections(self, rotor: Rotor) -> list[Section]:
+        """The course, of a peak acceleration of one, for the forces on a rotor."""
+        raise NotImplementedError
+
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+        """State at the end of the motion of the base, which begins at the instant."""
+        from carom.disturbances.shocks import states_after
+        from carom.models.stages import stages_of
+
+        sizes, angles, begun = np.broadcast_arrays(*values, instant)
+        if rotor.system.rest_radius >= 1.0:
+            return displaced(rotor, np.zeros(sizes.shape, complex), np.zeros(sizes.shape), False)
+        if rotor.system.is_externally_forced:
+            rotor.system.refuse_non_stationary()
+        *states, ended, touched = states_after(self, stages_of(rotor)[0].rotor, sizes, angles, begun)
+        lasts = sum(section.duration for section in self.sections(rotor))
+        begins = begun + lasts if rotor.depends_on_instant else np.zeros(sizes.shape)
+        return Starts(states[0], states[1], np.ones(sizes.shape, bool), ended, touched, begins)
+
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
+        """Return the machine in a stage for each section and then without, and its start at levitation, for :func:`carom.simulate`.
+
+        Contacts during the motion of the base are part of the motion.  Stages of the machine begin when it is over.  A machine with weight
+        levitates about its static sag when it begins.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+        *values : float or str
+            Peak acceleration, by default the largest, and angle, by default 0.
+        instant : float or str
+            Angle by which the shaft has turned when it begins, rad, since the frame that turns with it coincided with the fixed
+            one: under weight it says where this points.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall.
+        """
+        from carom.models import Stage, Trigger, in_stages, rotor_of
+        from carom.models.stages import stages_of
+        from carom.motions.starts import State
+
+        further = stages_of(rotor_of(machine))
+        rotor = further[0].rotor
+        size, angle, begun = self.whole(values, instant, rotor.scales)
+        rotor.system.require_levitation()
+        moved = Moved.by(rotor, self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft)))
+        stages, time = list[Stage](), begun
+        for section in self.sections(rotor):
+            stages.append(Stage(moved.at(size * section.values, time), Trigger(time=section.duration)))
+            time += section.duration
+        return in_stages((*stages, *further)), State.of(*rotor.system.kicked(0j, begun), time=begun)
