@@ -21,58 +21,10 @@ if TYPE_CHECKING:
 
 
 class Section(NamedTuple):
-    """A part of a course.
-
-    Attributes
-    ----------
-    duration : float
-        In ``1/Ω``.
-    values : ndarray
-        At its beginning, in the fixed frame, relative to the size: one factor of all forces, or of each force that grows its rate and its value.
-    """
+    """A part of a course: its duration in ``1/Ω``, and its values at its beginning for a peak of one (:mod:`carom.models.forcing_modes`)."""
 
     duration: float
     values: np.ndarray
-
-
-class Moved(NamedTuple):
-    """A rotor under forces of one along the motion of its base, the places of their modes, and the amplitudes of these at time zero."""
-
-    rotor: Rotor
-    forces: tuple[Force, ...]
-    places: np.ndarray
-    units: np.ndarray
-
-    @classmethod
-    def by(cls, rotor: Rotor, forces: tuple[Force, ...]) -> Moved:
-        """A rotor under these forces: all of them grow, or none does."""
-        from carom.models.mode_arrays import EQUAL
-
-        moved = rotor.under(*forces)
-        system = moved.system
-        if forces[0].rates is None:
-            apart = np.abs(system.arrays["exponents"][:, None] - [force.exponent for force in forces]).min(axis=1)
-            places = np.flatnonzero((apart <= EQUAL * (1.0 + abs(forces[0].exponent))) & (system.outer != 0.0))
-        else:
-            places = np.flatnonzero(system.ramps | np.roll(system.ramps, -1))
-        return cls(moved, forces, places, system.outer[places])
-
-    def at(self, values: np.ndarray, time: float) -> Rotor:
-        """The rotor in a section with these values, which begins at a time."""
-        if self.forces[0].rates is None:
-            factors = values * np.exp(-(1j + self.rotor.system.arrays["exponents"][self.places]) * time)
-            acting = [
-                force._replace(accelerations=force.accelerations * values[0] * cmath.exp(-(1j + force.exponent) * time))
-                for force in self.forces
-            ]
-        else:
-            slopes, starts = values[::2], values[1::2] - values[::2] * time
-            factors = np.stack([slopes, starts], axis=1).ravel()
-            acting = [
-                force._replace(accelerations=force.accelerations * start, rates=force.accelerations * slope)
-                for force, start, slope in zip(self.forces, starts, slopes, strict=True)
-            ]
-        return self.rotor.with_amplitudes(acting, self.places, self.units * factors)
 
 
 @dataclass(frozen=True)
@@ -127,6 +79,7 @@ class BaseMotion(Disturbance):
             The rotor cannot levitate inside the wall.
         """
         from carom.models import Stage, Trigger, in_stages, rotor_of
+        from carom.models.forcing_modes import ForcingModes
         from carom.models.stages import stages_of
         from carom.motions.starts import State
 
@@ -134,7 +87,7 @@ class BaseMotion(Disturbance):
         rotor = further[0].rotor
         size, angle, begun = self.whole(values, instant, rotor.scales)
         rotor.system.require_levitation()
-        moved = Moved.by(rotor, self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft)))
+        moved = ForcingModes.of(rotor, self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft)))
         stages, time = list[Stage](), begun
         for section in self.sections(rotor):
             stages.append(Stage(moved.at(size * section.values, time), Trigger(time=section.duration)))

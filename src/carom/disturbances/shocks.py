@@ -33,8 +33,9 @@ from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.settling import memory
-from carom.disturbances.base_motion import BaseMotion, Moved
+from carom.disturbances.base_motion import BaseMotion
 from carom.models import Rotor, System
+from carom.models.forcing_modes import ForcingModes
 from carom.motions.ensembles import MOST_EVENTS
 
 LOGGED = 256
@@ -73,7 +74,7 @@ def _after(
     motion: BaseMotion, rotor: Rotor, turn: complex, given: Sequence[tuple[complex, float]]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """States (m, 2n), outcomes and whether the wall was reached after motions along a direction, of these sizes from these times."""
-    sections, moved = motion.sections(rotor), Moved.by(rotor, motion.forces(rotor, turn))
+    sections, moved = motion.sections(rotor), ForcingModes.of(rotor, motion.forces(rotor, turn))
     system, (sizes, begins) = moved.rotor.system, map(np.array, zip(*given, strict=True))
     quiet = moved.at(0.0 * sections[0].values, 0.0).system
     motions = np.array(
@@ -83,8 +84,8 @@ def _after(
     outcomes, events, times = np.zeros(len(motions), np.int64), np.zeros(len(motions), np.int64), begins.copy()
     for section in sections:
         on = np.flatnonzero(outcomes == Outcome.CLEAR)
-        values = sizes[on, None] * np.exp(-1j * times[on])[:, None] * section.values * moved.units
-        going, touching = system.with_forcing(motions[on], moved.places, values), contacts[on]
+        going = moved.set_in(motions[on], sizes[on, None] * section.values, times[on])
+        touching = contacts[on]
         outcomes[on], more = _follow(system, going, touching, times[on], section.duration)
         motions[on], contacts[on] = going, touching
         events[on] += more

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
@@ -267,13 +267,6 @@ class Rotor(Result):
         rotor = dataclasses.replace(self, forces=(*self.forces, *more))
         if not (self.carried_by_bias and any(map(is_steady, more))):
             rotor.__dict__["_before"] = self, more
-        return rotor
-
-    def with_amplitudes(self, forces: Sequence[Force], places: np.ndarray, amplitudes: np.ndarray) -> Rotor:
-        """The rotor with these in place of its last forces, which have the same modes, with other amplitudes at time zero: these are not found again."""
-        kept = self.forces[: len(self.forces) - len(forces)]
-        rotor = dataclasses.replace(self, forces=(*kept, *forces))
-        rotor.__dict__["system"] = self.system.with_forced(places, amplitudes)
         return rotor
 
     def under_gravity(self, gravity: Gravity) -> Rotor:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, Self
@@ -227,37 +226,12 @@ class System(ModeArrays, BesideModes):
         """How nodes of orbits follow from amplitudes, of a rotor that :meth:`refuse_non_stationary` lets pass."""
         return Nodes.under(self.forced, self.basis, self.to_modes, self._whole_rest)
 
-    @cached_property
-    def ramps(self) -> np.ndarray:
-        """Which modes are those of forces that grow, each after its rate, shape (N,)."""
-        ramps: np.ndarray = self.arrays["driven"].astype(bool) & ~self.free
-        return ramps
-
-    def with_forced(self, places: np.ndarray, amplitudes: np.ndarray) -> System:
-        """The system whose forcing modes at these places have other amplitudes at time zero; it shares everything else."""
-        found = copy(self)
-        vars(found)["forced"] = np.copy(self.forced_at(0.0))
-        vars(found)["forced"][places] = amplitudes
-        for name in ("outer", "nodes"):
-            vars(found).pop(name, None)
-        return found
-
-    def with_forcing(self, motions: np.ndarray, places: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
-        """Amplitudes (m, N) of the same states with others (m, F) of the forcing modes at these places."""
-        change = np.zeros_like(motions)
-        change[:, places] = amplitudes - motions[:, places]
-        away = -np.einsum("nk,mk->mn", self.basis, change)
-        found: np.ndarray = motions + change + np.einsum("nk,mk->mn", self.to_modes, away)
-        if self.conjugate_modes is not None:
-            turned = np.einsum("nk,mk->mn", self.conjugate_modes, away.conj())
-            found += turned * motions[:, self.arrays["anisotropy"]]
-        return found
-
     def forced_at(self, time: float) -> np.ndarray:
         """Amplitudes at rest at a time: those of the forcing modes, and zeros; shape (N,)."""
         if self.forced is None:
             return np.zeros(self.modes, complex)
-        forced = self.forced + self.ramps * np.roll(self.outer, 1) * time
+        ramps = self.arrays["driven"].astype(bool) & ~self.free  # of a force that grows, each after its rate
+        forced = self.forced + ramps * np.roll(self.outer, 1) * time
         # Other modes may grow beyond all numbers by then.
         return forced * np.exp(np.where(forced, self.arrays["exponents"], 0.0) * time)
 
