@@ -16,20 +16,20 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3519,
-    "models": 2227,
+    "models": 2279,
     "core": 6613,
-    "motions disturbances": 4114,
+    "motions disturbances": 4174,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2197,
     "studies": 3403,
-    "cli plots report": 5407,
+    "cli plots report": 5421,
     "rotors": 4149,
     "proofs": 5902,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 37_387, 291
+TESTS, ANY = 37_459, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""

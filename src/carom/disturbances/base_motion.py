@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from carom.motions.starts import State
 
 
-class Section(NamedTuple):
+class BaseSection(NamedTuple):
     """A part of a course: its duration in ``1/Ω``, and its values at its beginning for a peak of one (:mod:`carom.models.forcing_modes`)."""
 
     duration: float
@@ -39,7 +39,7 @@ class BaseMotion(Disturbance):
         """Forces of one on a rotor when the base moves along a direction, a complex number of modulus one."""
         raise NotImplementedError
 
-    def sections(self, rotor: Rotor) -> list[Section]:
+    def sections(self, rotor: Rotor) -> list[BaseSection]:
         """The course, of a peak acceleration of one, for the forces on a rotor."""
         raise NotImplementedError
 

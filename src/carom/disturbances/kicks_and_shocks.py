@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.disturbances.base_motion import BaseMotion, Section
+from carom.disturbances.base_motion import BaseMotion, BaseSection
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.single import Echo, Part, Single, angles_words
@@ -243,9 +243,9 @@ class BaseShock(BaseMotion):
         frequency, push = math.pi / self.duration, turn / 2j * rotor.carried_by_housing
         return Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)
 
-    def sections(self, rotor: Rotor) -> list[Section]:
+    def sections(self, rotor: Rotor) -> list[BaseSection]:
         """Pulses, with pauses between them."""
-        pulse, pause = Section(self.duration, np.ones(1)), Section(self.pause, np.zeros(1))
+        pulse, pause = BaseSection(self.duration, np.ones(1)), BaseSection(self.pause, np.zeros(1))
         between = [pause, pulse] if self.pause else [pulse]
         return [pulse, *between * (self.pulses - 1)]
 

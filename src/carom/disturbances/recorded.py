@@ -19,7 +19,7 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, printable, shown
-from carom.disturbances.base_motion import BaseMotion, Section
+from carom.disturbances.base_motion import BaseMotion, BaseSection
 from carom.disturbances.coordinates import Coordinate, angle_coordinate
 from carom.disturbances.single import Echo, Part, Single, read_part
 from carom.parameters import Scales, read_size
@@ -156,13 +156,13 @@ class BaseRecord(BaseMotion):
         axes = (along, 1j * along) if rotor.is_anisotropic else (along,)
         return tuple(Force(STEADY, axis, axis) for axis in axes)
 
-    def sections(self, rotor: Rotor) -> list[Section]:
+    def sections(self, rotor: Rotor) -> list[BaseSection]:
         """The intervals between samples."""
         durations, values = np.diff(self.times), self.accelerations / self.peak
         each = np.stack([np.diff(values) / durations, values[:-1]], axis=1)
         if rotor.is_anisotropic:
             each = np.concatenate([each.real, each.imag], axis=1)
-        return list(map(Section, durations.tolist(), each))
+        return list(map(BaseSection, durations.tolist(), each))
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
         """See :meth:`carom.disturbances.Disturbance.echo`."""

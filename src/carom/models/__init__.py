@@ -17,6 +17,7 @@
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``turning``               :class:`Race`: a race that turns; :class:`Shaft`: a shaft whose speed changes
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
+``forcing_modes``         forces of a base that moves in sections: their modes, found once
 ``stages``                :func:`in_stages`: a rotor that changes when a trigger ends a stage
 ``subjects``              :func:`rotor_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
