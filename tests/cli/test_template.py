@@ -6,6 +6,7 @@ import pytest
 
 import carom as cm
 from carom.cli.app import BAD_INPUT, main
+from carom.parameters.ball_heat import OF_HEAT, OF_TORQUE
 from carom.parameters.tables import DRIVE_FIELDS, GRAVITY_FIELDS, LIMIT_FIELDS, LoadLimits
 from carom.parameters.terms import ENTRIES
 from carom.rotors.part_tables import PARTS, ROTOR_ENTRIES
@@ -131,6 +132,8 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
         "longest",
         "accuracy",
         *SUPPORT,
+        *OF_TORQUE,
+        *OF_HEAT,
     )
     parts = text.partition("# [survive]")[0]
     lines = [each for each in re.findall(r"^# (\w+ = .*)$", parts, flags=re.MULTILINE) if not each.startswith(others)]
@@ -138,6 +141,16 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
     for line in lines:
         path.write_text(text.replace(f"# {line}", line, 1), encoding="utf-8")
         cm.rotors.load_machine(path)
+
+
+def test_all_of_a_ball_bearing_loads(tmp_path, text):
+    path, begin = tmp_path / "mine.toml", text.index("# balls = 12")
+    block = text[begin : text.index("[[touchdown]]", begin)]
+    stated = re.sub("^# (?!mount_damping|preload|running)", "", block, flags=re.MULTILINE)
+    path.write_text(text.replace(block, stated, 1), encoding="utf-8")
+    bearing = cm.load(path).parameters.definition.bearing_at(0)
+    assert {*OF_HEAT, "starting_torque", "viscosity", "mount_loss_factor"} <= bearing.given.keys()
+    assert cm.motions.thermal_network(bearing).conductances.diagonal() == pytest.approx([3.0, 1.5, 1.0, 5.5], rel=1e-15)
 
 
 def test_nothing_is_overwritten_and_other_kinds_are_refused(tmp_path, capsys):

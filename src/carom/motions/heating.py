@@ -151,7 +151,7 @@ class RaceRun(NamedTuple):
     torque: float | None = None
     """Torque of the balls at the peak force and the speed at the end, N m."""
     neglected: float | None = None
-    """What that takes beyond the drag that acts in the motion, over the work that friction does on the race."""
+    """What that takes beyond the drag that acts in the motion, over the work on the race: that of the drag, and what its fastest speed holds."""
     drag: float | None = None
     """``race_drag`` that takes as much as that torque in this motion, N m s."""
     starts_at: float | None = None
@@ -171,20 +171,22 @@ class RaceRun(NamedTuple):
 
 
 def race_run(
-    last: Trajectory, record: HeatRecord, speeds: tuple[float, float], up_to_speed_at: float | None, force: float
+    last: Trajectory, record: HeatRecord, speeds: tuple[float, float, float], up_to_speed_at: float | None, force: float
 ) -> RaceRun:
-    """How a race was turned in a recorded motion, by its surface speeds at the beginning and the end, and the peak force, N."""
+    """How a race was turned in a recorded motion, by its surface speed at the beginning, the fastest, and that at the end, and the peak force, N."""
     race, bearing, scales = last.rotor.races[last.plane], last.rotor.definition.bearing_at(last.plane), last.scales
     if race is None:
         return RaceRun()
-    began, ends = (each / race.radius for each in speeds)
+    began, fastest, ends = (each / race.radius for each in speeds)
     spin = float(shaft_speed(last.rotor.system, last.last_amplitudes))
     found = RaceRun(ends / spin if spin else None, up_to_speed_at=up_to_speed_at)
     if bearing is None or scales is None:
         return found
     *_, heat, turned = record.pieces.sum(axis=0).tolist()
     friction, radius = float(last.rotor.system.arrays.friction[last.plane]), race.radius * scales.length
-    work = 0.5 * race.inertia * (ends**2 - began**2) * scales.energy + (dragged := (bearing.race_drag or 0.0) * turned)
+    work = 0.5 * race.inertia * (fastest**2 - began**2) * scales.energy + (
+        dragged := (bearing.race_drag or 0.0) * turned
+    )
     found = found._replace(
         heat=heat / scales.energy,
         starts_at=bearing.starting_torque and friction and bearing.starting_torque / (friction * radius),
@@ -339,13 +341,15 @@ class Temperatures(Result):
         """Temperatures and growth in rows for people."""
         parts = ", ".join(f"{name} {number(value, 3)} °C" for name, value in self.at_end.items())
         when = float(self.times[int(self.values.max(axis=1).argmax())])
-        found = [
+        flows = any(value for name, value in self.bearing.given.items() if name.endswith("conductance"))
+        return [
+            ("temperatures at the end", f"{parts}{'' if flows else '; without heat flow between them'}"),
             (
-                "temperatures at the end",
-                f"{parts}; highest {number(self.highest, 3)} °C, {self.hottest}, {number(1e3 * when, 3)} ms after the release",
-            )
+                "highest temperature",
+                f"{number(self.highest, 3)} °C, {self.hottest}, {number(when, 3)} s after the release",
+            ),
+            ("growth by heat", self._growth_words),
         ]
-        return [*found, ("growth by heat", self._growth_words)]
 
     @property
     def _growth_words(self) -> str:

@@ -260,7 +260,7 @@ class _AtPlane:
             turning=race_run(
                 last,
                 self.heating,
-                (self.race_began or 0.0, at_end),
+                (self.race_began or 0.0, self.race, at_end),
                 self.up_to_speed_at,
                 force * (scales.force if scales else 0.0),
             ),

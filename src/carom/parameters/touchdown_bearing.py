@@ -134,7 +134,7 @@ class TouchdownBearing(BallHeat):
     dynamic_rating, static_rating : float or str, optional
         Dynamic and static load rating ``C`` and ``C_0`` of the catalogue, N: a landing has a share of the life, and a static limit.
     **others
-        Torque and temperatures: those of :class:`carom.parameters.ball_heat.BallHeat`.
+        Torque and temperatures, by keyword alone: ``starting_torque`` to ``temperature`` of the machine file.
 
     Raises
     ------
