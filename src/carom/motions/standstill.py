@@ -21,6 +21,7 @@ from carom.models import Rotor, Subject, rotor_of
 from carom.models.planar import shaft_of
 from carom.models.stages import stages_of
 from carom.models.turning import Shaft
+from carom.motions.budget import present_question
 from carom.motions.descent import TINY, Descent, Modes, Torques
 from carom.motions.load_sums import loads_of
 from carom.motions.loads import DropLoads
@@ -160,7 +161,8 @@ def spin_down(
         before, falling, drive or (machine.drive if isinstance(machine, Case) else None)
     )
     limit = LONGEST if until is None else own_time("until", until, before.scales)
-    following = Following(False, False, PATIENCE, max_events, Reporter())
+    question = present_question()
+    following = Following(False, False, PATIENCE, int(min(max_events, question.left)), Reporter())
     tell = Reporter.of(progress, "slowing down")
     in_steps = not shaft.turns_freely or bool(gyroscopic.any())
 
@@ -175,6 +177,7 @@ def spin_down(
         for _ in coarse.follow(state):
             pass
         error = ERROR_FACTOR * fine.change_to(coarse)
+    question.follow(fine.events)
     return SpinDown(
         loads=loads,
         time=fine.time,

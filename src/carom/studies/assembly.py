@@ -36,6 +36,7 @@ from carom.studies.findings import facts_of
 from carom.studies.levitating import levitating
 from carom.studies.questions import Fact
 from carom.studies.recovery import Recovery, find_recovery
+from carom.studies.standstill import spin_down_of
 from carom.studies.study_data import StudyData
 from carom.studies.survives import FullSize, Survives, at_full_size, comes_to_rest, decides, survives, unrecovered_kinds
 from carom.studies.trials import Check, check_recovery, in_all
@@ -311,5 +312,8 @@ CONTRIBUTORS = (
     Contributor("recoveries", "recovery along parameters", 0.4, _recoveries),
     Contributor("recommendation", "the least change", 0.05, _recommendation, question=questions.CHANGE),
     Contributor("drop", "the drop", 0.02, lambda asked, _: drop_of(asked.case), _returns, questions.DROP),
+    Contributor(
+        "spin_down", "the spin-down", 0.05, lambda asked, _: spin_down_of(asked.case), _returns, questions.SPIN_DOWN
+    ),
 )
 """The parts of a study, in the order in which they are asked; later ones use what earlier ones have found."""

@@ -20,6 +20,7 @@ from carom.rotors import ReducedMachine
 from carom.studies.advice import GAIN_FACTOR, Change, evidence_of
 from carom.studies.levitating import bearing_facts, levitation_facts
 from carom.studies.questions import LABELS, UNFINISHED, Evidence, Fact
+from carom.studies.standstill import spin_down_facts
 from carom.studies.study_data import StudyData
 from carom.studies.summaries import ranges_along
 from carom.studies.verdict import proven_words, verdict_facts
@@ -88,6 +89,7 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
         yield Fact("Magnetic bearings", study.bearing_demand.words, values=study.bearing_demand.document())
     yield from load_facts(study)
     yield from drop_facts(study)
+    yield from spin_down_facts(study.spin_down)
     yield from accuracy_facts(study)
     yield from unfinished_facts(study)
     yield from (Fact("Not covered", text) for text in not_covered(study))

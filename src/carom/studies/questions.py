@@ -26,6 +26,7 @@ SMALLEST = "the smallest {} that do not come back"
 ALONG = "recovery along {}"
 CHANGE = "the least change"
 FULL_SIZE, DROP = "required disturbances at full size, in all directions", "the drop"
+SPIN_DOWN = "the spin-down"
 EVENTS = {
     DESCRIBED: 100_000,
     PRESENT: 300_000,
@@ -36,8 +37,9 @@ EVENTS = {
     CHANGE: 100_000,
     FULL_SIZE: 100_000,
     DROP: 20_000,
+    SPIN_DOWN: 100_000,
 }
-"""Events of each question, some 1.3 million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
+"""Events of each question, some 1.4 million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
 UNFINISHED = "question=words followed asked"
 FEW_MODES, MANY_MODES = 4, 16
 """Modes up to which an event costs about the same, of more it costs in proportion, and so many fewer are followed; and modes above which searches are coarser."""

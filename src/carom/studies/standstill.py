@@ -3,11 +3,37 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
+from carom.base.outcome import InputError
 from carom.base.results import record
-from carom.motions import SpinDown
+from carom.disturbances import drop
+from carom.motions import SpinDown, spin_down
+from carom.parameters import Case
 from carom.parameters.formats import number
+from carom.studies.questions import Fact
 from carom.studies.wording import Wording
+
+STEPS = 50
+"""Steps of speed of a spin-down in a study."""
+
+
+def spin_down_of(case: Case) -> SpinDown | None:
+    """Levitation lost, followed until the shaft stands; ``None`` of a machine that cannot fall, or whose file has no table ``[drive]``."""
+    if case.drive is None:
+        return None
+    try:
+        return spin_down(case, drop(), steps=STEPS)
+    except InputError:
+        return None
+
+
+def spin_down_facts(slowed: SpinDown | None) -> Iterator[Fact]:
+    """All of a spin-down as one list: time and turns, energies, the largest whirl with its speed, what is passed, and the error."""
+    if slowed is not None:
+        yield Fact("Spin-down", standstill_words(slowed), evidence="sampled", values=spin_down_entries(slowed))
+        rows = "; ".join(f"{label}: {words}" for label, words in spin_down_rows(slowed))
+        yield Fact("Spin-down", f"{rows[0].upper()}{rows[1:]}.")
 
 
 def standstill_words(slowed: SpinDown) -> str:
@@ -49,8 +75,8 @@ def spin_down_rows(slowed: SpinDown) -> list[tuple[str, str]]:
     )
     torque, speed, energy = slowed.unbalance_torque
     if torque and slowed.scales:
-        size = f"up to {number(torque * slowed.scales.energy, 3)} N m in the mean of a step, at {say.write(speed, 'speed')}"
-        rows.append(("torque of unbalance", f"left out: {size}, {say.write(energy, 'energy')} in all"))
+        size = f"up to {number(abs(torque) * slowed.scales.energy, 3)} N m in the mean of a step, at {say.write(speed, 'speed')}"
+        rows.append(("torque of unbalance", f"left out: {size}; it would take {say.write(energy, 'energy')} in all"))
     return [*rows, ("error", f"{estimated}; left out: rolling resistance")]
 
 

@@ -17,7 +17,7 @@ from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.exact_results import ExactResults, exact_results
 from carom.core.limits import WITHIN
 from carom.models import Rotor, rotor_of
-from carom.motions import simulate
+from carom.motions import SpinDown, simulate
 from carom.motions.budget import Question
 from carom.orbits import Orbit, OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, ControlLimit, Required
@@ -101,6 +101,8 @@ class StudyData(Result):
         What must be survived at its full size in all directions, and what the touchdown bearings bear in it; empty without stable levitation.
     drop : DropStudy or None
         Levitation lost, with the weight that is stated, or that of free fall; ``None`` where none is possible.
+    spin_down : carom.motions.SpinDown or None
+        The same followed until the shaft stands, within the events of the study; ``None`` also without a table ``[drive]``.
     recoveries : tuple of Recovery
         Along damping and along stiffness, or other parameters: for which values each motion exists, and at which all that must be survived came back.
     recommendation : Recommendation
@@ -126,6 +128,7 @@ class StudyData(Result):
     present: Check | None = None
     full_size: tuple[FullSize, ...] = ()
     drop: DropStudy | None = None
+    spin_down: SpinDown | None = None
     unfinished: tuple[Question, ...] = ()
     proof: Any = None
     kicks: Any = None
