@@ -109,9 +109,8 @@ def test_levitation_is_lost_along_both_axes_and_regained(path):
     )
 
 
-def test_limits_and_half_a_second_axis_are_refused(path):
-    path.write_text(TEXT.replace('ki = "819.10 N/A"', 'ki = "819.10 N/A"\ncurrent_limit = "5 A"', 1), encoding="utf-8")
+def test_what_a_second_axis_cannot_be_is_refused(path):
+    path.write_text(TEXT.replace(SECOND, '[magnetic_bearing.y]\ncurrent_limit = "5 A"\n'), encoding="utf-8")
     assert_refused(
-        lambda: load_machine(path),
-        r"^\[\[magnetic_bearing\]\] 1: current_limit = .*: none where both axes of a bearing differ",
+        lambda: cm.load(path), r"^\[\[magnetic_bearing\]\] 1: y = None, 5.0, None: limits as along the first axis"
     )

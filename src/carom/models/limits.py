@@ -45,6 +45,9 @@ class Limit:
         Of the first axis in the fixed frame, rad.
     follows : tuple of float
         What is not given of the limits before it in a list adds to this quantity by these factors; those left out are zero.
+    one_axis : bool
+        Whether it is a real quantity, ``Re(displacement·Z + velocity·Ż)``, of one axis alone; of anisotropic rotors.  What is not given then is real too, and
+        has its direction by the complex accelerations and rates.
     """
 
     bound: float
@@ -54,16 +57,18 @@ class Limit:
     rates: np.ndarray | None = None
     angle: float = 0.0
     follows: tuple[float, ...] = ()
+    one_axis: bool = False
 
     def __post_init__(self) -> None:
         if not 0.0 < self.bound < np.inf:
             raise InputError("bound", shown(self.bound), "a finite number above 0")
         if self.rates is None:
-            object.__setattr__(self, "rates", np.zeros_like(np.asarray(self.displacement, float)))
+            object.__setattr__(self, "rates", np.zeros(np.shape(self.displacement)))
         for name in _VECTORS:
-            values = np.array(getattr(self, name), float)
+            given = getattr(self, name)
+            values = np.array(given, complex if np.iscomplexobj(given) else float)
             if values.ndim != 1 or not np.isfinite(values).all():
-                raise InputError(name, shown(getattr(self, name)), "finite numbers, one for each coordinate")
+                raise InputError(name, shown(given), "finite numbers, one for each coordinate")
             object.__setattr__(self, name, values)
 
     def at_speed(self, slower: float) -> Limit:
@@ -98,7 +103,7 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
     Raises
     ------
     InputError
-        The speed of its shaft changes, or a limit is of another number of coordinates.
+        The speed of its shaft changes, or a limit is of another number of coordinates, or of one axis of a rotor that is not anisotropic.
     """
     n, arrays = len(system.rest), system.arrays
     if system.shaft is not None:
@@ -113,9 +118,18 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
     couplings = np.zeros((len(limits), len(limits)), complex)
     for place, each in enumerate(limits):
         couplings[place, : len(each.follows)] = each.follows
+    rows, offsets = shown_by @ system.shapes + rates @ system.rates, shown_by @ system.rest
+    if alone := [place for place, each in enumerate(limits) if each.one_axis]:
+        if system.conjugate_basis is None:
+            raise InputError("limits", "of one axis", "those of both, unless bearings are anisotropic")
+        places, moving = np.split(system.conjugate_basis, 2)
+        by_rates = np.array([limits[place].velocity.conj() for place in alone])
+        by_places = np.array([limits[place].displacement.conj() for place in alone]) + 1j * by_rates
+        rows[alone] = 0.5 * (rows[alone] + by_places @ places + by_rates @ moving)
+        offsets[alone] = 0.5 * (offsets[alone] + by_places @ system.backward_whirl.conj())
     own = {
-        "limit_rows": shown_by @ system.shapes + rates @ system.rates,
-        "limit_offsets": shown_by @ system.rest,
+        "limit_rows": rows,
+        "limit_offsets": offsets,
         "limit_bounds": np.array([each.bound for each in limits], float),
         "limit_columns": system.to_modes @ pushes,
         "limit_couplings": couplings * turns[:, None] / turns,

@@ -126,7 +126,7 @@ def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
         "anisotropy": np.array([modes]),
         "conjugate_columns": by_conjugate_rate @ pushes.conj(),
     }
-    return modal_system(
+    system = modal_system(
         rest=forward,
         shapes=turned(doubled.shapes[:n], ellipse),
         inverse=np.concatenate([by_position, by_rate], axis=1),
@@ -135,6 +135,10 @@ def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
         conjugate_modes=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
         beside=given.beside_modes,
     )
+    behind = np.append(forward.conj(), TURN * forward.conj())
+    conjugates = turned(np.concatenate([doubled.shapes[n:], doubled.rates[n:]]), behind)
+    filler = np.zeros((2 * n, system.modes - modes - 1))
+    return dataclasses.replace(system, conjugate_basis=np.append(conjugates, filler, axis=1))
 
 
 def _doubled(given: LinearEquations, conjugate: np.ndarray) -> System:

@@ -115,9 +115,9 @@ class System(ModeArrays, BesideModes):
         Amplitudes per coordinate, then per rate of a coordinate; zeros for modes that are not free.
     forced : ndarray of complex, shape (N,), optional
         Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
-    conjugate_modes : ndarray of complex, shape (N, 2n), optional
-        Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings are anisotropic
-        (:mod:`carom.models.linear_system`); by default they do not.
+    conjugate_modes, conjugate_basis : ndarray of complex, shapes (N, 2n) and (2n, N), optional
+        Where bearings are anisotropic (:mod:`carom.models.linear_system`) amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``;
+        and conjugates, then their rates, in the frame that turns, per amplitude, without forces.
     """
 
     rest: np.ndarray
@@ -125,6 +125,7 @@ class System(ModeArrays, BesideModes):
     to_modes: np.ndarray
     forced: np.ndarray | None = None
     conjugate_modes: np.ndarray | None = None
+    conjugate_basis: np.ndarray | None = None
 
     @property
     def decay(self) -> float:

@@ -6,20 +6,24 @@ it asks for ``u``, and the current of the amplifier follows,
     di/dt = ω_b (u − i),
 
 where ``u`` is cut off at the limit of the current and then ``di/dt`` at that of its rate.  The states of controller and amplifier are those of
-the loop (:attr:`MagneticBearing.loop`), of which the last one is the amplifier's.
+the loop (:attr:`MagneticBearing.loop`), of which the last one is the amplifier's.  Where both axes of a bearing differ, each has limits of its own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.models import Limit
 from carom.parameters import Scales
 from carom.rotors.equations import RotorEquations
 from carom.rotors.magnetic_bearing import MagneticBearing
+
+_LIMITS = ("force_limit", "current_limit", "slew_rate_limit")
 
 
 class _LimitPlace(NamedTuple):
@@ -35,6 +39,9 @@ class _LimitPlace(NamedTuple):
     """Rate of the last state of its loop per coordinate, shape (n,)."""
     last: int
     """Coordinate of that state."""
+    axis: complex = 1.0
+    """Factor whose real part makes of that coordinate the state of one axis: 1 or −i."""
+    one_axis: bool = False
 
 
 def limits_of_bearings(
@@ -52,24 +59,53 @@ def limits_of_bearings(
     found: list[Limit] = []
     for number, bearing in enumerate(bearings):
         last = int(equations.amplifiers[number])
-        place = _LimitPlace(
-            pulls[number],
-            equations.currents[number],
-            equations.current_rates[number],
-            -equations.stiffness[last].real,
-            last,
-        )
-        found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
+        by_place, by_rate = equations.currents_across[:, number]
+        for part, axis in _axes(equations, number, bearing):
+            turn = 1.0 if axis is None else axis * np.exp(-1j * bearing.axis_angle)
+
+            def along(
+                own: np.ndarray, across: np.ndarray, factor: complex = turn, alone: bool = axis is not None
+            ) -> np.ndarray:
+                return factor * own + np.conj(factor * across) if alone else own
+
+            place = _LimitPlace(
+                pulls[number] * np.conj(turn),
+                along(equations.currents[number], by_place),
+                along(equations.current_rates[number], by_rate),
+                along(-equations.stiffness[last], -equations.across[1, last], axis or 1.0),
+                last,
+                axis or 1.0,
+                axis is not None,
+            )
+            found += [_in_units(limit, scales) for limit in _in_si(part, place, len(found))]
     return tuple(found)
 
 
-def asked_by_currents(bearings: Sequence[MagneticBearing], currents: np.ndarray) -> np.ndarray:
+def _axes(
+    equations: RotorEquations, number: int, bearing: MagneticBearing
+) -> list[tuple[MagneticBearing, complex | None]]:
+    """Axes of a bearing whose limits are apart, each with a factor whose real part makes of a displacement along the first one that along it; ``None`` for both at once."""
+    if equations.currents_across[:, number].any() or (bearing.y is not None and equations.is_anisotropic):
+        return list(zip(bearing.axes, (1.0, -1j), strict=True))
+    one, other = ([getattr(axis, name) for name in _LIMITS] for axis in bearing.axes)
+    if one != other:
+        allowed = f"limits as along the first axis, {', '.join(map(str, one))}, unless something else of the axes differs too, such as gain_factor"
+        raise InputError(f"[[magnetic_bearing]] {number + 1}: y", ", ".join(map(str, other)), allowed)
+    return [(bearing, None)]
+
+
+def asked_by_currents(
+    equations: RotorEquations, bearings: Sequence[MagneticBearing], currents: np.ndarray
+) -> np.ndarray:
     """What constant currents (B,), A, ask of each limit of :func:`limits_of_bearings`, shape (L,); nothing of a rate."""
     asked: list[complex] = []
-    for bearing, current in zip(bearings, currents.tolist(), strict=True):
-        none = np.zeros(1)
-        place = _LimitPlace(none, np.ones(1), none, none, 0)
-        asked += [current * limit.displacement[0] for limit in _in_si(bearing, place, 0)]
+    for number, bearing in enumerate(bearings):
+        for part, axis in _axes(equations, number, bearing):
+            current, none = complex(currents[number]), np.zeros(1)
+            if axis is not None:
+                current = (axis * np.exp(-1j * bearing.axis_angle) * current).real
+            place = _LimitPlace(none, np.ones(1), none, none, 0)
+            asked += [current * limit.displacement[0] for limit in _in_si(part, place, 0)]
     return np.array(asked, complex)
 
 
@@ -79,23 +115,29 @@ def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterato
     of_force = np.inf if bearing.force_limit is None else bearing.force_limit / bearing.ki
     of_current = np.inf if bearing.current_limit is None else bearing.current_limit
     push = bearing.ki * place.pulls
+    limit = partial(Limit, angle=0.0 if place.one_axis else bearing.axis_angle, one_axis=place.one_axis)
     if bearing.amplifier_bandwidth is None:
         if min(of_force, of_current) < np.inf:
-            yield Limit(min(of_force, of_current), place.current, place.current_rate, push, angle=bearing.axis_angle)
+            yield limit(min(of_force, of_current), place.current, place.current_rate, push)
         return
-    bandwidth, out = bearing.amplifier_bandwidth, float(place.current[place.last])
-    state = np.eye(len(none))[place.last] / out
+    bandwidth, out, own = (
+        bearing.amplifier_bandwidth,
+        place.current[place.last] / place.axis,
+        np.eye(len(none))[place.last],
+    )
+    out = out.real if place.one_axis else out
+    state = own * np.conj(place.axis) / out
     changing, follows = out * place.rate, (0.0,) * before
     # Behind an ideal derivative the current has a part of the displacement beside the last state.
-    moving = place.current_rate + place.current - out * np.eye(len(none))[place.last]
+    moving = place.current_rate + place.current - out * place.axis * own
     if of_current < np.inf:
         asked = place.current + changing / bandwidth
-        yield Limit(of_current, asked, moving / bandwidth, none, -bandwidth * state, bearing.axis_angle)
+        yield limit(of_current, asked, moving / bandwidth, none, -bandwidth * state)
         follows = (*follows, -bandwidth)
     if bearing.slew_rate_limit is not None:
-        yield Limit(bearing.slew_rate_limit, changing, moving, none, -state, bearing.axis_angle, follows)
+        yield limit(bearing.slew_rate_limit, changing, moving, none, -state, follows=follows)
     if of_force < of_current:
-        yield Limit(of_force, place.current, none, push, angle=bearing.axis_angle)
+        yield limit(of_force, place.current, none, push)
 
 
 def _in_units(limit: Limit, scales: Scales) -> Limit:
@@ -109,4 +151,5 @@ def _in_units(limit: Limit, scales: Scales) -> Limit:
         np.asarray(limit.rates) / (unit * scales.speed),
         limit.angle,
         limit.follows,
+        limit.one_axis,
     )

@@ -11,7 +11,7 @@ from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import Basis
-from carom.rotors.shared_controller import ControlLoop, SharedController, loops_in
+from carom.rotors.shared_controller import SharedController, loops_in
 from carom.rotors.support import Support, turning
 
 
@@ -63,7 +63,7 @@ class RotorEquations(NamedTuple):
     currents_across: np.ndarray
     """Current of each bearing, A, per conjugate of a coordinate, then per its rate, shape (2, B, n)."""
     is_anisotropic: bool
-    """Whether a support is anisotropic, at any speed."""
+    """Whether a support or a magnetic bearing is anisotropic, at any speed."""
     speed: float = 0.0
     """For which damping and stiffness are, 1/s."""
     held: tuple[SpeedLaw, ...] = ()
@@ -206,84 +206,63 @@ def equations_of(
     damping, stiffness = damping + alike[0], stiffness + alike[1]
     states = slice(first, size)
     damping[states, states] = np.eye(size - first)
-    left = np.stack([damping, stiffness])
-    regained = np.ones(size)
-    currents, current_rates = np.zeros((2, len(bearings), size))
+    # By coordinates and by their conjugates: damping and stiffness; then currents by places and by rates.
+    levitated = np.array([[damping, stiffness], across], complex)
+    left, regained = levitated.copy(), np.ones(size)
+    currents = np.zeros((2, 2, len(bearings), size), complex)
     amplifiers = np.full(len(bearings), -1)
     for loop in controls:
-        system, own, listed = loop.system, slice(first, first + loop.system.states), list(loop.bearings)
+        own, listed = slice(first, first + loop.system.states), list(loop.bearings)
         seen = loops.sensors[listed] @ basis.shapes
-        for place, number in enumerate(listed):
-            bearing, pulls = bearings[number], loops.bearings[number] @ basis.shapes
-            currents[number, free], currents[number, own] = system.D[place] @ seen, system.C[place]
-            current_rates[number, free] = system.rate[place] @ seen
-            stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
-            damping[free] += bearing.ki * np.outer(pulls, current_rates[number])
-            stiffness[free, free] += bearing.magnet[0] * np.outer(pulls, pulls)
-        stiffness[own, free], stiffness[own, own] = -(system.B @ seen), -system.A
+        for side, system in enumerate(loop.sides):
+            for place, number in enumerate(listed):
+                currents[side, :, number, free] = system.D[place] @ seen, system.rate[place] @ seen
+                currents[side, 0, number, own] = system.C[place]
+            levitated[side, 1, own, free], levitated[side, 1, own, own] = -(system.B @ seen), -system.A
         if loop.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
-            left[1, own, own], regained[own] = speed * np.eye(system.states), 0.0
+            left[0, 1, own, own], regained[own] = speed * np.eye(loop.system.states), 0.0
         elif loop.at_regain == "running":
-            left[1, own] = stiffness[own]
+            left[:, 1, own] = levitated[:, 1, own]
         first = own.stop
-        with_amplifier = [number for number in listed if bearings[number].amplifier_bandwidth is not None]
+        with_amplifier = [each for each in listed if any(axis.amplifier_bandwidth for axis in bearings[each].axes)]
         amplifiers[with_amplifier] = range(first - len(with_amplifier), first)
-    levitated = _on_conjugates(bearings, loops, basis, controls, size)
+    for number, bearing in enumerate(bearings):
+        pulls = loops.bearings[number] @ basis.shapes
+        for side, magnet in enumerate(bearing.magnet):
+            levitated[side, ::-1, free] += bearing.ki * (pulls[:, None] * currents[side, :, number, None])
+            levitated[side, 1, free, free] += magnet * np.outer(pulls, pulls)
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
+    (damping, stiffness), across = levitated
     return RotorEquations(
         mass,
-        damping,
+        _real(damping),
         gyroscopic,
-        stiffness,
+        _real(stiffness),
         forcing,
-        left,
+        _real(left[0]),
         planes,
-        currents,
-        current_rates,
+        _real(currents[0, 0]),
+        _real(currents[0, 1]),
         amplifiers,
         regained,
         carried,
-        across + levitated.matrices if levitated.matrices.any() else across,
         across,
-        levitated.currents,
-        bool(levitated.matrices.any() or any(each.is_anisotropic for each in supports)),
+        left[1],
+        currents[1],
+        any(len(each.sides) > 1 for each in controls)
+        or any(each.magnet[1] for each in bearings)
+        or any(each.is_anisotropic for each in supports),
         speed,
         held,
     )
 
 
-class _OnConjugates(NamedTuple):
-    """What magnetic bearings make of conjugates, where their axes differ."""
-
-    matrices: np.ndarray
-    """Damping and stiffness, shape (2, n, n)."""
-    currents: np.ndarray
-    """Current by conjugates of coordinates, then of rates, shape (2, B, n)."""
-
-
-def _on_conjugates(
-    bearings: Sequence[MagneticBearing], loops: Loops, basis: Basis, controls: Sequence[ControlLoop], size: int
-) -> _OnConjugates:
-    free, first = slice(0, len(basis.frequencies)), size - sum(each.system.states for each in controls)
-    matrices, currents = np.zeros((2, size, size), complex), np.zeros((2, len(bearings), size), complex)
-    for loop in controls:
-        own, number = slice(first, first + loop.system.states), loop.bearings[0]
-        first = own.stop
-        if loop.across is None:
-            continue
-        bearing, pulls = bearings[number], loops.bearings[number] @ basis.shapes
-        seen, across = loops.sensors[[number]] @ basis.shapes, loop.across
-        currents[0, number, free], currents[0, number, own] = across.D[0] @ seen, across.C[0]
-        currents[1, number, free] = across.rate[0] @ seen
-        currents[:, number] *= bearing.turn
-        matrices[::-1, free] += bearing.ki * pulls[:, None] * currents[:, number][:, None]
-        matrices[1, free, free] += bearing.magnet[1] * np.outer(pulls, pulls)
-        matrices[1, own, free] = -bearing.turn * (across.B @ seen)
-        matrices[1, own, own] = -bearing.turn * across.A
-    return _OnConjugates(matrices, currents)
+def _real(values: np.ndarray) -> np.ndarray:
+    """The same as real numbers where they are."""
+    return values if values.imag.any() else values.real.copy()
 
 
 def _held(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int) -> tuple[SpeedLaw, ...]:
@@ -310,7 +289,7 @@ def _sum(held: Sequence[SpeedLaw], speed: float, size: int) -> tuple[np.ndarray,
     both = np.zeros((2, 2, size, size), complex)
     for each in held:
         both += each.at(speed)
-    return both[0] if both[0].imag.any() else both[0].real, both[1]
+    return _real(both[0]), both[1]
 
 
 def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:

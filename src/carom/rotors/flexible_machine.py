@@ -265,9 +265,11 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     yield "rotor", machine.rotor.words
     yield "speed", f"{number(machine.speed / RPM)} rpm"
     for place, bearing in enumerate(machine.bearings, start=1):
-        law = "shared controller" if bearing.controller is None else _law(bearing.controller)
         seen = "" if bearing.sensor_nodes == (bearing.node,) else f", sensors at {at(*bearing.sensor_nodes)}"
-        yield f"magnetic bearing {place}", f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {law}"
+        yield (
+            f"magnetic bearing {place}",
+            f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {_law(bearing.controller)}",
+        )
         if bearing.y is not None:
             other = f"{_entries(bearing.y, BEARING_FIELDS)}; {_law(bearing.y.controller)}"
             yield f"magnetic bearing {place}, second axis", other
@@ -292,6 +294,8 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
 
 def _law(controller: object) -> str:
     """A controller in words; of a sampled one how well it is approximated."""
+    if controller is None:
+        return "shared controller"
     if isinstance(controller, Series):
         return "; ".join(map(_law, (controller.controller, *controller.filters)))
     if fields := getattr(controller, "fields", {}):

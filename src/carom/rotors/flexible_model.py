@@ -78,7 +78,7 @@ class FlexibleDefinition(LinearEquations):
         reduced, scales = self.reduced, self.reduced.scales
         unit = scales.length * math.sqrt(scales.mass) * scales.speed**2
         pushed, currents = reduced.held_by_bias(weight * unit)
-        asked = asked_by_currents(reduced.machine.bearings, currents)
+        asked = asked_by_currents(reduced.equations, reduced.machine.bearings, currents)
         left = weight + pushed / unit
         left[np.abs(left) <= ROUNDED * np.abs(weight).max()] = 0.0
         return left, asked if len(asked) == limits else np.zeros(limits)

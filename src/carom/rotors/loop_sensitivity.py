@@ -116,7 +116,8 @@ class _Loop:
         whole, loops = machine.whole, loops_of(machine.rotor, machine.bearings, machine.touchdowns)
         held, vectors = whole.equations, slice(0, whole.vectors)
         self.bearings = machine.bearings
-        self.loops = loops_in(machine.rotor, machine.bearings, machine.shared_controllers)
+        controls = loops_in(machine.rotor, machine.bearings, machine.shared_controllers)
+        self.loops = [(np.array(each.bearings), each.both) for each in controls]
         self.pulls, self.seen = loops.bearings @ whole.basis.shapes, loops.sensors @ whole.basis.shapes
         softer = [
             bearing.magnet[0] * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)
@@ -155,20 +156,13 @@ class _Loop:
 
     def of_axes(self, frequency: float) -> np.ndarray:
         """Sensitivity of one direction, shape (1, B); where both differ of both axes, shape (2, B)."""
-        count, s = len(self.bearings), np.array(1j * frequency)
-        gains, across, behind = np.zeros((3, count, count), complex)
-        for loop in self.loops:
-            listed = list(loop.bearings)
+        count = len(self.bearings)
+        gains = np.zeros((2 * count, 2 * count), complex)
+        for listed, system in self.loops:
+            both = np.append(listed, count + listed)
             forces = np.array([[self.bearings[number].ki] for number in listed])
-            bearing, others = self.bearings[listed[0]], self.bearings[listed[0]].y
-            if others is None:
-                gains[np.ix_(listed, listed)] = forces * loop.system.at(s).reshape(len(listed), len(listed))
-                continue
-            one, other = complex(bearing.loop.at(s)), complex(others.loop.at(s))
-            gains[listed, listed] = 0.5 * bearing.ki * (one + other)
-            across[listed, listed] = 0.5 * bearing.ki * (one - other) * bearing.turn
-            behind[listed, listed] = 0.5 * bearing.ki * (one - other) * bearing.turn.conjugate()
-        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) @ np.block([[gains, across], [behind, gains]]))
+            gains[np.ix_(both, both)] = np.tile(forces, (2, 1)) * system.at(1j * frequency)
+        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) @ gains)
         # A real signal along an axis is as much a part of the displacement as of its conjugate.
         turns = np.exp(2j * np.array([each.axis_angle for each in self.bearings]))
         straight = np.diag(whole[:count, :count]) + np.diag(whole[count:, count:])

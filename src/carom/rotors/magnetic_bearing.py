@@ -17,10 +17,8 @@ from carom.parameters.tables import read_entries
 from carom.parameters.terms import HELPER_FIELDS
 from carom.rotors.controllers import PID, VoltagePID, controller_of, state_space_of
 from carom.rotors.shaft_parts import read_node
-from carom.rotors.state_spaces import PADE, StateSpace, delay, in_series, lag
+from carom.rotors.state_spaces import PADE, SINGULAR, StateSpace, delay, in_series, lag
 
-SINGULAR = 1e12
-"""Condition of the matrix of a controller above which it integrates."""
 AT_REGAIN = ("reset", "hold", "running")
 """What the states of a controller are when levitation that was lost is regained."""
 BEARING_FIELDS: Mapping[str, Field] = by_name(
@@ -82,7 +80,7 @@ class MagneticBearing:
     sensor_bandwidth : float or str, optional
         rad/s or such as ``"10 kHz"``; by default the sensors are not in the way.
     y : MagneticBearing, optional
-        What it is along its second axis, at a right angle to the first, with another controller, ``ks`` or gains; its ``ki`` and sensors are those of the first.  By default both axes are alike.
+        What it is along its second axis, at a right angle to the first, with another controller, ``ks``, gains or limits; its ``ki`` and sensors are those of the first.  By default both axes are alike.
     at_regain : {"reset", "hold", "running"}
         The states of controller, delay and amplifier when levitation is regained: all at zero, as they were when it was lost, or, without integral
         gain, such as they are after measuring all the while.
@@ -129,25 +127,10 @@ class MagneticBearing:
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
         if self.y is not None:
-            self._check_axes(self.y)
-            same = {name: getattr(self, name) for name in ("node", "sensor_nodes", "ki")}
+            if (self.controller is None) != (self.y.controller is None) or self.y.y is not None:
+                raise InputError("y", None, "a second axis with a controller of its own where the first has one")
+            same = {name: getattr(self, name) for name in ("node", "sensor_nodes", "ki", "at_regain")}
             object.__setattr__(self, "y", replace(self.y, **same))
-        integrates = self.controller is not None and self._integrates
-        if self.at_regain == "running" and integrates:
-            allowed = "reset or hold for a controller that integrates: running, it would add up the place of a rotor that falls, which is not followed"
-            raise InputError("at_regain", shown(self.at_regain), allowed)
-
-    def _check_axes(self, other: MagneticBearing) -> None:
-        """Refuse a second axis that is no other one of the same magnet, and limits, which are those of alike axes."""
-        if self.controller is None or other.controller is None or other.y is not None:
-            raise InputError("y", None, "a second axis with a controller of its own, as the first has")
-        if self.at_regain == "running":
-            raise InputError("at_regain", "running", "reset or hold where both axes of a bearing differ")
-        for name in ("force_limit", "current_limit", "slew_rate_limit"):
-            if getattr(self, name) is not None or getattr(other, name) is not None:
-                raise InputError(
-                    name, getattr(self, name), "none where both axes of a bearing differ: limits need alike ones"
-                )
 
     def _check_gains(self) -> None:
         """Refuse one gain of the chain without the other, and gains of a controller in units that it does not have."""
@@ -183,24 +166,16 @@ class MagneticBearing:
         before, *after = self.stages
         return in_series([before, state_space_of(self.controller), *after]).balanced()
 
-    @cached_property
-    def parts(self) -> tuple[StateSpace, StateSpace | None]:
-        """The loop of displacements, and that of their conjugates, which is ``None`` where both axes are alike."""
-        if self.y is None:
-            return self.loop, None
-        both, across = self.loop.halves(self.y.loop)
-        return both, across
-
     @property
-    def turn(self) -> complex:
-        """Factor of what acts on conjugates, by the angle of the first axis."""
-        return complex(np.exp(2j * self.axis_angle))
+    def axes(self) -> tuple[MagneticBearing, MagneticBearing]:
+        """What it is along each of its axes."""
+        return self, self if self.y is None else self.y
 
     @property
     def magnet(self) -> tuple[float, complex]:
         """Stiffness at constant current, N/m: of displacements, and of their conjugates."""
-        other = self.ks if self.y is None else self.y.ks
-        return 0.5 * (self.ks + other), 0.5 * (self.ks - other) * self.turn
+        one, other = (each.ks for each in self.axes)
+        return 0.5 * (one + other), 0.5 * (one - other) * complex(np.exp(2j * self.axis_angle))
 
     @property
     def _integrates(self) -> bool:

@@ -223,7 +223,7 @@ class ReducedMachine(Result):
         at = self.machine
         for loop in loops_in(at.rotor, at.bearings, at.shared_controllers):
             number, bearing = loop.bearings[0] + 1, at.bearings[loop.bearings[0]]
-            if np.abs(np.linalg.eigvals(loop.system.A)).min(initial=1.0) <= SLOWEST * at.speed:
+            if np.abs(np.linalg.eigvals(loop.both.A)).min(initial=1.0) <= SLOWEST * at.speed:
                 gain = getattr(bearing.controller, "integral", None)
                 name, stated, faster = "controller", "a slow integrator", SLOWEST / max(slowest, 1e-300)
                 allowed = f"none, or one {faster:.2g} times as fast: this one acts as none under weight"
@@ -251,7 +251,7 @@ class ReducedMachine(Result):
     def limits(self) -> tuple[Limit, ...]:
         """Limits of its magnetic bearings, in units of the equations, on the gains of which they depend."""
         at, given = self.machine, self.equations
-        pulls = np.zeros_like(given.currents)
+        pulls = np.zeros(given.currents.shape)
         pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
         return limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
 
@@ -261,7 +261,8 @@ class ReducedMachine(Result):
         Bearings whose controller integrates find theirs by themselves.
         """
         at, given = self.machine, self.equations
-        held = [place for place, each in enumerate(at.bearings) if not math.isinf(each.static_stiffness)]
+        controls = loops_in(at.rotor, at.bearings, at.shared_controllers)
+        held = sorted(number for loop in controls if not loop.integrates for number in loop.bearings)
         loops, n, currents = (
             loops_of(at.rotor, at.bearings, at.touchdowns),
             len(pull),
@@ -328,7 +329,7 @@ class ReducedMachine(Result):
             unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
             conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.is_anisotropic else None,
             conjugate_unlevitated=None
-            if given.across_unlevitated is given.across
+            if np.array_equal(given.across_unlevitated, given.across)
             else np.stack([once * given.across_unlevitated[0], twice * given.across_unlevitated[1]]),
             magnets=self._magnets,
         )

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,9 +19,33 @@ SWEEPS, SETTLED = 50, 1e-12
 """Most sweeps of balancing, and the relative change of the units at which it ends; a few sweeps do."""
 PADE = 3
 """Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s.  It is odd, so that integrators of sampled systems have one."""
+SINGULAR = 1e12
+"""Condition of the matrix of a system above which it integrates."""
+NO_CONJUGATES = 1e-12
+"""What a system of both axes makes of conjugates, relative to the rest, that is rounding."""
 SMALL = 1e-9
 """Share of the largest size of a system below which errors are compared with that share."""
 SAMPLE_TIME = Field("sample_time", "", "time between samples of a controller whose numbers are those of z", "a time", "s", 1e-9, 10.0, '"50 us"', usual="ms", usual_size=1e-3)  # fmt: skip
+
+
+class ComplexSystem(NamedTuple):
+    """``ẋ = Ax + By``, ``u = Cx + Dy + R ẏ`` with complex numbers: of displacements ``x + iy``, or of their conjugates."""
+
+    A: np.ndarray
+    B: np.ndarray
+    C: np.ndarray
+    D: np.ndarray
+    rate: np.ndarray
+
+    @property
+    def states(self) -> int:
+        """Number of states."""
+        return len(self.A)
+
+    def at(self, exponent: complex) -> np.ndarray:
+        """Outputs over inputs at an exponent ``s``, 1/s, shape (p, m)."""
+        inner = np.linalg.solve(exponent * np.eye(self.states) - self.A, self.B)
+        return np.asarray(self.C @ inner + self.D + exponent * self.rate)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,17 +151,20 @@ class StateSpace:
             rate=other.D @ self.rate + other.rate @ self.D,
         )
 
-    def balanced(self) -> StateSpace:
+    def balanced(self, axes: int = 1) -> StateSpace:
         """The same with states in units in which they are of one size (Osborne, Journal of the ACM 7, 1960).
 
-        What a controller is written down with, such as coefficients of polynomials, has numbers many powers of ten apart.
+        What a controller is written down with, such as coefficients of polynomials, has numbers many powers of ten apart.  Of both axes in turn the states
+        of each pair have one unit.
         """
         whole = np.block([[self.A, self.B], [self.C, np.zeros_like(self.D)]])
-        np.einsum("ii->i", whole[: self.states, : self.states])[:] = 0.0
-        sizes = np.ones(self.states)
+        pairs, (rows, columns) = self.states // axes, whole.shape
+        whole = np.linalg.norm(whole.reshape(rows // axes, axes, columns // axes, axes), axis=(1, 3))
+        np.einsum("ii->i", whole[:pairs, :pairs])[:] = 0.0
+        sizes = np.ones(pairs)
         for _ in range(SWEEPS):
             before = sizes.copy()
-            for state in range(self.states):
+            for state in range(pairs):
                 row, column = np.linalg.norm(whole[state]), np.linalg.norm(whole[:, state])
                 if row > 0.0 and column > 0.0:
                     # No power of two, at which the units would jump while a parameter changes.
@@ -147,6 +174,7 @@ class StateSpace:
                     sizes[state] *= factor
             if np.allclose(before, sizes, rtol=SETTLED, atol=0.0):
                 break
+        sizes = np.repeat(sizes, axes)
         return StateSpace(
             self.A * sizes / sizes[:, None],
             self.B / sizes[:, None],
@@ -156,30 +184,41 @@ class StateSpace:
             self.rate,
         )
 
-    def halves(self, other: StateSpace) -> tuple[StateSpace, StateSpace]:
-        """Half the sum and half the difference of two systems, the first of one axis and the other of the other, as parts of a complex one.
-
-        With the states ``x₁ + ix₂`` and ``y₁ + iy₂`` the one acts on them and the other on their conjugates.  The one with fewer states gets such as stay at zero.
-        """
-        size = max(self.states, other.states)
-        one, two = (each._filled(size) for each in (self, other))
-
-        def half(sign: float) -> StateSpace:
-            A, B, C, D, rate = (0.5 * (getattr(one, name) + sign * getattr(two, name)) for name in (*"ABCD", "rate"))
-            return StateSpace(A, B, C, D, rate=rate)
-
-        return half(1.0), half(-1.0)
+    def beside(self, second: StateSpace) -> StateSpace:
+        """Both axes, of which it is the first: states, inputs and outputs are those of one and of the other in turn."""
+        size = max(self.states, second.states)
+        both = zip((self._filled(size), second._filled(size)), np.eye(2), strict=True)
+        parts = [[np.kron(getattr(one, name), np.diag(axis)) for name in ComplexSystem._fields] for one, axis in both]
+        A, B, C, D, rate = map(np.add, *parts)
+        return StateSpace(A, B, C, D, rate=rate)
 
     def _filled(self, size: int) -> StateSpace:
-        """The same with so many states."""
+        """The same with so many states, of which the first stay at zero."""
         more = size - self.states
         own = max(float(np.abs(self.A).max(initial=0.0)), 1.0)
-        into, out = np.zeros((more, self.D.shape[1])), np.zeros((len(self.D), more))
-        corner = np.zeros((self.states, more))
-        matrix = np.block([[self.A, corner], [corner.T, -own * np.eye(more)]])
-        return StateSpace(
-            matrix, np.concatenate([self.B, into]), np.concatenate([self.C, out], axis=1), self.D, rate=self.rate
-        )
+        none = StateSpace.constant(np.zeros((0, 0)))
+        return side_by_side([replace(none, A=-own * np.eye(more), B=np.zeros((more, 0)), C=np.zeros((0, more))), self])
+
+    def in_pairs(self) -> StateSpace:
+        """A system of both axes with its states in turn too: as they are, or first those of one axis, whichever makes less of conjugates."""
+        even = self._filled(self.states + self.states % 2)
+        order = np.arange(even.states).reshape(2, -1).T.ravel()
+        turned = replace(even, A=even.A[np.ix_(order, order)], B=even.B[order], C=even.C[:, order])
+        return min(even, turned, key=lambda each: sum(np.abs(part).sum() for part in each.complex_parts()[1]))
+
+    def complex_parts(self) -> tuple[ComplexSystem, ComplexSystem]:
+        """What a system of both axes in turn makes of ``x + iy``, and of the conjugates: zeros where its axes are alike, coupled or not."""
+        parts = [
+            [getattr(self, name)[row::2, column::2] for row in (0, 1) for column in (0, 1)]
+            for name in ComplexSystem._fields
+        ]
+        alike = ComplexSystem(*(0.5 * (xx + yy + 1j * (yx - xy)) for xx, xy, yx, yy in parts))
+        across = ComplexSystem(*(0.5 * (xx - yy + 1j * (yx + xy)) for xx, xy, yx, yy in parts))
+        if all(
+            np.linalg.norm(one) <= NO_CONJUGATES * np.linalg.norm(own) for one, own in zip(across, alike, strict=True)
+        ):
+            across = ComplexSystem(*map(np.zeros_like, across))
+        return alike, across
 
     @property
     def held(self) -> StateSpace:

@@ -244,7 +244,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
         pull = gravity.pull(scales) * scales.acceleration * np.sqrt(scales.mass) * first
         if gravity.carried_by == BIAS:
             pushed, currents = whole.held_by_bias(pull)
-            pull, asked = pull + pushed, asked_by_currents(machine.bearings, currents)
+            pull, asked = pull + pushed, asked_by_currents(held, machine.bearings, currents)
         both = held.both if held.is_anisotropic else held
         resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
     seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
@@ -290,5 +290,5 @@ def _saturation(whole: _Whole, answers: Ellipses, speeds: np.ndarray) -> np.ndar
         )
         middle = complex(limit.displacement @ whole.resting) * turn + whole.asked[place] * np.exp(-1j * limit.angle)
         along = np.abs(ahead + behind.conj()) + abs(middle.real), np.abs(ahead - behind.conj()) + abs(middle.imag)
-        found[:, place] = np.maximum(*along) / limit.bound
+        found[:, place] = (along[0] if limit.one_axis else np.maximum(*along)) / limit.bound
     return found
