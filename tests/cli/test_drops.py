@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import pytest
 
@@ -58,3 +59,56 @@ def test_a_drop_as_a_document(carom):
 )
 def test_bad_drops_get_one_line(refused, arguments, words):
     refused(f"carom: {words}", *arguments)
+
+
+RECOVERY = """
+[[recovery]]
+name = "early"
+regain_after = "20 ms"
+
+[[recovery]]
+name = "damped"
+regain_after = "20 ms"
+lasts = "0.1 s"
+gain_factors = { damping = 2.0 }
+gains = { stiffness = "6e5 N/m" }
+"""
+
+
+def test_shares_that_come_back(carom, tmp_path):
+    path = tmp_path / "machine.toml"
+    path.write_text(Path(MACHINE).read_text(encoding="utf-8") + RECOVERY, encoding="utf-8")
+    asked = ("drop", str(path), "--recovery", "--drops", "3", "--until", "2 s")
+    found = document(carom(*asked, "--json"))
+    assert [(each["name"], each["share"]["count"]) for each in found["recoveries"]] == [("early", 3), ("damped", 3)]
+    code, out, _ = carom(*asked)
+    assert code == 0
+    assert "damped: regained 20 ms after the release; for 100 ms: stiffness 6e5 N/m, damping times 2." in " ".join(
+        out.split()
+    )
+    again = tmp_path / "again.toml"
+    again.write_text(cm.load(path).to_toml(), encoding="utf-8")
+    assert cm.load(again).recoveries == cm.load(path).recoveries
+    code, out, _ = carom("drop", str(path), "--regained-by", "early")
+    assert code == 0
+    assert "levitation regained 20 ms after the release" in " ".join(out.split())
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "words"),
+    [
+        (RECOVERY, ("--recovery", "--phase", "90 deg"), "--phase = 90 deg: not allowed with --recovery"),
+        (RECOVERY, ("--drops", "3"), "--drops = 3: allowed only with --recovery"),
+        (RECOVERY, ("--regained-by", "late"), "--regained-by = late: one of early, damped"),
+        (RECOVERY + RECOVERY, ("--recovery",), "[[recovery]] 3: name = early: a name of its own for each"),
+        ("", ("--recovery",), "recovery = nothing given: one or more tables [[recovery]]"),
+        ("[[recovery]]\nregain_afer = 1", ("--recovery",), "[[recovery]] 1: regain_afer = 1: unknown name"),
+        ("[recovery]\n", ("--recovery",), "recovery = "),
+    ],
+)
+def test_what_is_no_comparison(carom, tmp_path, text, options, words):
+    path = tmp_path / "machine.toml"
+    path.write_text(Path(MACHINE).read_text(encoding="utf-8") + text, encoding="utf-8")
+    code, _, err = carom("drop", str(path), *options)
+    assert code == 2
+    assert words in err

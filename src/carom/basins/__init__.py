@@ -8,6 +8,7 @@
 ``unrecovered``         the smallest kicks, shocks and losses of a blade that do not come back
 ``maps``                maps over two numbers of any measure, and of these gain maps: the share that comes back
 ``drops``               how drops end and what the bearing bears, against two numbers
+``recoveries``          how many drops come back, with recovery actions and without
 ``document``            results as JSON
 ======================  ==================================================================================
 """
@@ -15,6 +16,7 @@
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.drops import DropMap, map_drops
 from carom.basins.maps import GainMap, map_gains
+from carom.basins.recoveries import Recoveries, RecoveryShare, compare_recoveries
 from carom.basins.shares import Population, Share, share_of_kicks
 from carom.basins.sizes import SmallestUnrecovered
 from carom.basins.unrecovered import smallest_unrecovered
@@ -25,8 +27,11 @@ __all__ = [
     "DropMap",
     "GainMap",
     "Population",
+    "Recoveries",
+    "RecoveryShare",
     "Share",
     "SmallestUnrecovered",
+    "compare_recoveries",
     "map_basins",
     "map_cells",
     "map_drops",

@@ -11,6 +11,7 @@ A module for each command (``study``, ``simulate``, ``drop``, ``orbits``, ``attr
 ``tables``         tables of ``study`` and ``orbits``, and of one motion: its contacts, its loads, and where it is at the end
 ``basin_tables``   what ``basins`` prints
 ``starts``         starts, times, ranges and planes from text, with or without units, and how a motion begins
+``recovery``       ``drop --recovery``: the share of drops that comes back
 ``logs``           contact logs as rows and as files
 =================  ==================================================================================================================
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import option
+from carom.cli.recovery import DROPS, KICKS_UP_TO, RECOVERY, compare_recoveries
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ UNTIL = option(
 STEPS = option(
     "N", "With --until standstill: steps of speed down to zero; the error is that of half as many.", default=200
 )
+REGAINED_BY = option("NAME", "Levitation returns as the table [[recovery]] of this name says.")
 OUT = option("DIR", "Write figures, drop.json and the landing report drop.html to this directory.")
 
 
@@ -58,6 +60,11 @@ def drop(
     phase: str | None = PHASE,
     race_speed: str | None = RACE_SPEED,
     regained_after: str | None = options.REGAINED_AFTER,
+    regained_by: str | None = REGAINED_BY,
+    compare: bool = RECOVERY,
+    drops: int | None = DROPS,
+    kicks_up_to: str | None = KICKS_UP_TO,
+    seed: int | None = options.SEED,
     until: str | None = UNTIL,
     plane: str | None = MAP,
     grid: str | None = GRID,
@@ -70,7 +77,8 @@ def drop(
     """Drop the rotor on its touchdown bearings: forces, depth, heat, whirl and race speed, against their limits.
 
     Levitation is lost and the rotor falls under [gravity], or 9.81 m/s² downward if the file has none. With --out it also writes figures, drop.json
-    and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map drops are simulated over two quantities.
+    and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map drops are simulated over two quantities, with --recovery many
+    are, to compare what brings the rotor back.
     """
     from carom.basins.drops import RELEASED, USUAL
     from carom.cli.starts import read_cells, read_plane, read_time, refuse_without, released
@@ -78,7 +86,13 @@ def drop(
     case = read_machine(machine, settings)
     check_output(out)
     ways = {"--start": start, "--kick": kick, "--whirl": whirl}
-    begins = released(case, ways, regained_after, phase, race_speed, called="the release")
+    sampled = {"--drops": drops, "--kicks-up-to": kicks_up_to, "--seed": seed}
+    if compare:
+        others = {**ways, "--phase": phase, "--race-speed": race_speed, "--map": plane}
+        others |= {"--regained-after": regained_after, "--regained-by": regained_by}
+        return compare_recoveries(case, drops, kicks_up_to, seed, others, until, out, as_json)
+    refuse_without("--recovery", sampled)
+    begins = released(case, ways, regained_after, phase, race_speed, called="the release", regained_by=regained_by)
     if plane is None:
         refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)

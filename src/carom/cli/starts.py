@@ -298,6 +298,7 @@ def released(
     phase: str | None = None,
     race_speed: str | None = None,
     called: str = "--drop",
+    regained_by: str | None = None,
 ) -> StatedBeginning:
     """How levitation is lost, at the state that one of some ways gives; wrong input is refused before kernels are loaded."""
     from carom.disturbances import Drop
@@ -313,4 +314,12 @@ def released(
     turned = None if phase is None else read_angle("--phase", phase, scales)
     turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
     at = next((read_one(option, text, scales) for option, text in chosen.items()), None)
-    return StatedBeginning(release=Drop(at, turned, regained, turning))
+    named = {each.name: each for each in case.recoveries}
+    if regained_by is not None and regained_by not in named:
+        known = (
+            f"one of {', '.join(named)}"
+            if named
+            else "the name of a table [[recovery]], which the machine file has not"
+        )
+        raise InputError("--regained-by", regained_by, known)
+    return StatedBeginning(release=Drop(at, turned, regained, turning, named.get(regained_by or "")))

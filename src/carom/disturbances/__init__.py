@@ -22,7 +22,7 @@ co-rotating frame, from which the motion is free.
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
-and ``recorded`` (``base_motion`` is what these share, and ``shocks`` follows a rotor through it), ``states`` and ``machine_changes``.  ``plans`` has
+and ``recorded`` (``base_motion`` is what these share, and ``shocks`` follows a rotor through it), ``states`` and ``machine_changes`` (with ``recovering``, levitation that is regained).  ``plans`` has
 grids and samples and says what is measured of them, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where
 they end.
 

@@ -18,7 +18,7 @@ from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate,
 from carom.disturbances.kicks_and_shocks import levitating_at
 from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Echo, Part, Single, eccentricity_words, moving
-from carom.parameters import MACHINE_FIELDS, Gravity, own_size, own_time
+from carom.parameters import MACHINE_FIELDS, Gravity, RecoveryAction, own_size, own_time
 from carom.parameters.formats import format_angle, format_quantity, number
 from carom.parameters.tables import STIFFNESS
 
@@ -164,12 +164,15 @@ class Drop(Disturbance):
         Time after which the bearing holds the rotor as before, in ``1/Ω`` or text with a unit; by default never.
     race_speed : float or str, optional
         Speed of the race at the release, in ``Ω`` or text with a unit; by default that of the model, which is 0 for a machine file.
+    recovery : carom.parameters.RecoveryAction, optional
+        When the bearing holds the rotor again, and what its controller does then, in place of ``regained_after``.
     """
 
     at: State | Single | None = None
     phase: float | str | None = None
     regained_after: float | str | None = None
     race_speed: float | str | None = None
+    recovery: RecoveryAction | None = None
     kind: ClassVar[str] = "drop"
     noun: ClassVar[str] = "drops"
     changes_machine: ClassVar[bool] = True
@@ -215,11 +218,17 @@ class Drop(Disturbance):
         falling = rotor.without_levitation()
         if rotor.acting.whole_weight is None and not rotor.is_vertical:
             falling = falling.under_gravity(ASSUMED)
+        kept = rotor.equations.regained
+        carry = None if kept is None else np.diag(np.tile(kept, 2))
+        if self.recovery is not None:
+            from carom.disturbances.recovering import recovery_stages
+
+            if self.regained_after is not None:
+                raise InputError("regained_after", self.regained_after, "left out beside recovery, which says when")
+            return in_stages(tuple(recovery_stages(rotor, falling, self.recovery, carry))), start
         if self.regained_after is None:
             return falling, start
         time = own_time("regained_after", self.regained_after, rotor.scales)
-        kept = rotor.equations.regained
-        carry = None if kept is None else np.diag(np.tile(kept, 2))
         return in_stages((Stage(falling, Trigger(time=time), carry), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Rotor) -> float:
@@ -282,6 +291,8 @@ class Drop(Disturbance):
             turning, shown = own_size("race_speed", self.race_speed, "speed", scales), MACHINE_FIELDS["speed"]
             sizes["race_speed"] = turning, "speed"
             back = f"; the inner race turns at {number(shown.in_usual_unit(turning * scales.speed), 6)} {shown.usual_unit}{back}"
+        if self.recovery is not None:
+            back = f"; levitation {self.recovery.words}"
         words = (
             f"Release: {where}; gravity {(gravity or ASSUMED).words}; angles are measured from the fixed x axis in the "
             f"sense of rotation (unbalance at the release: {format_angle(phase)}){back}"
@@ -299,6 +310,7 @@ def drop(
     phase: float | str | None = None,
     regained_after: float | str | None = None,
     race_speed: float | str | None = None,
+    recovery: RecoveryAction | None = None,
 ) -> Drop:
     """Levitation is lost: stiffness and damping of the bearing act no longer, weight and unbalance do.
 
@@ -314,6 +326,8 @@ def drop(
         Time after which levitation is back, in ``1/Ω`` or text with a unit, such as ``"50 ms"``; by default never.
     race_speed : float or str, optional
         Speed of the race of the touchdown bearing at the release, in ``Ω`` or text with a unit, such as ``"500 rpm"``.
+    recovery : carom.parameters.RecoveryAction, optional
+        When levitation is back, and what the controller does then, in place of ``regained_after``.
 
     See Also
     --------
@@ -332,4 +346,4 @@ def drop(
     >>> print(f"{motion.contacts.time[0] * motion.rotor.scales.time * 1e3:.6f} ms")
     7.139216 ms
     """
-    return Drop(at, phase, regained_after, race_speed)
+    return Drop(at, phase, regained_after, race_speed, recovery)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import InputError
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -134,6 +136,10 @@ class Definition:
         By default they act where the weight does, and what they ask is not known.
         """
         return np.zeros_like(weight), np.zeros(limits, complex)
+
+    def pushed_by_currents(self, current: complex) -> np.ndarray:
+        """Accelerations (n,) by this current, A, in all magnetic bearings, each of which pushes where it points."""
+        raise InputError("current", abs(current), "a [rotor] with magnetic bearings; others have a force")
 
     def bearing_at(self, plane: int) -> TouchdownBearing | None:
         """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""

@@ -52,7 +52,7 @@ class Force(NamedTuple):
     exponent : complex
         ``σ``, in units of the shaft speed: weight turns with ``−i`` in the co-rotating frame.
     accelerations : ndarray of complex, shape (n,)
-        Of the coordinates, at time zero.
+        Of the coordinates, at time zero; of those without mass their rates.
     rates : ndarray of complex, shape (n,), optional
         Of a force ``(a + ḃt) e^{σt}``, such as that of a base between two samples of its acceleration, how fast it grows; it is a chain of two modes.
     """
@@ -90,7 +90,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
             for force in forces
         ]
     for exponent, together in _merged(pushes):
-        push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
+        push = np.sum([_by_rates(modes.left, place, n) @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
     for force in growing:
         conjugates = slice(last + first + n, None) if system.is_anisotropic else None
@@ -117,6 +117,12 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         arrays=moved | {name: arrays[name] for name in _KEPT},
         beside=system,
     )
+
+
+def _by_rates(left: np.ndarray, rates: slice, n: int) -> np.ndarray:
+    """What changes the amplitudes by the rates of ``n`` coordinates; of those without mass, whose rates are no part of a state, by themselves."""
+    columns = left[:, rates]
+    return np.where(columns.any(axis=0), columns, left[:, rates.start - n : rates.start])
 
 
 def _merged(

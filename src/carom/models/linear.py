@@ -138,6 +138,12 @@ class LinearEquations(Definition, Result):
         found[self.has_mass] = np.linalg.solve(self.mass[np.ix_(self.has_mass, self.has_mass)], forces[self.has_mass])
         return found
 
+    def rates_by(self, forces: np.ndarray) -> np.ndarray:
+        """Accelerations (n,) of the coordinates by what acts on their equations, and rates of those without mass."""
+        found, none = np.zeros(len(forces), complex), ~self.has_mass
+        found[none] = np.linalg.solve(self.damping[np.ix_(none, none)], forces[none])
+        return found + self.accelerations(forces - self.damping[:, none] @ found[none])
+
     def _check_shaft(self) -> None:
         """Refuse a shaft whose speed changes where the matrices would change with it, or where it has no response to its unbalance."""
         if self.conjugate is not None:

@@ -30,6 +30,10 @@ class Trigger:
         Radial speed of an impact at any plane.
     shaft_speed : float
         Speed of a shaft that slows down, in ``Ω``, seen at an impact or after a step of contact.
+    quiet_time : float
+        Time for which it has been quiet: no touchdown bearing has touched, or with a ``quiet_speed`` the rotor was not faster than that, in the
+        fixed frame, at any of them.  The speed is looked at at events, and when the time is over.
+    quiet_speed : float
     """
 
     time: Positive | Infinity = np.inf
@@ -37,6 +41,13 @@ class Trigger:
     contact_gap: NotNegative = 0.0
     impact_speed: Positive | Infinity = np.inf
     shaft_speed: float | Infinity = -np.inf
+    quiet_time: Positive | Infinity = np.inf
+    quiet_speed: NotNegative = 0.0
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether it may end a motion that has settled."""
+        return self.time < np.inf or self.quiet_time < np.inf or self.shaft_speed > -np.inf
 
 
 NEVER = Trigger()

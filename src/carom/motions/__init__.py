@@ -8,6 +8,7 @@
 ``ensembles``         many motions, on all cores; only their endings are kept
 ``portions``          the work of an ensemble, shared by threads
 ``budget``            how many events each question of a study may take
+``quiet``             when it has been quiet for a time: no contact, or no fast rotor
 ``settling``          how it is recognised that a motion has settled, repeats, or lies on its touchdown bearing
 ``contacts``          the log of contacts, of whatever law, with impulses in events and works of lasting contact
 ``kinematics``        speeds at the touchdown bearings, and the course there with forces and slip

@@ -18,6 +18,7 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.models import Rotor, Subject, Trigger, rotor_of
 from carom.models.stages import stages_of
 from carom.motions.budget import present_question
+from carom.motions.quiet import last_unrest, with_pause
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -145,21 +146,29 @@ def follow_stage(
     settle, stop_at_chatter, patience, max_events, tell = following
     begins = start.time
     # What has settled may still be ended by a time.
-    settle, until = bool(settle) and trigger.time == np.inf, min(longest, trigger.time)
+    settle, until = bool(settle) and not trigger.is_certain, min(longest, trigger.time)
     amplitudes, contact = amplitudes_of(rotor, start)
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     limited = begin_limits(rotor.system, amplitudes, begins, recollection)
     first = np.where(contact == AWAY, FLIGHT, contact), amplitudes.copy(), limited
     reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, SettlingProgress()
-    begun, impact_times, ended = 0.0, np.zeros(0), False
+    begun, impact_times, ended, restless = 0.0, np.zeros(0), False, 0.0
     given, limits = tools(rotor), rotor.system.limits
     room = EventLog.empty(min(CHUNK, max_events), len(amplitudes), len(contact), limits)
     while not ended:
-        log = room.first(max_events - events)
-        outcome, time, count = follow(given, amplitudes, until - reached, contact, log, recollection)
+        log, asked = room.first(max_events - events), min(until, restless + trigger.quiet_time)
+        outcome, time, count = follow(given, amplitudes, asked - reached, contact, log, recollection)
         log = log.first(count)
         log = log._replace(times=reached + log.times)
         reached, events = reached + time, events + count
+        if trigger.quiet_time < np.inf:
+            reached = asked if outcome is Outcome.TIME_REACHED else reached
+            now = np.where(contact == AWAY, FLIGHT, contact)
+            phases = np.concatenate([first[0][None], log.phases])
+            restless = max(restless, last_unrest(rotor.system, log, phases, amplitudes, reached, trigger))
+            if outcome is Outcome.TIME_REACHED and asked < until and reached < restless + trigger.quiet_time:
+                outcome, count = Outcome.EVENT_LIMIT, count + 1
+                log = with_pause(log, now, amplitudes, reached, recollection.limited)
         impact_times = np.append(impact_times, log.times)[-LOW_FOR:]
         tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
@@ -169,7 +178,8 @@ def follow_stage(
         if low and np.ptp(impact_times) < low_interval(rotor) * (len(impact_times) - 1):
             outcome = Outcome.LOW_BOUNCES
         if outcome is Outcome.TIME_REACHED:
-            reached, outcome = until, Outcome.TRIGGERED if until == trigger.time else outcome
+            triggered = asked in (trigger.time, restless + trigger.quiet_time)
+            reached, outcome = asked, Outcome.TRIGGERED if triggered else outcome
         ended = outcome is not Outcome.EVENT_LIMIT or events >= max_events
         if not ended and not count:  # a slice of a flight, which goes on
             continue

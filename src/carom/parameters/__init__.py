@@ -15,6 +15,7 @@
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a compliant wall dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
+``recovery``              :class:`RecoveryAction`: when levitation is regained after a drop, and with which actions
 ``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
 ``formats``               sizes and numbers as people write and read them: mm/s, g, degrees; those of starts and disturbances
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
@@ -36,6 +37,7 @@ from carom.parameters.machine import ControlLimit, Machine
 from carom.parameters.machine_file import SETTINGS, Case, field_to_set
 from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
+from carom.parameters.recovery import RecoveryAction
 from carom.parameters.requirement import SHOCK_DURATION, Required, Requirement, Shock, usual_kick
 from carom.parameters.scaling import GRAVITY, UNITS, Scales
 from carom.parameters.tables import LIMIT_FIELDS, Drive, Gravity, LoadLimits, Zones
@@ -67,6 +69,7 @@ __all__ = [
     "Machine",
     "Numbers",
     "Parameters",
+    "RecoveryAction",
     "Required",
     "Requirement",
     "Scales",

@@ -22,6 +22,7 @@ from carom.parameters.formats import format_entry, format_quantity, number, show
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.numbers import Parameters, own_numbers
 from carom.parameters.quantities import read_quantity
+from carom.parameters.recovery import RecoveryAction, read_recoveries
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
 from carom.parameters.tables import GRAVITY_FIELDS, LIMIT_FIELDS, Drive, Gravity, LoadLimits, Table, Zones
@@ -72,6 +73,8 @@ class Case(Tabular):
         By default, or with the law of a rigid wall, the touchdown bearing is rigid; otherwise the restitution of the machine is not used.
     drive : Drive, optional
         Beside a compliant touchdown bearing; by default the speed never changes.
+    recoveries : tuple of RecoveryAction
+        When levitation is regained after a drop, and with which actions.
     stated : mapping of str, optional
         The numbers of a dimensionless file as they were written.
 
@@ -92,6 +95,7 @@ class Case(Tabular):
     gravity: Gravity | None = None
     touchdown: TouchdownBearing | None = None
     drive: Drive | None = None
+    recoveries: tuple[RecoveryAction, ...] = ()
     stated: Mapping[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -155,6 +159,7 @@ class Case(Tabular):
             "drive": self.drive and self.drive.words,
             "gravity": self.gravity and self.gravity.words,
             "must survive": self._required(),
+            "levitation after a drop": "; ".join(f"{each.name}: {each.words}" for each in self.recoveries),
             "zones, in clearances": zones,
             "limits of the bearing": ", ".join(limits),
             "units of the equations": scales and ", ".join(units),
@@ -188,6 +193,7 @@ class Case(Tabular):
         if not text:
             return ""
         tables = [table.to_toml() for table in (self.limits, self.touchdown, self.drive, self.gravity) if table]
+        tables += [each.to_toml() for each in self.recoveries]
         required = self.requirement.to_toml(has_scales=numbers.scales is not None)
         return "\n".join(filter(None, [text, self.zones.to_toml(), required, *tables]))
 
@@ -263,11 +269,12 @@ Fields = dict[str, Any]
 
 
 def read_beside(tables: MachineTables, problems: Problems, has_scales: bool = True) -> Fields:
-    """What all kinds of files state beside their machine: ``[zones]``, ``[limits]``, ``[gravity]`` and ``[drive]``; errors are added to those before."""
+    """What all kinds of files state beside their machine: ``[zones]``, ``[limits]``, ``[gravity]``, ``[drive]`` and ``[[recovery]]``; errors are added to those before."""
     defaults: dict[type[Table], Table | None] = {Zones: Zones(), LoadLimits: LoadLimits(), Gravity: None, Drive: None}
     stated = {kind: tables.beside.get(kind.heading) for kind in defaults}
     found = {kind: problems.attempt(kind.of, table, has_scales) for kind, table in stated.items() if table is not None}
-    return {kind.heading: found.get(kind) or default for kind, default in defaults.items()}
+    beside = {kind.heading: found.get(kind) or default for kind, default in defaults.items()}
+    return {**beside, "recoveries": read_recoveries(tables.recoveries, has_scales, problems)}
 
 
 def read_case(

@@ -25,6 +25,9 @@ BIAS, STIFFNESS = "bias", "stiffness"
 _KINDS = {
     "": "a number",
     "rad": "an angle",
+    "rad/s": "an angular speed",
+    "s": "a time",
+    "A": "a current",
     "m": "a length",
     "kg": "a mass",
     "kg m^2": "a moment of inertia",

@@ -19,7 +19,9 @@ _OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
 _KINDS = ("machine", "dimensionless", "rotor")
 _LISTS = ("section", "disc", "magnetic_bearing", "shared_controller", "support", "touchdown", "unbalance")
 """Tables of which a file with ``[rotor]`` holds one for each part."""
-_TABLES = dict.fromkeys((*_KINDS, *_OPTIONAL, *_LISTS))
+_RECOVERY = "recovery"
+"""Table of which any file may hold several."""
+_TABLES = dict.fromkeys((*_KINDS, *_OPTIONAL, *_LISTS, _RECOVERY))
 _LARGEST_BYTES = 1_000_000
 _REMEDY = "must hold a [machine], a [dimensionless] or a [rotor] table"
 _MOST_LEVELS = 16
@@ -40,6 +42,8 @@ class MachineTables:
     """Entries of the optional tables that there are, by their names; an empty one may mean something too."""
     parts: Mapping[str, Sequence[Mapping[str, object]]] = field(default_factory=dict)
     """Tables for each part of a flexible rotor by their name, such as ``[[section]]``."""
+    recoveries: Sequence[Mapping[str, object]] = ()
+    """Tables ``[[recovery]]``."""
     folder: Path = Path()
     """Where the file lies: paths in it start there."""
 
@@ -52,7 +56,7 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
     kinds = [kind for kind in _KINDS if kind in content]
-    lists = _LISTS if kinds == ["rotor"] else ()
+    lists = (*_LISTS, _RECOVERY) if kinds == ["rotor"] else (_RECOVERY,)
     for key, value in content.items():
         if key not in _TABLES:
             problems.errors.append(_unknown_at_top(key, value))
@@ -73,7 +77,8 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
     beside = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
     listed = {name: content[name] if isinstance(content.get(name), list) else [] for name in lists}
     parts = {name: [each for each in given if isinstance(each, dict)] for name, given in listed.items()}
-    return MachineTables(kinds[0], content[kinds[0]], beside, parts, Path(name).parent)
+    recoveries = parts.pop(_RECOVERY)
+    return MachineTables(kinds[0], content[kinds[0]], beside, parts, recoveries, Path(name).parent)
 
 
 def read_toml(path: object, what: str, remedy: str) -> tuple[str, dict[str, Any]]:

@@ -83,6 +83,17 @@ class FlexibleDefinition(LinearEquations):
         left[np.abs(left) <= ROUNDED * np.abs(weight).max()] = 0.0
         return left, asked if len(asked) == limits else np.zeros(limits)
 
+    def pushed_by_currents(self, current: complex) -> np.ndarray:
+        """See :meth:`carom.models.definition.Definition.pushed_by_currents`."""
+        reduced: ReducedMachine = self.reduced
+        at, scales, found = reduced.machine, reduced.scales, np.zeros(len(self.mass), complex)
+        if not at.bearings:
+            return super().pushed_by_currents(current)
+        unit = scales.length * math.sqrt(scales.mass) * scales.speed**2
+        for each in at.bearings:
+            found[: reduced.vectors] += each.ki * current / unit * (at.rotor.row_at(each.node) @ reduced.basis.shapes)
+        return found
+
     def value(self, name: str) -> float:
         """Value of a parameter.
 
