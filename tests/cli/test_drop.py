@@ -140,3 +140,19 @@ def test_until_the_shaft_stands(carom, tmp_path):
     assert "torque of unbalance left out: up to" in words
     code, _, err = carom(*command, "--map", "phase,speed")
     assert (code, "--until = standstill: a time beside --map" in err) == (2, True)
+
+
+def test_histories_beside_a_drop_and_a_motion(carom, refused, tmp_path):
+    file = tmp_path / "drop.csv"
+    for command in (SHORT, ("simulate", MACHINE, "--drop", "--until", "20 ms")):
+        file.unlink(missing_ok=True)
+        code, _, err = carom(*command, "--history", str(file), "--every", "0.1 ms")
+        assert (code, err) == (0, "")
+        heading, *rows = file.read_text().splitlines()
+        assert heading.startswith("time [s],touchdown_1_x [m],touchdown_1_y [m],touchdown_1_normal_force [N]")
+        assert len(rows) == 201
+    refused("carom: --every = 1 ms: allowed only with --history FILE", *SHORT, "--every", "1 ms")
+    refused("carom: --nodes = a: must be numbers of nodes", *SHORT, "--history", str(file), "--nodes", "a")
+    refused(
+        f"carom: --history = {tmp_path}/a.txt: must end in .csv, .mat, .nc", *SHORT, "--history", f"{tmp_path}/a.txt"
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, cast
 
@@ -17,12 +18,13 @@ if TYPE_CHECKING:
     from carom.basins import DropMap
     from carom.cli.starts import StatedBeginning
     from carom.disturbances import Drop
+    from carom.motions import Trajectory
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
 STANDSTILL = "standstill"
 _DRAWN = 20_000
-"""Impacts and steps of contact that are drawn: figures need them all at once."""
+"""Impacts and steps of contact that are drawn and written as histories, which need them all at once."""
 MOST_CELLS = 100_000
 """Each takes some hundredths of a second to some seconds: more would be a typing error."""
 WHIRL = option(
@@ -72,6 +74,9 @@ def drop(
     y: str | None = options.SECOND_RANGE,
     out: str | None = OUT,
     steps: int = STEPS,
+    history: str | None = options.HISTORY,
+    every: str | None = options.EVERY,
+    nodes: str | None = options.NODES,
     as_json: bool = options.AS_JSON,
 ) -> None:
     """Drop the rotor on its touchdown bearings: forces, depth, heat, whirl and race speed, against their limits.
@@ -81,6 +86,7 @@ def drop(
     are, to compare what brings the rotor back.
     """
     from carom.basins.drops import RELEASED, USUAL
+    from carom.cli.logs import history_writer
     from carom.cli.starts import read_cells, read_plane, read_time, refuse_without, released
 
     case = read_machine(machine, settings)
@@ -96,6 +102,11 @@ def drop(
     if plane is None:
         refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
+    record = history_writer(case, history, every, nodes)
+    if record is not None and (plane is not None or until == STANDSTILL):
+        raise InputError(
+            "--history", history, "allowed for one drop that ends at a time, or where its outcome is certain"
+        )
     if until == STANDSTILL:
         if plane is not None:
             raise InputError("--until", until, "a time beside --map, such as '0.5 s'")
@@ -105,23 +116,34 @@ def drop(
         shape = tuple(USUAL.values()) if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
         _map(case, begins, {"over": asked.over(shape), "until": end}, out, as_json)
     else:
-        _drop_once(case, begins, end, out, as_json)
+        _drop_once(case, begins, end, out, record, as_json)
 
 
-def _drop_once(case: Case, begins: StatedBeginning, end: float | None, out: str | None, as_json: bool) -> None:
-    """Follow one drop, write its report, and tell what the bearing bears."""
+def _drop_once(
+    case: Case,
+    begins: StatedBeginning,
+    end: float | None,
+    out: str | None,
+    record: Callable[[Trajectory], None] | None,
+    as_json: bool,
+) -> None:
+    """Follow one drop, write its histories and its report, and tell what the bearing bears."""
     page = None
     with progress("simulating (the kernels are compiled on first use)") as tell:
         rotor, state, echo = begins.apply(case)
         from carom.motions import follow_loads, simulate
         from carom.studies.drops import DropStudy
 
-        loads = follow_loads(rotor, state, end, progress=tell if out is None else tell.part(0.0, 0.4))
+        drawn = out is not None or record is not None
+        loads = follow_loads(rotor, state, end, progress=tell.part(0.0, 0.4) if drawn else tell)
         found = DropStudy(case, echo, loads, begins.reduction_error(case, loads))
+        if drawn:
+            motion = simulate(rotor, state, end, settle=True, max_events=_DRAWN)
+            if record is not None:
+                record(motion)
         if out is not None:
             from carom.report import write_drop_report
 
-            motion = simulate(rotor, state, end, settle=True, max_events=_DRAWN)
             page = write_drop_report(found, motion, out, progress=tell.part(0.4, 1.0))
     hand_over(found.document, as_json, lambda: _print_drop(console(), found, out), out, f"Report: {page}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib.metadata import version
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from carom.motions.kinematics import LastingContact
     from carom.motions.trajectories import Trajectory
+    from carom.parameters import Case
 
 
 def check_file(option: str, path: str) -> None:
@@ -38,6 +39,33 @@ def check_file(option: str, path: str) -> None:
         raise InputError(option, path, allowed)
     with _refusals(option, path):
         try_place(target)
+
+
+def history_writer(
+    case: Case, file: str | None, every: str | None, nodes: str | None
+) -> Callable[[Trajectory], None] | None:
+    """Read ``--history`` with its options, and return what writes the histories of a motion; ``None`` without it."""
+    from carom.cli.starts import read_positive, refuse_without
+    from carom.motions.channels import FORMATS
+
+    if file is None:
+        refuse_without("--history FILE", {"--every": every, "--nodes": nodes})
+        return None
+    check_file("--history", file)
+    if Path(file).suffix.lower() not in FORMATS:
+        raise InputError("--history", file, f"must end in {', '.join(FORMATS)}")
+    numbers = [each.strip() for each in nodes.split(",")] if nodes else []
+    if not all(map(str.isdecimal, numbers)):
+        raise InputError("--nodes", nodes, "must be numbers of nodes with commas between them, such as 0,5,11")
+    step = None if every is None else read_positive("--every", every, "time", case.parameters.scales)
+
+    def write(motion: Trajectory) -> None:
+        from carom.motions import write_channels
+
+        with _refusals("--history", file):
+            write_channels(motion.channels(step, [int(each) for each in numbers], case), file)
+
+    return write
 
 
 def contact_rows(parts: Sequence[Trajectory]) -> tuple[dict[str, str], list[dict[str, object]]]:

@@ -92,6 +92,12 @@ INSTANT = option(
 )
 REGAINED_AFTER = option("T", "Time after the release at which levitation returns, such as '50 ms'; by default never.")
 UNTIL = option("T", "Simulate until this time, in 1/Omega or with a unit; by default until the outcome is certain.")
+HISTORY = option(
+    "FILE",
+    "Write histories as sensors record them to a .csv, .mat or .nc file: displacements, contact forces, speeds of shaft and races, control currents; SI units, fixed frame.",
+)
+EVERY = option("T", "With --history: interval of the samples, such as '50 us'; by default a hundredth of a turn.")
+NODES = option("N,N", "With --history: nodes of a flexible shaft, or stations of a rigid rotor, to be recorded too.")
 
 ALONG = option("NAME", "Parameter to vary, such as gamma, speed, damping or stiffness.", default=...)
 PLANE = option(

@@ -38,6 +38,9 @@ def simulate(
     out: str | None = options.OUT,
     csv: str | None = CSV,
     netcdf: str | None = NETCDF,
+    history: str | None = options.HISTORY,
+    every: str | None = options.EVERY,
+    nodes: str | None = options.NODES,
     as_json: bool = options.AS_JSON,
 ) -> None:
     """Simulate one motion and log its contacts.
@@ -52,6 +55,7 @@ def simulate(
     for name, path in (("--csv", csv), ("--netcdf", netcdf)):
         if path is not None:
             logs.check_file(name, path)
+    record = logs.history_writer(case, history, every, nodes)
     if regained_after is not None and not drop:
         raise InputError("--regained-after", regained_after, "allowed only with --drop")
     if instant is not None and drop:
@@ -76,6 +80,8 @@ def simulate(
             logs.write_csv(motion, csv)
         if netcdf is not None:
             logs.write_netcdf(motion, netcdf)
+        if record is not None:
+            record(motion)
         loads = drop_loads(motion)
         beside = {"magnets": loads.magnets, "reduction": begins.reduction_error(case, loads)}
         known = {name: found for name, found in beside.items() if found is not None}

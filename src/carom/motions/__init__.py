@@ -23,6 +23,7 @@
 ====================  ======================================================================================
 """
 
+from carom.motions.channels import write_channels
 from carom.motions.contacts import ContactLog
 from carom.motions.ensembles import Endings, settle
 from carom.motions.heating import Network, RaceRun, Temperatures, ball_torque, thermal_network
@@ -62,4 +63,5 @@ __all__ = [
     "simulate",
     "spin_down",
     "thermal_network",
+    "write_channels",
 ]

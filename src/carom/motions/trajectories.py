@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -17,10 +18,10 @@ from carom.base.results import Result
 from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
-from carom.models import Rotor
+from carom.models import Rotor, Subject
 from carom.motions.contacts import ContactLog, Impulses, contacts_of, impacts_of, impulses_of
 from carom.motions.kinematics import ContactHistory, LastingContact, is_compliant, presses
-from carom.motions.starts import State, state_at
+from carom.motions.starts import State, Until, state_at
 
 if TYPE_CHECKING:
     import xarray
@@ -323,6 +324,15 @@ class Trajectory(Result):
             raise InputError("times", np.shape(times), "times in one dimension")
         course = self.history(times).to_dataset()
         return course.assign_coords(time=course["time"]).assign_attrs(provenance(self), begins=self.begins)
+
+    @checked
+    def channels(
+        self, every: Until | None = None, nodes: Sequence[Whole] = (), machine: Subject | None = None
+    ) -> xarray.Dataset:
+        """Histories as sensors would record them, in SI units and the fixed frame; see :func:`carom.motions.channels.channels_of`."""
+        from carom.motions.channels import channels_of
+
+        return channels_of(self, every, nodes, machine)
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:

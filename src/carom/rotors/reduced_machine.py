@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
@@ -345,6 +346,27 @@ class ReducedMachine(Result):
         seen = loops_of(self.machine.rotor, known, ()).bearings @ self.basis.shapes
         rows[:, : self.vectors] = math.sqrt(self.scales.mass) * self.scales.length / gaps[:, None] * seen
         return rows
+
+    def places(self, nodes: Sequence[int]) -> dict[str, np.ndarray]:
+        """Displacement, in clearances of the machine, per coordinate in units of the equations: at magnetic bearings, the mean of the sensors of each, and at nodes."""
+        for node in nodes:
+            self.machine.rotor.check_node("nodes", node)
+        loops, named = loops_of(self.machine.rotor, self.machine.bearings, ()), dict[str, np.ndarray]()
+        for number, (pulls, seen) in enumerate(zip(loops.bearings, loops.sensors, strict=True), start=1):
+            named |= {f"magnetic_bearing_{number}": pulls, f"magnetic_bearing_{number}_sensor": seen}
+        named |= {f"node_{node}": self.machine.rotor.row_at(node) for node in nodes}
+        beside = len(self.equations.mass) - self.vectors
+        size = math.sqrt(self.scales.mass)
+        return {name: np.pad(size * row @ self.basis.shapes, (0, beside)) for name, row in named.items()}
+
+    def currents(self, coordinates: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        """Control currents (n, B), A, of coordinates and their rates (n, N) in the fixed frame, in units of the equations."""
+        given, unit = self.equations, self.scales.length * math.sqrt(self.scales.mass)
+        rates = rates * self.scales.speed
+        alike = coordinates @ given.currents.T + rates @ given.current_rates.T
+        across = coordinates.conj() @ given.currents_across[0].T + rates.conj() @ given.currents_across[1].T
+        found: np.ndarray = unit * (alike + across)
+        return found
 
     def _touchdown(self, plane: TouchdownPlane, clearance: float, row: np.ndarray) -> Touchdown:
         """A touchdown bearing, in units in which its own clearance is the length and energies are those of the rotor."""
