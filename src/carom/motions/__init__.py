@@ -19,6 +19,7 @@
 ``standstill``        a drop followed until the shaft stands still
 ``descent``           its way down: torques, gyroscopic moments in steps of speed, and what is passed
 ``courses``           a drop sampled over all stages, to be drawn
+``channels``            histories of displacements, forces, speeds and currents as sensors record them, and their files
 ``ledger``            energies of a motion
 ====================  ======================================================================================
 """

@@ -24,10 +24,14 @@ from carom.parameters import own_time
 if TYPE_CHECKING:
     import xarray
 
+    from carom.parameters import Scales
+
 PER_TURN = 100
 """Samples in a turn of the shaft, where no interval is given."""
 MOST = 5_000_000
 """Most samples: more would be a typing error."""
+Column = tuple[str, np.ndarray, dict[str, str]]
+"""Dimension, values, unit and words."""
 FORMATS = (".csv", ".mat", ".nc")
 
 
@@ -72,7 +76,7 @@ def channels_of(
     places = {} if rotor.finite_elements is None else rotor.finite_elements.places(nodes)
     if rotor.planar is not None and len(motion.rotor.system.rest) > 1:  # on a mount
         places = {"rotor": np.array([1.0, 0.0])}
-    times, found = step * np.arange(count), list[dict[str, tuple[Any, ...]]]()
+    times, found = step * np.arange(count), list[dict[str, Column]]()
     which = np.searchsorted([part.begins for part in motion.parts], times, side="right") - 1
     for number, part in enumerate(motion.parts):
         own = np.minimum(times[which == number] - part.begins, part.time)
@@ -91,18 +95,16 @@ def channels_of(
     return xarray.Dataset(columns, {"time": time}, attributes)
 
 
-def _sampled(
-    part: Trajectory, times: np.ndarray, places: dict[str, np.ndarray], elements: Any
-) -> dict[str, tuple[Any, ...]]:
+def _sampled(part: Trajectory, times: np.ndarray, places: dict[str, np.ndarray], elements: Any) -> dict[str, Column]:
     """Columns of a stage at times (n,) of it."""
-    system, whole, columns = part.rotor.system, part.rotor.scales, dict[str, tuple[Any, ...]]()
+    system, whole, columns = part.rotor.system, part.rotor.scales, dict[str, Column]()
     amplitudes, phases = part.amplitudes_at(times)
     turn = np.exp(1j * (part.begins + times))
 
-    def add(name: str, values: np.ndarray, kind: str, words: str, scales: Any = whole) -> None:
+    def add(name: str, values: np.ndarray, kind: str, words: str, scales: Scales | None = whole) -> None:
         columns[name] = in_units("time", values, kind, words, scales)
 
-    def displaced(name: str, place: np.ndarray, words: str, scales: Any = whole) -> None:
+    def displaced(name: str, place: np.ndarray, words: str, scales: Scales | None = whole) -> None:
         for axis, values in (("x", place.real), ("y", place.imag)):
             add(f"{name}_{axis}", values, "length", f"{words}, along {axis}", scales)
 
