@@ -166,15 +166,22 @@ def test_the_heat_of_a_landing(tmp_path, name, monkeypatch):
 
 @pytest.mark.jit_only
 def test_the_drag_of_a_race_heats_its_balls():
-    motion = cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(), "60 ms")
+    """Against the ledger; a race that comes up to speed, its cage, and the traction by the equations of race and balls."""
+    given = ("race_inertia=2e-6", "ball_density=7800", "contact_angle=20 deg")
+    case = cm.load("examples/touchdown-balls.toml", [f"touchdown_{each}" for each in given])
+    motion = cm.simulate(case, cm.drop(), "60 ms")
     (plane,) = drop_loads(motion).planes
     assert plane.turning.heat == pytest.approx(-energy_ledger(motion).race_drag[-1], rel=1e-4)
     course = race_speed(motion.rotor.system, 0, motion.edge_amplitudes)
     reached = np.append(motion.segment_starts, motion.time)[course > 0.95 * 80.0]
-    assert plane.turning.up_to_speed_at == (reached[0] if len(reached) else None)
+    assert plane.turning.up_to_speed_at == reached[0]
+    ring, radius = case.touchdown.ring, 20.25e-3
+    inner = 0.5 * (51.35e-3 - 6.35e-3 * math.cos(math.radians(20.0)))
+    turned = np.array([[2e-6, inner], [ring.inertia(7800.0), -inner]])
+    assert plane.turning.ball_traction == pytest.approx(np.linalg.solve(turned, [0.15 * radius, 0.0])[1], rel=1e-9)
     cage = plane.turning.cage_speed / plane.race_at_end
     # The centre of a ball moves at half the speed of the race at the contact.
-    assert cage * 0.5 * (45e-3 + 6.35e-3) == pytest.approx(0.5 * 0.5 * 45e-3, rel=1e-12)
+    assert cage * 0.5 * 51.35e-3 == pytest.approx(0.5 * inner, rel=1e-12)
     assert plane.temperatures is None
 
 

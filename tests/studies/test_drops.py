@@ -88,6 +88,12 @@ def test_temperature_torque_and_cage_of_a_landing():
     (check,) = (each for each in check_loads(plane, LoadLimits(temperature=40)) if each.name == "temperature")
     assert check.exceeded
     assert check.words.startswith("highest temperature: 40.")
+    assert check.margin == -math.inf
+    rise = plane.temperatures.highest - 40.0
+    (check,) = (
+        each for each in check_loads(plane, LoadLimits(temperature=40.0 + 4.0 * rise)) if each.name == "temperature"
+    )
+    assert check.margin == pytest.approx(0.75, rel=1e-9)
 
 
 def test_the_worst_check_of_each_limit_where_not_all_bearings_have_it():

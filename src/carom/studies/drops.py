@@ -101,6 +101,8 @@ class LoadCheck:
         Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
     touchdown_bearing : int or None
         Counted from 1, of a rotor with several.
+    begins : float
+        Load before the motion: the temperature then.
     """
 
     name: str
@@ -111,6 +113,7 @@ class LoadCheck:
     settled: bool
     after: float
     touchdown_bearing: int | None = None
+    begins: float = 0.0
 
     @property
     def exceeded(self) -> bool:
@@ -120,7 +123,8 @@ class LoadCheck:
     @property
     def margin(self) -> float:
         """Share of the limit that is left, below zero where the load exceeds it."""
-        return 1.0 - self.value / self.limit if self.limit else -math.inf if self.value else 0.0
+        reached, most = self.value - self.begins, self.limit - self.begins
+        return 1.0 - reached / most if most > 0.0 else -math.inf if reached else 0.0
 
     @property
     def words(self) -> str:
@@ -173,7 +177,8 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
             after = (limit - value) / si["lasting_power"]
         growing = loads.still_growing and name in ("force", "depth", "pressure", "static_share")
         growing |= name == "temperature" and grows["heat"]
-        found.append(LoadCheck(name, value, limit, endless, growing, loads.outcome.settled, after))
+        begins = float(loads.temperatures.values[0, 0]) if loads.temperatures and name == "temperature" else 0.0
+        found.append(LoadCheck(name, value, limit, endless, growing, loads.outcome.settled, after, begins=begins))
     return tuple(found)
 
 
