@@ -11,7 +11,8 @@ from machines import machine_text
 import carom as cm
 from carom.base.outcome import InputError
 from carom.models import rotor_of
-from carom.parameters import TouchdownBearing
+from carom.motions import spin_down
+from carom.parameters import Drive, TouchdownBearing
 from carom.rotors import (
     ModalDamping,
     ProportionalDamping,
@@ -60,6 +61,28 @@ def test_rotating_damping_limits_the_speed_as_in_closed_form(external, internal)
     with pytest.raises(InputError, match=rf"levitates below {closed * 30.0 / np.pi:.6g} rpm"):
         _ = rigid(external, internal, 1.2 * closed).model
     assert rigid(external, internal, 0.9 * closed).model.system.decay > 0.0
+
+
+def test_a_spin_down_has_the_matrices_of_each_speed():
+    """Against those of the machine made anew at that speed; and two motions of it, in steps of different size."""
+    fast, slow = (rigid(300.0, 200.0, speed).model for speed in (200.0, 50.0))
+    fixed = []
+    for rotor, speed, changes in ((fast, 200.0, fast.finite_elements.changes_at(0.25)), (slow, 50.0, (0.0, 0.0))):
+        _, damping, gyroscopic, stiffness, _ = rotor.without_levitation().matrices
+        fixed.append((speed * (damping - 1j * gyroscopic + changes[0]), speed**2 * (stiffness + changes[1])))
+    for one, other in zip(*fixed, strict=True):
+        assert one == pytest.approx(other, rel=1e-12, abs=1e-12 * np.abs(other).max())
+    slowed = [spin_down(fast, cm.drop(), drive=Drive(brake="0.05 N m"), steps=steps) for steps in (20, 80)]
+    assert all(each.stands and not each.loads.planes[0].contacts for each in slowed)
+    assert slowed[1].largest[0][0] == pytest.approx(slowed[0].largest[0][0], rel=0.05)
+
+
+def test_a_spin_down_asks_for_coefficients_down_to_standstill():
+    machine = rigid(300.0, 0.0)
+    table = Support(0, kxx=(4e5, 5e5), kyy=(4e5, 5e5), cxx=300.0, cyy=300.0, tilt_stiffness=1e5, speeds=(20.0, 300.0))
+    machine = dataclasses.replace(machine, supports=(table, machine.supports[1]))
+    with pytest.raises(InputError, match="beyond, the coefficients of a support at node 0 are not known"):
+        spin_down(machine.with_modes(2).model, cm.drop())
 
 
 def own_planes(machine, speed):

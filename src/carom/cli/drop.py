@@ -156,7 +156,7 @@ def _slow_down(case: Case, begins: StatedBeginning, steps: int, out: str | None,
 
         _, _, echo = begins.apply(case)
         slowed = spin_down(case, cast("Drop", begins.release), steps=steps, progress=tell)
-        found = DropStudy(case, echo, slowed.loads, spin_down=slowed)
+        found = DropStudy(case, echo, slowed.loads, begins.reduction_error(case, slowed.loads), spin_down=slowed)
         write_output(out, case, "standstill", found.document, {})
     hand_over(found.document, as_json, lambda: _print_drop(console(), found, "" if out is None else out), out)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import cast
 
@@ -95,11 +95,20 @@ class Torques:
 
 @dataclass
 class Modes:
-    """A rotor in steps of speed, in each of which gyroscopic moments are those of its middle, and the critical speeds that are passed."""
+    """A rotor in steps of speed, in each of which its matrices are those of the middle, and the critical speeds that are passed.
+
+    Attributes
+    ----------
+    falling : Rotor
+    shaft : Shaft
+    changes : callable or None
+        What a speed adds to damping and stiffness in the fixed frame, shape (2, n, n); ``None`` of a rotor of which they stay what they are.
+    steps : int
+    """
 
     falling: Rotor
     shaft: Shaft
-    gyroscopic: np.ndarray
+    changes: Callable[[float], np.ndarray] | None
     steps: int
     criticals: list[float] = field(default_factory=list)
     number: int = 0
@@ -111,18 +120,19 @@ class Modes:
         number = max(math.ceil(speed * self.steps - EDGE), 1)
         if number != self.number:
             middle = (number - 0.5) / self.steps
-            if self.rotor is None or self.gyroscopic.any():
+            if self.rotor is None or self.changes is not None:
                 self.rotor = self._turning_at(middle)
             self._pass(middle)
             self.number = number
         return cast("Rotor", self.rotor), (number - 1) / self.steps
 
     def _turning_at(self, speed: float) -> Rotor:
-        more, equations = (speed - 1.0) * self.gyroscopic, self.falling.equations
+        equations = self.falling.equations
+        damping, stiffness = (0.0, 0.0) if self.changes is None else self.changes(speed)
         found = replace(
             equations,
-            damping=equations.damping - 1j * more,
-            stiffness=equations.stiffness + more,
+            damping=equations.damping + damping,
+            stiffness=equations.stiffness + stiffness + 1j * damping,
             touchdowns=[
                 replace(each, bearing=self.falling.definition.bearing_at(plane))
                 for plane, each in enumerate(equations.touchdowns)

@@ -1,7 +1,8 @@
 """Spin-down: a shaft without levitation, slowed down by friction in contact, windage and its drive until it stands still.
 
 Friction in contact changes the speed within the motion.  All other torques act in steps, half of a step ahead of the motion, and gyroscopic
-moments are those of the middle of each step of speed, so the error is of second order in the step; it is estimated from steps twice as large.
+moments, and whatever else of the matrices depends on the speed, are those of the middle of each step of speed, so the error is of second order
+in the step; it is estimated from steps twice as large.
 Left out: the torque of the unbalance on the shaft, whose mean in each step is told; the torque ``I_p Ω̇`` about a tilted axis; and rolling
 resistance, without which a rotor that stands rocks for ever.
 """
@@ -9,6 +10,7 @@ resistance, without which a rotor that stands rocks for ever.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -156,18 +158,22 @@ def spin_down(
     before = rotor_of(machine)
     falling, state = start.stages(machine)
     if len(stages_of(falling)) > 1:
-        raise InputError("start", shown(start), "a drop without regained levitation")
-    shaft, gyroscopic = _shaft_and_moments(
+        raise InputError("regained_after", "a time", "left out: a spin-down follows a shaft without levitation")
+    if falling.is_anisotropic:
+        raise InputError("supports", "anisotropic", "alike in both directions, in a spin-down")
+    shaft, changes = _shaft_and_changes(
         before, falling, drive or (machine.drive if isinstance(machine, Case) else None)
     )
     limit = LONGEST if until is None else own_time("until", until, before.scales)
     question = present_question()
     following = Following(False, False, PATIENCE, int(min(max_events, question.left)), Reporter())
     tell = Reporter.of(progress, "slowing down")
-    in_steps = not shaft.turns_freely or bool(gyroscopic.any())
+    in_steps = changes is not None or not shaft.turns_freely
+    if changes is not None:
+        changes(0.5 / steps)  # refused at once where coefficients of a support are not known down to there
 
     def descent(steps: int, tell: Reporter) -> Descent:
-        modes, torques = Modes(falling, shaft, gyroscopic, steps), Torques(shaft, 1.0 / steps)
+        modes, torques = Modes(falling, shaft, changes, steps), Torques(shaft, 1.0 / steps)
         return Descent(modes, torques, limit, following, tell)
 
     fine = descent(steps, tell.part(0.0, 0.5 if in_steps else 1.0))
@@ -193,8 +199,10 @@ def spin_down(
     )
 
 
-def _shaft_and_moments(before: Rotor, falling: Rotor, drive: Drive | None) -> tuple[Shaft, np.ndarray]:
-    """The shaft, and the gyroscopic matrix, which grows with its speed."""
+def _shaft_and_changes(
+    before: Rotor, falling: Rotor, drive: Drive | None
+) -> tuple[Shaft, Callable[[float], np.ndarray] | None]:
+    """The shaft, and what its speed adds to damping and stiffness without levitation, if that changes."""
     elements, own = before.finite_elements, before.equations.shaft
     inertia = None if elements is None else elements.machine.rotor.polar_inertia
     if own is None or drive is not None:
@@ -205,5 +213,7 @@ def _shaft_and_moments(before: Rotor, falling: Rotor, drive: Drive | None) -> tu
         raise InputError(
             "polar_inertia", None, "a spin-down needs a table [drive] with it, such as polar_inertia = '0.02 kg m^2'"
         )
-    # Cross-coupled damping of supports counts as gyroscopic in the matrices of the fixed frame, but does not grow with the speed.
-    return own, falling.matrices.gyroscopic if elements is None else elements.equations.gyroscopic
+    if elements is not None:
+        return own, elements.changes_at
+    spin = -1j * falling.matrices.gyroscopic
+    return own, (lambda speed: np.stack([(speed - 1.0) * spin, np.zeros_like(spin)])) if spin.any() else None

@@ -307,11 +307,7 @@ class ReducedMachine(Result):
     @cached_property
     def definition(self) -> FlexibleDefinition:
         """Its equations of motion in their units, and its parameters."""
-        given, scales, at = self.equations, self.scales, self.machine
-        has_mass = given.mass.any(axis=1)
-        # Coordinates without mass have equations of first order, which have another unit.
-        once = np.where(has_mass, 1.0 / scales.speed, 1.0)[:, None]
-        twice = np.where(has_mass, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
+        given, scales, at, (once, twice) = self.equations, self.scales, self.machine, self._units
         size = math.sqrt(scales.mass)
         # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
@@ -334,6 +330,19 @@ class ReducedMachine(Result):
             else np.stack([once * given.across_unlevitated[0], twice * given.across_unlevitated[1]]),
             magnets=self._magnets,
         )
+
+    @property
+    def _units(self) -> tuple[np.ndarray, np.ndarray]:
+        """What damping and stiffness are multiplied by, shape (n, 1)."""
+        has_mass, speed = np.asarray(self.equations.mass.any(axis=1))[:, None], self.machine.speed
+        # Coordinates without mass have equations of first order, which have another unit.
+        return np.where(has_mass, 1.0 / speed, 1.0), np.where(has_mass, 1.0 / speed**2, 1.0 / speed)
+
+    def changes_at(self, speed: float) -> np.ndarray:
+        """What another speed, in ``Ω``, adds to damping (with ``−iG``) and stiffness in the fixed frame without levitation, in units of the equations, shape (2, n, n)."""
+        given, (once, twice) = self.equations, self._units
+        damping, stiffness = given.at(speed * self.machine.speed).unlevitated - given.unlevitated
+        return np.stack([once * damping - 1j * (speed - 1.0) * given.gyroscopic, twice * stiffness])
 
     @property
     def _magnets(self) -> np.ndarray | None:
