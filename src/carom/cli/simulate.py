@@ -19,6 +19,12 @@ DROP = flag(
     "--drop",
     "Drop the rotor from levitation, or from the state of --start or --kick; gravity is 9.81 m/s² downward unless [gravity] states it.",
 )
+SRS = option(
+    "Q",
+    "Shock response spectra of the base and of the rotor at its touchdown bearings, of oscillators of this quality, such as 10; with --shock or --base-record.",
+    "--srs",
+    min=0.5,
+)
 CSV = option("FILE", "Write the contact log as CSV.", "--csv")
 NETCDF = option("FILE", "Write the contact log as netCDF.", "--netcdf")
 
@@ -32,6 +38,7 @@ def simulate(
     blade_loss: str | None = options.BLADE_LOSS,
     base_record: str | None = options.BASE_RECORD,
     instant: str | None = options.INSTANT,
+    srs: float | None = SRS,
     drop: bool = DROP,
     regained_after: str | None = options.REGAINED_AFTER,
     until: str | None = options.UNTIL,
@@ -61,6 +68,8 @@ def simulate(
     if instant is not None and drop:
         allowed = "not allowed with --drop; carom drop --phase sets where the unbalance is"
         raise InputError("--instant", instant, allowed)
+    if srs is not None and shock is None and base_record is None:
+        raise InputError("--srs", srs, "allowed only with --shock or --base-record")
     ways = {
         "--start": start,
         "--kick": kick,
@@ -83,13 +92,20 @@ def simulate(
         if record is not None:
             record(motion)
         loads = drop_loads(motion)
-        beside = {"magnets": loads.magnets, "reduction": begins.reduction_error(case, loads)}
+        response = None if srs is None else begins.shock_response(case, motion, srs, tell)
+        beside = {
+            "magnets": loads.magnets,
+            "reduction": begins.reduction_error(case, loads),
+            "shock_response": response,
+        }
         known = {name: found for name, found in beside.items() if found is not None}
         said = {name: found.document() for name, found in known.items()}
         beginning = {"disturbance": echo.document(case.parameters.scales)}
         document = cache(lambda: beginning | _document(case, motion) | said)
         if out is not None:
             figures = _figures(case, motion, decaying=end is None)
+            if response is not None:
+                figures["shock-response"] = response.plot
             write_output(out, case, "simulation", document, figures, tell=tell.part(0.4, 1.0, "drawing"))
 
     def show() -> None:

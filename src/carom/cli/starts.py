@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from carom.base.outcome import InputError, together
 from carom.disturbances.single import Single, split_text
@@ -22,12 +22,14 @@ from carom.parameters.fields import unknown_name
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
+    from carom.base.progress import Reporter
     from carom.basins.maps import Over
-    from carom.disturbances import Drop
+    from carom.disturbances import Drop, ShockResponse
     from carom.disturbances.single import Echo
     from carom.models import Axis, Rotor
     from carom.motions.loads import DropLoads
     from carom.motions.starts import State
+    from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
     from carom.rotors.reduction_errors import ReductionError
 
@@ -270,6 +272,16 @@ class StatedBeginning:
             if self.release is None and problem.field in ("kick", "disturbance"):
                 raise InputError(self.option, self.text, f"{problem.allowed}; use --start") from None
             raise
+
+    def shock_response(self, case: Case, motion: Trajectory, quality: float, tell: Reporter) -> ShockResponse:
+        """Shock response spectra of a base that moves, and of the rotor."""
+        from carom.disturbances.base_motion import BaseMotion
+        from carom.disturbances.response_spectra import shock_response
+
+        single = read_one(self.option, self.text, case.parameters.scales)
+        size, angle, _ = single.model.whole(single.values)
+        course = cast("BaseMotion", single.model).course(size, angle, motion.parts[0].begins)
+        return shock_response(motion, course, quality, progress=tell)
 
     def reduction_error(self, case: Case, loads: DropLoads) -> ReductionError | None:
         """Error of the reduction of a flexible machine along the motion; ``None`` of other machines."""

@@ -22,7 +22,7 @@ co-rotating frame, from which the motion is free.
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 ``model`` says what any disturbance offers, ``coordinates`` by what it varies and what starts are; the models are in ``kicks_and_shocks``
-and ``recorded`` (``base_motion`` is what these share, and ``shocks`` follows a rotor through it), ``states`` and ``machine_changes`` (with ``recovering``, levitation that is regained).  ``plans`` has
+and ``recorded`` (``base_motion`` is what these share, and ``shocks`` follows a rotor through it), ``states`` and ``machine_changes`` (with ``recovering``, levitation that is regained).  ``response_spectra`` says what oscillators on the base and on the rotor feel.  ``plans`` has
 grids and samples and says what is measured of them, ``single`` is one disturbance, read from text and said in a sentence, ``following`` follows their starts to where
 they end.
 
@@ -37,6 +37,7 @@ from carom.disturbances.machine_changes import BladeLoss, Drop, drop
 from carom.disturbances.model import FASTEST, MODELS, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
 from carom.disturbances.recorded import BaseRecord
+from carom.disturbances.response_spectra import Course, ShockResponse, shock_response
 from carom.disturbances.single import Single
 from carom.disturbances.states import AnyState, ContactRelease, GivenState, StateSlice, Whirl, whirl
 
@@ -49,6 +50,7 @@ __all__ = [
     "BladeLoss",
     "ContactRelease",
     "Coordinate",
+    "Course",
     "Disturbance",
     "Drop",
     "GivenState",
@@ -56,6 +58,7 @@ __all__ = [
     "KickPlane",
     "Plan",
     "Sample",
+    "ShockResponse",
     "Single",
     "Starts",
     "StateSlice",
@@ -64,5 +67,6 @@ __all__ = [
     "drop",
     "kick",
     "outward_from",
+    "shock_response",
     "whirl",
 ]

@@ -14,6 +14,7 @@ import numpy as np
 
 from carom.disturbances.coordinates import Starts, displaced
 from carom.disturbances.model import Disturbance
+from carom.disturbances.response_spectra import Course
 
 if TYPE_CHECKING:
     from carom.models import Force, Rotor, Subject
@@ -41,6 +42,10 @@ class BaseMotion(Disturbance):
 
     def sections(self, rotor: Rotor) -> list[BaseSection]:
         """The course, of a peak acceleration of one, for the forces on a rotor."""
+        raise NotImplementedError
+
+    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> Course:
+        """The acceleration of the base in the fixed frame, of a peak in ``c_r Ω²``, which begins at a time."""
         raise NotImplementedError
 
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:

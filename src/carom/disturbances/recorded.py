@@ -7,6 +7,7 @@ the only error is that of the straight lines between the samples.
 
 from __future__ import annotations
 
+import cmath
 import csv
 import dataclasses
 import re
@@ -21,6 +22,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, printable, shown
 from carom.disturbances.base_motion import BaseMotion, BaseSection
 from carom.disturbances.coordinates import Coordinate, angle_coordinate
+from carom.disturbances.response_spectra import Course
 from carom.disturbances.single import Echo, Part, Single, read_part
 from carom.parameters import Scales, read_size
 from carom.parameters.formats import format_angle, format_quantity, number
@@ -158,11 +160,16 @@ class BaseRecord(BaseMotion):
 
     def sections(self, rotor: Rotor) -> list[BaseSection]:
         """The intervals between samples."""
-        durations, values = np.diff(self.times), self.accelerations / self.peak
-        each = np.stack([np.diff(values) / durations, values[:-1]], axis=1)
+        course = self.course(1.0)
+        each = np.stack([course.slopes, course.values], axis=1)
         if rotor.is_anisotropic:
             each = np.concatenate([each.real, each.imag], axis=1)
-        return list(map(BaseSection, durations.tolist(), each))
+        return list(map(BaseSection, course.durations.tolist(), each))
+
+    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> Course:
+        """See :meth:`carom.disturbances.base_motion.BaseMotion.course`; angles are those of the fixed frame."""
+        durations, values = np.diff(self.times), self.accelerations * cmath.rect(size / self.peak, angle)
+        return Course(durations, values[:-1], np.diff(values) / durations, np.zeros(len(durations)))
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
         """See :meth:`carom.disturbances.Disturbance.echo`."""

@@ -16,7 +16,7 @@ parameters ``diagrams`` and ``regions``; disturbances ``basins``, ``maps`` and `
 from __future__ import annotations
 
 from carom.plots.basins import attractors, basin, basin_pair, proven_kicks
-from carom.plots.courses import energies, radius, touchdown
+from carom.plots.courses import energies, radius, shock_response, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, applied, figures_for, heading, save
 from carom.plots.landings import landing
@@ -59,6 +59,7 @@ __all__ = [
     "region_map",
     "save",
     "sensitivity",
+    "shock_response",
     "sweep_map",
     "touchdown",
     "unbalance_response",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from carom.plots.style import LOOKS, WORKS, ZONE_SHADES, Drawn, Look, styled
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number
 
 if TYPE_CHECKING:
+    from carom.disturbances import ShockResponse
     from carom.motions.contacts import ContactLog
     from carom.motions.courses import Course
     from carom.motions.ledger import EnergyLedger
@@ -287,3 +289,24 @@ def _speeds(axes: Axes, course: Course) -> None:
         axes.plot(course.times, race, **RACE.stroke, label=RACE.words, gid="race")
     unit = display_unit("velocity", None)[1] if course.scales is None else "m/s"
     axes.set(ylim=(min(0.0, 1.1 * float(race.min())), 1.1 * tallest or 1.0), ylabel=f"speed ({unit})")
+
+
+@checked
+@styled
+def shock_response(found: ShockResponse) -> Figure:
+    """Draw the shock response spectra of the base and of the rotor along both axes of the fixed frame, over the natural frequency."""
+    figure, axes = one_axes((TWO_COLUMNS, 0.5 * TWO_COLUMNS))
+    scales = found.scales
+    factor, unit = (scales.speed / (2.0 * np.pi), "Hz") if scales else (1.0, r"$\Omega$")
+    for (name, curve), colour in zip(found.curves, cycle((NORMAL.colour, SLIP.colour, RACE.colour, FRICTION.colour))):
+        for along, line, values in zip("xy", ("-", "--"), curve, strict=True):
+            if values.any():
+                shown = display_unit("acceleration", scales)[0] * values
+                axes.plot(factor * found.frequencies, shown, ls=line, color=colour, label=f"{name}, along {along}")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel=f"natural frequency ({unit})",
+        ylabel=axis_label(f"largest acceleration, $Q$ = {number(found.quality)}", "acceleration", scales),
+    )
+    return key(figure, [axes], columns=2)
