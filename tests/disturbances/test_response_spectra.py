@@ -5,11 +5,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.disturbances.response_spectra import Course, maximax, shock_response
+from carom.disturbances.response_spectra import BaseCourse, maximax, shock_response
 
 LASTS = 1.3
 TURN = np.pi / LASTS
-HALF_SINE = Course(*np.array([[LASTS], [0.0], [TURN], [TURN]]))
+HALF_SINE = BaseCourse(*np.array([[LASTS], [0.0], [TURN], [TURN]]))
 
 
 def undamped(ratio):
@@ -61,7 +61,7 @@ def test_a_record_with_unequal_steps_has_that_of_dop853(frequency, quality):
         a, b = (values[k], slopes[k]) if k < 20 else (0.0, 0.0)
         return places[k] + t * speeds[k] + a * t**2 / 2.0 + b * t**3 / 6.0, speeds[k] + a * t + b * t**2 / 2.0
 
-    course = Course(durations, values[:-1], slopes, np.zeros(20))
+    course = BaseCourse(durations, values[:-1], slopes, np.zeros(20))
     found = maximax(course, frequency, 0.5 / quality)
     expected = largest(base, frequency, quality, times[1:], times[-1] + 2.0 * np.pi / frequency)
     # The reference is sampled: its largest value may be missed by so much.

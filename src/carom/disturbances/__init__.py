@@ -37,7 +37,7 @@ from carom.disturbances.machine_changes import BladeLoss, Drop, drop
 from carom.disturbances.model import FASTEST, MODELS, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
 from carom.disturbances.recorded import BaseRecord
-from carom.disturbances.response_spectra import Course, ShockResponse, shock_response
+from carom.disturbances.response_spectra import BaseCourse, ShockResponse, shock_response
 from carom.disturbances.single import Single
 from carom.disturbances.states import AnyState, ContactRelease, GivenState, StateSlice, Whirl, whirl
 
@@ -45,12 +45,12 @@ __all__ = [
     "FASTEST",
     "MODELS",
     "AnyState",
+    "BaseCourse",
     "BaseRecord",
     "BaseShock",
     "BladeLoss",
     "ContactRelease",
     "Coordinate",
-    "Course",
     "Disturbance",
     "Drop",
     "GivenState",

@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.disturbances.coordinates import Starts, displaced
 from carom.disturbances.model import Disturbance
-from carom.disturbances.response_spectra import Course
+from carom.disturbances.response_spectra import BaseCourse
 
 if TYPE_CHECKING:
     from carom.models import Force, Rotor, Subject
@@ -44,7 +44,7 @@ class BaseMotion(Disturbance):
         """The course, of a peak acceleration of one, for the forces on a rotor."""
         raise NotImplementedError
 
-    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> Course:
+    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
         """The acceleration of the base in the fixed frame, of a peak in ``c_r Ω²``, which begins at a time."""
         raise NotImplementedError
 

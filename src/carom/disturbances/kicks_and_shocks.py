@@ -14,7 +14,7 @@ from carom.base.outcome import InputError
 from carom.disturbances.base_motion import BaseMotion, BaseSection
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.disturbances.response_spectra import Course
+from carom.disturbances.response_spectra import BaseCourse
 from carom.disturbances.single import Echo, Part, Single, angles_words
 from carom.parameters.formats import format_angle, format_quantity
 from carom.parameters.requirement import SHOCK_DURATION
@@ -249,13 +249,13 @@ class BaseShock(BaseMotion):
         course = self.course(1.0)
         return [BaseSection(*each) for each in zip(course.durations, np.sign(course.frequencies)[:, None], strict=True)]
 
-    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> Course:
+    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
         """See :meth:`BaseMotion.course`; the angle counts from the axes that turn with the shaft, at its beginning."""
         durations = np.array([self.duration, self.pause] * self.pulses)[:-1]
         shakes = np.arange(len(durations)) % 2 == 0
         turns = shakes * math.pi / self.duration
-        course = Course(durations, 0j * turns, cmath.rect(size, angle + begun) * turns, turns)
-        return Course(*(part[durations > 0.0] for part in course))
+        course = BaseCourse(durations, 0j * turns, cmath.rect(size, angle + begun) * turns, turns)
+        return BaseCourse(*(part[durations > 0.0] for part in course))
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
         """See :meth:`carom.disturbances.Disturbance.echo`."""

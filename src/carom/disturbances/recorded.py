@@ -22,7 +22,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError, printable, shown
 from carom.disturbances.base_motion import BaseMotion, BaseSection
 from carom.disturbances.coordinates import Coordinate, angle_coordinate
-from carom.disturbances.response_spectra import Course
+from carom.disturbances.response_spectra import BaseCourse
 from carom.disturbances.single import Echo, Part, Single, read_part
 from carom.parameters import Scales, read_size
 from carom.parameters.formats import format_angle, format_quantity, number
@@ -166,10 +166,10 @@ class BaseRecord(BaseMotion):
             each = np.concatenate([each.real, each.imag], axis=1)
         return list(map(BaseSection, course.durations.tolist(), each))
 
-    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> Course:
+    def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
         """See :meth:`carom.disturbances.base_motion.BaseMotion.course`; angles are those of the fixed frame."""
         durations, values = np.diff(self.times), self.accelerations * cmath.rect(size / self.peak, angle)
-        return Course(durations, values[:-1], np.diff(values) / durations, np.zeros(len(durations)))
+        return BaseCourse(durations, values[:-1], np.diff(values) / durations, np.zeros(len(durations)))
 
     def echo(self, rotor: Rotor, *values: float) -> Echo:
         """See :meth:`carom.disturbances.Disturbance.echo`."""

@@ -33,7 +33,7 @@ COUNT = 60
 """Frequencies of a spectrum."""
 
 
-class Course(NamedTuple):
+class BaseCourse(NamedTuple):
     """An acceleration in pieces, complex for two axes: duration, value and slope at the beginning, and ``ν`` of each, all (n,)."""
 
     durations: np.ndarray
@@ -109,7 +109,7 @@ class ShockResponse(Result):
 @checked
 @shows_progress
 def shock_response(
-    motion: Trajectory, base: Course, quality: Positive = 10.0, *, progress: ShowProgress = None
+    motion: Trajectory, base: BaseCourse, quality: Positive = 10.0, *, progress: ShowProgress = None
 ) -> ShockResponse:
     """Shock response spectra of the motion of a base, and of what it makes of the rotor at each touchdown bearing.
 
@@ -117,7 +117,7 @@ def shock_response(
     ----------
     motion : Trajectory
         That of :func:`carom.simulate` during the motion of the base and after it.
-    base : Course
+    base : BaseCourse
         The acceleration of the base: ``course`` of :class:`carom.BaseShock` or :class:`carom.disturbances.BaseRecord`, of its peak and angle.
     quality : float
         Quality ``Q`` of the oscillators, 10 as usual: a damping ratio of 5 %.
@@ -143,9 +143,9 @@ def shock_response(
     return ShockResponse(frequencies, quality, found[0], found[1:], motion.rotor.scales)
 
 
-def _of_rotor(motion: Trajectory, plane: int, base: Course, highest: float) -> Course:
+def _of_rotor(motion: Trajectory, plane: int, base: BaseCourse, highest: float) -> BaseCourse:
     """Absolute acceleration of the rotor at a plane: between samples that of the base and the mean of that against it; impacts change the velocity at once."""
-    begun, width, pieces = motion.parts[0].begins, float(motion.rotor.system.widths[plane]), list[Course]()
+    begun, width, pieces = motion.parts[0].begins, float(motion.rotor.system.widths[plane]), list[BaseCourse]()
     for part in motion.parts:
         even = np.linspace(0.0, part.time, 2 + int(part.time * highest * STEPS / (2.0 * np.pi)))
         starts = part.segment_starts
@@ -154,11 +154,11 @@ def _of_rotor(motion: Trajectory, plane: int, base: Course, highest: float) -> C
         speed = width * (rate + 1j * place) * np.exp(1j * (part.begins + times))
         durations, shaken = np.diff(times), base.at(part.begins - begun + times)
         means = np.diff(speed) / durations + shaken[:-1]
-        pieces.append(Course(durations, means, np.diff(shaken) / durations, np.zeros(len(durations))))
-    return Course(*map(np.concatenate, zip(*pieces, strict=True)))
+        pieces.append(BaseCourse(durations, means, np.diff(shaken) / durations, np.zeros(len(durations))))
+    return BaseCourse(*map(np.concatenate, zip(*pieces, strict=True)))
 
 
-def maximax(course: Course, frequency: float, damping: float) -> tuple[float, float]:
+def maximax(course: BaseCourse, frequency: float, damping: float) -> tuple[float, float]:
     """Largest absolute acceleration along both axes of an oscillator of this natural frequency and damping ratio, at rest before."""
     inputs = np.stack([course.values, course.slopes], axis=1)
     matrices, rows, scaled = _system(frequency, damping, course.frequencies, inputs)
