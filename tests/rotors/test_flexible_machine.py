@@ -25,7 +25,7 @@ from carom.rotors import (
     load_machine,
     sensitivity,
 )
-from carom.rotors.reduction import contact_error
+from carom.rotors.reduction import contact_error, damping_of_basis
 
 MACHINE = munich()
 
@@ -42,11 +42,35 @@ def test_the_error_told_is_that_of_the_forces():
         every = MACHINE.with_modes(1000)
         row = np.zeros(len(MACHINE.rotor.matrices.mass))
         row[2 * MACHINE.rotor.place_of(2)] = 1.0
-        true = contact_error(reduced.basis, every.basis, row, 1e7)
+        true = contact_error(MACHINE.rotor, reduced.basis, every.basis, row, 1e7)
         assert 0.5 < reduced.error / true < 2.0
     assert every.error == 0.0
 
 
+def forces_of_damped_motion(basis, row, stiffness, times, damping):
+    """Force on a wall by the matrix exponential of the damped equations, by the speed with which the rotor comes straight."""
+    reach, still = row @ basis.shapes, np.zeros((len(basis.frequencies),) * 2)
+    held = np.diag(basis.frequencies**2) + stiffness * np.outer(reach, reach)
+    step = scipy.linalg.expm(np.block([[still, still + np.eye(len(still))], [-held, -damping]]) * times[1])
+    states = [np.eye(2 * len(still))[len(still)] / reach[0]]
+    for _ in times[1:]:
+        states.append(step @ states[-1])
+    return stiffness * np.array(states)[:, : len(still)] @ reach
+
+
+@pytest.mark.parametrize("stiffness", [1e7, 1e8])
+def test_the_error_is_that_of_the_damped_rotor(stiffness):
+    """The damping of a mode of rotor and wall by itself, in place of what couples them, changes the error by less than a half."""
+    rotor, few, every = MACHINE.rotor, MACHINE.basis(9), MACHINE.basis(1000)
+    row = np.zeros(len(rotor.matrices.mass))
+    row[2 * rotor.place_of(2)] = 1.0
+    times = np.linspace(0.0, 2.0 * np.pi * np.sqrt(rotor.mass / stiffness), 600)
+    one, other = (
+        forces_of_damped_motion(basis, row, stiffness, times, damping_of_basis(rotor, basis)) for basis in (few, every)
+    )
+    lasts = slice(0, np.flatnonzero(other[1:] <= 0.0)[0] + 2)
+    exact = np.linalg.norm((one - other)[lasts]) / np.linalg.norm(other[lasts])
+    assert 0.9 < contact_error(rotor, few, every, row, stiffness) / exact < 1.5
 def test_a_steady_force_bends_the_reduced_rotor_as_all_modes_do():
     """At bearings, sensors and touchdown bearings no compliance is lost, however few modes are kept."""
     few, every = MACHINE.with_modes(2).equations, MACHINE.with_modes(1000).equations

@@ -10,7 +10,7 @@ import numpy as np
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
-from carom.rotors.reduction import Basis
+from carom.rotors.reduction import Basis, damping_by, damping_of_basis
 from carom.rotors.shared_controller import SharedController, loops_in
 from carom.rotors.support import Support, turning
 
@@ -193,7 +193,7 @@ def equations_of(
     mass, damping, gyroscopic, stiffness = np.zeros((4, size, size))
     free = slice(0, vectors)
     mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
-    damping[free, free] = _damping(rotor, basis)
+    damping[free, free] = damping_of_basis(rotor, basis)
     gyroscopic[free, free] = _gyroscopic(rotor, basis)
     carried = np.zeros(size)
     carried[free], carried[vectors:first] = rotor.carried(basis.shapes), 1.0
@@ -279,7 +279,7 @@ def _held(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int
             pull = row @ basis.shapes
             found.append(SpeedLaw(padded(np.outer(pull, pull)), law))
     if rotor.internal_rates is not None:
-        own = _damped(basis, rotor.by_modes(rotor.internal_rates), rotor.internal_rates)
+        own = damping_by(basis, rotor.by_modes(rotor.internal_rates), rotor.internal_rates)
         found.append(SpeedLaw(padded(own), turning))
     return tuple(found)
 
@@ -290,23 +290,6 @@ def _sum(held: Sequence[SpeedLaw], speed: float, size: int) -> tuple[np.ndarray,
     for each in held:
         both += each.at(speed)
     return _real(both[0]), both[1]
-
-
-def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:
-    """Damping of the vectors by what stands still, and of those that are no modes beside it."""
-    matrix = _damped(basis, rotor.damping_matrix, rotor.damping_rates)
-    beside = range(basis.modes, len(basis.frequencies))
-    matrix[beside, beside] += 2.0 * basis.damping_ratio * basis.frequencies[basis.modes :]
-    return matrix
-
-
-def _damped(basis: Basis, given: np.ndarray, rates: np.ndarray | None) -> np.ndarray:
-    """Damping of the vectors: of each mode its own, which couples it with nothing, unless a matrix alone is given."""
-    matrix = basis.shapes.T @ given @ basis.shapes
-    if rates is not None:
-        matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
-        matrix[range(basis.modes), range(basis.modes)] = rates[: basis.modes]
-    return np.asarray(0.5 * (matrix + matrix.T))
 
 
 def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:

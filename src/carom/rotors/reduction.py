@@ -21,6 +21,8 @@ MORE = 1.5
 """Times as many vectors, with which a reduction is compared."""
 COMING, REACHED = 3, 0.05
 """Modes in which the rotor comes, and their share at the wall, over the largest, below which it hardly comes so."""
+EQUAL = 1e-6
+"""Difference of two exponents, over a contact, below which they count as so far apart: nothing changes but for rounding."""
 TIMES = 600
 """Instants of a contact that are compared."""
 
@@ -59,7 +61,24 @@ def rubin_basis(rotor: FreeRotor, rows: Sequence[np.ndarray], modes: int) -> Bas
     )
 
 
-def contact_error(coarse: Basis, fine: Basis, row: np.ndarray, stiffness: float) -> float:
+def damping_of_basis(rotor: FreeRotor, basis: Basis) -> np.ndarray:
+    """Damping of the vectors by what stands still, and of those that are no modes beside it."""
+    matrix = damping_by(basis, rotor.damping_matrix, rotor.damping_rates)
+    beside = range(basis.modes, len(basis.frequencies))
+    matrix[beside, beside] += 2.0 * basis.damping_ratio * basis.frequencies[basis.modes :]
+    return matrix
+
+
+def damping_by(basis: Basis, given: np.ndarray, rates: np.ndarray | None) -> np.ndarray:
+    """Damping of the vectors: of each mode its own, which couples it with nothing, unless a matrix alone is given."""
+    matrix = basis.shapes.T @ given @ basis.shapes
+    if rates is not None:
+        matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
+        matrix[range(basis.modes), range(basis.modes)] = rates[: basis.modes]
+    return np.asarray(0.5 * (matrix + matrix.T))
+
+
+def contact_error(rotor: FreeRotor, coarse: Basis, fine: Basis, row: np.ndarray, stiffness: float) -> float:
     """Difference of the force on a wall between two sets of vectors, relative to the force: root of the means of the squares.
 
     The free rotor comes to a wall with this stiffness, N/m, at what a row measures: straight, with all its mass; tilting; and in its first
@@ -68,22 +87,29 @@ def contact_error(coarse: Basis, fine: Basis, row: np.ndarray, stiffness: float)
     end = 2.0 * np.pi * np.sqrt(1.0 / (stiffness * fine.shapes[0, 0] ** 2))  # twice as long as the rigid rotor stays
     times = np.linspace(0.0, end, TIMES)
     reached = np.abs(row @ fine.shapes[:, :COMING])
+    modes = np.flatnonzero(reached > REACHED * reached.max())
     errors = []
-    for mode in np.flatnonzero(reached > REACHED * reached.max()).tolist():
-        one, other = (_force(basis, row, stiffness, times, mode) for basis in (coarse, fine))
+    for one, other in zip(*(_forces(rotor, each, row, stiffness, times, modes) for each in (coarse, fine)), strict=True):
         over = np.flatnonzero(other[1:] <= 0.0)
         lasts = slice(0, over[0] + 2 if len(over) else None)
         errors.append(float(np.linalg.norm((one - other)[lasts]) / np.linalg.norm(other[lasts])))
     return max(errors)
 
 
-def _force(basis: Basis, row: np.ndarray, stiffness: float, times: np.ndarray, mode: int) -> np.ndarray:
-    """Force on the wall over time, by the velocity at the wall and the stiffness, of a rotor that comes in one of its modes."""
+def _forces(
+    rotor: FreeRotor, basis: Basis, row: np.ndarray, stiffness: float, times: np.ndarray, modes: np.ndarray
+) -> np.ndarray:
+    """Force on the wall over time, by the velocity at the wall and the stiffness, of a rotor that comes in each of these modes.
+
+    Each motion of the rotor with the wall is damped by itself: what damping couples is left out.
+    """
     reach = row @ basis.shapes
     squares, turn = np.linalg.eigh(np.diag(basis.frequencies**2) + stiffness * np.outer(reach, reach))
-    rates = np.sqrt(np.maximum(squares, 0.0))
-    start = turn[mode] / reach[mode]
-    # sin(ωt)/ω, which is t for a motion that the wall does not stop.
-    moved = times[:, None] * np.sinc(rates * times[:, None] / np.pi)
-    force: np.ndarray = stiffness * (moved * start) @ (reach @ turn)
-    return force
+    half = 0.5 * np.einsum("vi,vw,wi->i", turn, damping_of_basis(rotor, basis), turn)
+    split = np.sqrt(half**2 - squares + 0j)
+    split = np.where(np.abs(split) * times[-1] < EQUAL, EQUAL / times[-1], split)
+    grown, fallen = (np.exp(np.multiply.outer(times, sign * split - half)) for sign in (1.0, -1.0))
+    moved = ((grown - fallen) / (2.0 * split)).real
+    starts = turn[modes] / reach[modes, None]
+    forces: np.ndarray = stiffness * (starts * (reach @ turn)) @ moved.T
+    return forces
