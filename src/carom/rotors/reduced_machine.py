@@ -74,8 +74,8 @@ class ReducedMachine(Result):
     def error(self) -> float:
         """Change of the force in a touchdown bearing with half as many vectors more, relative to that force.
 
-        It is the root of the means of the squares while the first contact lasts, when the free rotor comes straight with all its mass, tilting, or in
-        its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is stated with the motion.
+        It is the root of the means of the squares while the first contact lasts, when the free rotor, damped as its shaft is, comes straight with all
+        its mass, tilting, or in its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is stated with the motion.
         """
         return self.machine.error_of(self.basis)
 
