@@ -23,13 +23,13 @@ LIMITS = {
     "basins attractors": 2370,
     "studies": 3433,
     "cli plots report": 5603,
-    "rotors": 4263,
+    "rotors": 4273,
     "proofs": 5902,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_099, 291
+TESTS, ANY = 38_119, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""

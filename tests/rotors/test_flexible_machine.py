@@ -71,6 +71,8 @@ def test_the_error_is_that_of_the_damped_rotor(stiffness):
     lasts = slice(0, np.flatnonzero(other[1:] <= 0.0)[0] + 2)
     exact = np.linalg.norm((one - other)[lasts]) / np.linalg.norm(other[lasts])
     assert 0.9 < contact_error(rotor, few, every, row, stiffness) / exact < 1.5
+
+
 def test_a_steady_force_bends_the_reduced_rotor_as_all_modes_do():
     """At bearings, sensors and touchdown bearings no compliance is lost, however few modes are kept."""
     few, every = MACHINE.with_modes(2).equations, MACHINE.with_modes(1000).equations

@@ -146,7 +146,9 @@ class FlexibleMachine(NamedParameters):
             return 0.0
         weight, loops = self.rotor.mass * FALL, loops_of(self.rotor, (), self.touchdowns)
         planes = zip(loops.touchdowns, self.touchdowns, self.clearances, strict=True)
-        return max(contact_error(self.rotor, basis, finer, row, plane.stiffness(weight * room)) for row, plane, room in planes)
+        return max(
+            contact_error(self.rotor, basis, finer, row, plane.stiffness(weight * room)) for row, plane, room in planes
+        )
 
     @checked
     def reduce(self, accuracy: Positive = ACCURACY) -> ReducedMachine:

@@ -93,7 +93,7 @@ def load_machine(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> 
     >>> import carom as cm
     >>> machine = cm.rotors.load_machine("examples/tum-flexible-rotor.toml", ["speed=6000 rpm"])
     >>> machine.reduce().vectors
-    15
+    13
     """
     problems = Problems()
     tables = read_machine_tables(path, problems)

@@ -89,7 +89,9 @@ def contact_error(rotor: FreeRotor, coarse: Basis, fine: Basis, row: np.ndarray,
     reached = np.abs(row @ fine.shapes[:, :COMING])
     modes = np.flatnonzero(reached > REACHED * reached.max())
     errors = []
-    for one, other in zip(*(_forces(rotor, each, row, stiffness, times, modes) for each in (coarse, fine)), strict=True):
+    for one, other in zip(
+        *(_forces(rotor, each, row, stiffness, times, modes) for each in (coarse, fine)), strict=True
+    ):
         over = np.flatnonzero(other[1:] <= 0.0)
         lasts = slice(0, over[0] + 2 if len(over) else None)
         errors.append(float(np.linalg.norm((one - other)[lasts]) / np.linalg.norm(other[lasts])))
