@@ -6,9 +6,12 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.base.outcome import InputError
+from carom.cli.starts import with_requirement
 from carom.disturbances import BaseRecord
 from carom.models import rotor_of
 from carom.motions import energy_ledger
+from carom.studies.survives import at_full_size
+from carom.studies.wording import Wording
 
 KEOGH, INSTANT = "examples/keogh-cole.toml", 0.3
 WEIGHS, ON_MOUNT = "tests/machines/gravity.toml", "tests/machines/mount.toml"
@@ -195,3 +198,20 @@ def test_records_are_mapped_and_searched_as_shocks_are():
     assert shares[0].count == shares[1].count
     record, shock = (cm.basins.smallest_unrecovered(machine, each).size for each in (record, cm.BaseShock(1.0, 0.9)))
     assert record == pytest.approx(shock, rel=2e-2)
+
+
+def test_a_study_asks_whether_a_record_is_survived(tmp_path):
+    path, case = tmp_path / "quake.csv", cm.load("examples/spindle.toml")
+    path.write_text("t [ms],y (g)\n0,0\n4,1\n9,-0.5\n12,0\n", encoding="utf-8")
+    case = with_requirement(case, f"{path}, 6 g")
+    faster = case.replace(speed="30000 rpm")
+    for each in (case, faster):
+        scales = each.parameters.scales
+        required = each.requirement.own(scales)
+        assert required.base_record.largest * scales.acceleration == pytest.approx(6.0 * 9.80665)
+        assert required.base_record.times[-1] * scales.time == pytest.approx(0.012)
+    (found,) = (each for each in at_full_size(rotor_of(case), required) if each.kind == "base_record")
+    assert found.back.count + found.lost <= found.back.total
+    assert Wording(scales).required(required)[1] == "base motion quake.csv up to 6 g"
+    with pytest.raises(InputError, match="without an angle"):
+        with_requirement(case, f"{path}, 6 g, 30 deg")

@@ -16,7 +16,7 @@ from carom.base.arguments import Count, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.basins.sizes import BESIDE_LOST, SmallestUnrecovered, contact_free_size, size_coordinate
-from carom.disturbances import BladeLoss, Disturbance, KickPlane, Starts, VelocityKick
+from carom.disturbances import BaseRecord, BladeLoss, Disturbance, KickPlane, Starts, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.disturbances.machine_changes import starts_after
@@ -132,6 +132,8 @@ def smallest_unrecovered(
 def _effort(rotor: Rotor, model: Disturbance) -> Effort:
     if model.changes_machine:
         return LOSSES
+    if isinstance(model, BaseRecord):  # which takes many sections
+        return COARSE
     return FULL if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
 
 

@@ -19,12 +19,13 @@ from carom.base.outcome import InputError, together
 from carom.disturbances.single import Single, split_text
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, Field, Requirement, Scales, own_time, read_quantity, read_size
 from carom.parameters.fields import unknown_name
+from carom.parameters.requirement import SI
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, set_by
 
 if TYPE_CHECKING:
     from carom.base.progress import Reporter
     from carom.basins.maps import Over
-    from carom.disturbances import Drop, ShockResponse
+    from carom.disturbances import BaseRecord, Drop, ShockResponse
     from carom.disturbances.single import Echo
     from carom.models import Axis, Rotor
     from carom.motions.loads import DropLoads
@@ -75,13 +76,18 @@ def read_all_around(option: str, text: str, scales: Scales | None) -> Single:
     return single
 
 
-def with_requirement(case: Case, **given: str | int | None) -> Case:
-    """Return the case with what ``--kick``, ``--shock`` and ``--blade-loss`` state in place of what its file states."""
+def with_requirement(case: Case, base_record: str | None = None, **given: str | int | None) -> Case:
+    """Return the case with what ``--kick``, ``--shock``, ``--blade-loss`` and ``--base-record`` state in place of what its file states."""
     if (loss := given.get("blade_loss")) is not None:
         node = getattr(read_all_around("--blade-loss", str(loss), case.parameters.scales).model, "node", None)
         given |= {"blade_loss": split_text("--blade-loss", str(loss), (1, 2, 3), "")[0], "blade_loss_node": node}
     try:
-        return replace(case, requirement=case.requirement.changed_by(Requirement.of(case, **given)))
+        stated = Requirement.of(case, **given)
+        if base_record is not None:
+            scales = case.parameters.scales
+            motion = cast("BaseRecord", read_all_around("--base-record", base_record, scales).model)
+            stated = replace(stated, base_record=motion.rescaled(scales, SI), source="option")
+        return replace(case, requirement=case.requirement.changed_by(stated))
     except InputError as problem:
         named = [(f"--{error.field.replace('_', '-')}", error) for error in problem.errors]
         raise together([InputError(option, error.value, error.allowed) for option, error in named]) from None

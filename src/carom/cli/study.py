@@ -27,6 +27,7 @@ def study(
     kick: str | None = options.KICKS,
     shock: str | None = options.SHOCKS,
     blade_loss: str | None = options.BLADE_LOSSES,
+    base_record: str | None = options.BASE_RECORDS,
     out: str | None = OUT,
     prove: bool = PROVE,
     along: list[str] | None = ALONG,
@@ -38,19 +39,20 @@ def study(
 
     Finds the equilibria and the orbits with one impact a period with their stability, the damping and stiffness at which each
     appears or vanishes, the outcomes of 200 simulated disturbances, which disturbances are survived, and the touchdown loads in
-    these and in a drop. --kick, --shock and --blade-loss state what the machine must survive, instead of the table [survive] of
+    these and in a drop. --kick, --shock, --blade-loss and --base-record state what the machine must survive, instead of the table [survive] of
     its file. With --out it also writes figures, study.json and report.html.
     """
     from carom.cli.starts import with_requirement
 
-    case = with_requirement(read_machine(machine, settings), kick=kick, shock=shock, blade_loss=blade_loss)
+    given = {"kick": kick, "shock": shock, "blade_loss": blade_loss}
+    case = with_requirement(read_machine(machine, settings), base_record, **given)
     with progress("loading") as tell:
         check_output(out)
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
-        given = {} if time_limit is None else {"proof_time": time_limit, "time_limit": time_limit}
-        result = study_case(case, along=along or None, proofs=prove, **given, progress=tell.part(0.0, share_of_study))  # type: ignore[arg-type]
+        limits = {} if time_limit is None else {"proof_time": time_limit, "time_limit": time_limit}
+        result = study_case(case, along=along or None, proofs=prove, **limits, progress=tell.part(0.0, share_of_study))  # type: ignore[arg-type]
         report = None
         if out is not None:
             from carom.report import write_report

@@ -49,8 +49,8 @@ class BaseRecord(BaseMotion):
         Accelerations of the housing along the axes of the fixed frame, in ``c_r Ω²``.
     name : str
         What it is called.
-    largest : float, optional
-        Largest peak acceleration to which it is scaled, in ``c_r Ω²``; by default that of the record.
+    largest : float
+        Largest peak acceleration to which it is scaled, in ``c_r Ω²``; by default, 0, that of the record.
 
     See Also
     --------
@@ -70,7 +70,7 @@ class BaseRecord(BaseMotion):
     x: tuple[float, ...]
     y: tuple[float, ...]
     name: str = "record"
-    largest: float | None = None
+    largest: float = 0.0
     kind: ClassVar[str] = "base-record"
     noun: ClassVar[str] = "recorded base motions"
     example: ClassVar = "quake.csv"
@@ -88,6 +88,7 @@ class BaseRecord(BaseMotion):
             raise InputError("times", shown(self.times[:3]), "finite numbers that increase from 0")
         if not self.peak > 0.0:
             raise InputError("x, y", "zeros", "some acceleration")
+        object.__setattr__(self, "largest", self.largest or self.peak)
 
     @classmethod
     def read_csv(cls, path: str | Path, machine: Subject) -> BaseRecord:
@@ -120,8 +121,7 @@ class BaseRecord(BaseMotion):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Peak acceleration to which it is scaled, and angle by which it is turned."""
-        largest = self.peak if self.largest is None else self.largest
-        size = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, largest, "acceleration", True)
+        size = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.largest, "acceleration", True)
         return size, angle_coordinate("direction", "angle by which the record is turned")
 
     @property
@@ -134,20 +134,18 @@ class BaseRecord(BaseMotion):
         """Largest acceleration of the samples, in ``c_r Ω²``."""
         return float(np.abs(self.accelerations).max())
 
-    def scaled(self, factor: float) -> BaseRecord:
+    def scaled(self, factor: float) -> Self:
         """Return the same with its accelerations multiplied by a factor."""
         x, y = (tuple(factor * each for each in axis) for axis in (self.x, self.y))
-        return dataclasses.replace(self, x=x, y=y, largest=self.largest and factor * self.largest)
+        return dataclasses.replace(self, x=x, y=y, largest=factor * self.largest)
 
     @checked
     def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
         """See :meth:`carom.disturbances.Disturbance.rescaled`: all of it stays the same in SI units."""
         if before is None or after is None or before == after:
             return self
-        slower = before.acceleration / after.acceleration
         times = tuple((np.array(self.times) * (before.time / after.time)).tolist())
-        x, y = (tuple(slower * each for each in axis) for axis in (self.x, self.y))
-        return dataclasses.replace(self, times=times, x=x, y=y, largest=self.largest and slower * self.largest)
+        return dataclasses.replace(self, times=times).scaled(before.acceleration / after.acceleration)
 
     def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
         """A force that grows; one along each axis of anisotropic bearings, whose conjugates are no multiples by complex numbers."""

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, TypeVar
+from typing import Literal, Protocol, Self, TypeVar, runtime_checkable
 
 from carom.base.arguments import Positive, Whole, checked
 from carom.base.outcome import InputError, Problems, shown
@@ -51,6 +51,26 @@ class Shock:
     duration: Positive
 
 
+@runtime_checkable
+class BaseMotionRequired(Protocol):
+    """A recorded motion of the base that must be survived."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    @property
+    def largest(self) -> float:
+        """Its largest peak acceleration."""
+
+    def rescaled(self, before: Scales | None, after: Scales | None) -> Self:
+        """The same for a machine with other scales."""
+
+
+SI = Scales(1.0, 1.0, 1.0)
+"""Scales in which times are in s and accelerations in m/s²."""
+
+
 @dataclass(frozen=True)
 class Required:
     """What a machine must survive, in units of the equations; speeds and accelerations are those of the fixed frame.
@@ -65,12 +85,15 @@ class Required:
         Size of the change of the unbalance by the loss of a blade, divided by the mass, in ``c_r``; at any phase.
     blade_loss_node : int or None
         Node of a flexible machine at which it changes.
+    base_record : carom.disturbances.BaseRecord or None
+        Recorded motion of the base up to its largest peak, turned to all directions.
     """
 
     kick: float
     shock: Shock | None
     blade_loss: float | None
     blade_loss_node: int | None = None
+    base_record: BaseMotionRequired | None = None
 
 
 @checked
@@ -114,6 +137,7 @@ class Requirement:
     blade_loss: Positive | None = None
     source: Source = "option"
     blade_loss_node: Whole | None = None
+    base_record: BaseMotionRequired | None = None
 
     def __post_init__(self) -> None:
         if not any(value is not None for name, value in vars(self).items() if name != "source"):
@@ -157,7 +181,8 @@ class Requirement:
                 gives = f"gives a change of the eccentricity of {change:.6g} clearances, which {rho.allowed}"
                 name = "[survive] blade_loss" if self.source == "file" else "blade_loss"
                 raise InputError(name, self.blade_loss, gives)
-        return Required(kick, shock, change, self.blade_loss_node)
+        moved = self.base_record and self.base_record.rescaled(SI, scales)
+        return Required(kick, shock, change, self.blade_loss_node, moved)
 
     def to_toml(self, has_scales: bool = True) -> str:
         """Return the text of a table that is read as this requirement; nothing if nothing is stated."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ from carom import plots
 from carom.attractors import Ending
 from carom.base.outcome import Outcome
 from carom.basins import Cells, map_cells
-from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
+from carom.disturbances import Disturbance, Grid, KickPlane
 from carom.disturbances.plans import ITS_INSTANT
 from carom.models import Rotor, axis
 from carom.motions.courses import FOLLOWED, first_contacts, shown_until
@@ -172,9 +173,19 @@ def until_decayed(rotor: Rotor, time: float) -> float:
     return min(time + tail, LONGEST_SHOWN)
 
 
-CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
+CELLS: dict[Kind, tuple[int, ...]] = {
+    "kick": (120, 120),
+    "shock": (24, 60),
+    "base_record": (12, 24),
+    "blade_loss": (120,),
+}
 """Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the change of the unbalance by the loss of a blade."""
-CELLS_OF_MANY_MODES: dict[Kind, tuple[int, ...]] = {"kick": (20, 20), "shock": (6, 24), "blade_loss": (36,)}
+CELLS_OF_MANY_MODES: dict[Kind, tuple[int, ...]] = {
+    "kick": (20, 20),
+    "shock": (6, 24),
+    "base_record": (4, 12),
+    "blade_loss": (36,),
+}
 """The same of rotors of many modes, whose motions take milliseconds each."""
 BEYOND = 1.5
 """Largest disturbance of a basin relative to the smallest that does not come back, where all that must be survived came back."""
@@ -187,6 +198,7 @@ _MISSING = {
 _SEEN: dict[Kind, str] = {
     "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends.",
     "shock": "Each point is a shock of the base, the farther out the harder, and its colour says where it ends.",
+    "base_record": "Each point is the recorded motion of the base, the farther out the harder, turned by an angle, and its colour says where it ends.",
     "blade_loss": "Each angle is the phase of the change of the unbalance by the loss of a blade, counted from the right, where the unbalance "
     "is before it, and its colour says where it ends.",
 }
@@ -243,10 +255,9 @@ def _required(study: Study, kind: Kind) -> float:
 
 def _disturbances(study: Study, kind: Kind) -> Disturbance:
     """Disturbances up to what must be survived, or beyond the smallest that does not come back if that is larger."""
-    size = _required(study, kind)
+    size, model = next((size, model) for each, size, model in required_kinds(study.required) if each == kind)
     if kind == "blade_loss":
-        return BladeLoss(size, study.required.blade_loss_node)
+        return model
     found = getattr(study.survives, kind, None)
     reach = size if found is None or found.size is None or found.size <= size else BEYOND * found.size
-    shock = study.required.shock if kind == "shock" else None
-    return KickPlane(reach) if shock is None else BaseShock(reach, shock.duration)
+    return KickPlane(reach) if kind == "kick" else replace(model, **{"peak" if kind == "shock" else "largest": reach})

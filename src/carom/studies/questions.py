@@ -9,18 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from carom.base.results import record
-from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
+from carom.disturbances import BaseRecord, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.models import Rotor
 from carom.parameters import Required
 
-Kind = Literal["kick", "shock", "blade_loss"]
+Kind = Literal["kick", "shock", "base_record", "blade_loss"]
 """Kinds of disturbances that a machine may have to survive."""
 OF_ANOTHER_KIND = 0.2
 """Number of shocks, and of losses of a blade, relative to that of kicks, where such are required."""
-LABELS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
+LABELS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "base_record": "Base record", "blade_loss": "Blade loss"}
 DESCRIBED, PRESENT = "the outcomes of disturbances", "the share of {} that comes back"
 SMALLEST = "the smallest {} that do not come back"
 ALONG = "recovery along {}"
@@ -32,6 +32,7 @@ EVENTS = {
     PRESENT: 300_000,
     SMALLEST.format(VelocityKick.noun): 200_000,
     SMALLEST.format(BaseShock.noun): 150_000,
+    SMALLEST.format(BaseRecord.noun): 150_000,
     SMALLEST.format(BladeLoss.noun): 100_000,
     ALONG: 120_000,
     CHANGE: 100_000,
@@ -62,6 +63,8 @@ def required_kinds(required: Required) -> Iterator[tuple[Kind, float, Disturbanc
     yield "kick", required.kick, VelocityKick(required.kick)
     if required.shock:
         yield "shock", required.shock.peak, BaseShock(required.shock.peak, required.shock.duration)
+    if (record := required.base_record) is not None:
+        yield "base_record", record.largest, cast("BaseRecord", record)
     if required.blade_loss:
         yield "blade_loss", required.blade_loss, BladeLoss(required.blade_loss, required.blade_loss_node)
 

@@ -188,6 +188,7 @@ class StudyData(Result):
         for unit, required in stated.items():
             document |= record(required, f"kick{unit}=kick blade_loss{unit}=blade_loss")
             document[f"shock{unit}"] = required.shock and record(required.shock, "peak duration")
+            document[f"base_record{unit}"] = required.base_record and record(required.base_record, "name largest")
         return document
 
     @property

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple, cast
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from carom.basins import Share, SmallestUnrecovered, smallest_unrecovered
 from carom.basins.sizes import contact_free_size
 from carom.basins.unrecovered import GOLDEN
 from carom.closed_forms.contact_free import shift_by_unbalance
-from carom.disturbances import BaseShock, BladeLoss, Disturbance, VelocityKick
+from carom.disturbances import BaseRecord, BaseShock, BladeLoss, Disturbance, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.kicks_and_shocks import LONGEST_SHOCK
 from carom.models import Rotor
@@ -98,7 +98,7 @@ class FullSize(Result):
 
     Attributes
     ----------
-    kind : {"kick", "shock", "blade_loss"}
+    kind : {"kick", "shock", "base_record", "blade_loss"}
     size : float
         In units of the equations.
     back : Share
@@ -254,12 +254,15 @@ class Survives(Result):
         Duration of the shocks, in ``1/Ω``.
     blade_loss : SmallestUnrecovered or None
         Sizes are changes of the unbalance by the loss of a blade, as eccentricities in ``c_r``, at the worst phase.
+    base_record : SmallestUnrecovered or None
+        The recorded motion of the base, where one is required; sizes are peaks in ``c_r Ω²``.
     """
 
     kick: SmallestUnrecovered
     shock: SmallestUnrecovered | None
     duration: float
     blade_loss: SmallestUnrecovered | None
+    base_record: SmallestUnrecovered | None = None
 
     @property
     def known_scales(self) -> Scales | None:
@@ -290,7 +293,7 @@ def survives(rotor: Rotor, required: Required, budget: Budget, tell: Reporter) -
         tell(len(found) / len(LABELS), words)
         with budget.question(words, events_for(rotor, words)):
             found[kind] = smallest_unrecovered(rotor, largest)
-    return Survives(found["kick"], found.get("shock"), duration, found.get("blade_loss"))
+    return Survives(found["kick"], found.get("shock"), duration, found.get("blade_loss"), found.get("base_record"))
 
 
 def _searched(rotor: Rotor, required: Required, duration: float) -> Iterator[tuple[Kind, Disturbance]]:
@@ -299,6 +302,8 @@ def _searched(rotor: Rotor, required: Required, duration: float) -> Iterator[tup
     if duration:
         peak = required.shock.peak if required.shock else math.pi * required.kick / (2.0 * duration)
         yield "shock", BaseShock(_times(rotor, BaseShock(peak, duration)) * peak, duration)
+    if (record := required.base_record) is not None:
+        yield "base_record", replace(cast("BaseRecord", record), largest=REACH * record.largest)
     if (change := largest_change(rotor)) > 0.0:
         yield "blade_loss", BladeLoss(change)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Literal
 
-from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.base.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome, printable
 from carom.base.results import record
 from carom.basins import Share, SmallestUnrecovered
 from carom.disturbances.plans import ANY_INSTANT
@@ -192,6 +192,8 @@ def condition_of(study: StudyData, name: Kind) -> str:
     parts = []
     if name == "shock" and study.survives is not None:
         parts.append(f"of {study.wording.time(study.survives.duration)}")
+    if name == "base_record" and study.required.base_record is not None:
+        parts.append(f"{printable(study.required.base_record.name)}, turned to all directions")
     if name == "blade_loss":
         parts.append("as a change of unbalance at the worst phase")
     return ", ".join([*parts, ANY_INSTANT] if study.rotor.depends_on_instant else parts)
@@ -248,7 +250,7 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
         outcome = f"Undecided whether it comes back from what it must survive, {zone}"
         return "not-decided", outcome, "too few disturbances could be followed"
     outcome = f"Came back in every trial from what it must survive, {zone}"
-    if kicks_surely_return(study) and not (study.required.shock or study.required.blade_loss):
+    if kicks_surely_return(study) and len(list(required_kinds(study.required))) == 1:
         outcome = f"Comes back from every kick it must survive, {zone}"
     return "all-tried-came-back", outcome, _reservations(study)
 
@@ -279,4 +281,4 @@ def _lost_words(study: StudyData, kind: Kind, back: Share | None) -> str:
     if kind == "blade_loss":
         return f"{many} blade losses are not survived"
     sizes = {kind: size for kind, size, _ in required_kinds(study.required)}
-    return f"{many} {kind}s up to {study.wording.size_of(kind)(sizes[kind])} do not come back"
+    return f"{many} {LABELS[kind].lower()}s up to {study.wording.size_of(kind)(sizes[kind])} do not come back"

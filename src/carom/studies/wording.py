@@ -12,7 +12,7 @@ from typing import Any
 
 from carom.attractors import MotionName
 from carom.base.arguments import checked
-from carom.base.outcome import Outcome
+from carom.base.outcome import Outcome, printable
 from carom.base.results import KINDS
 from carom.models import Edge, Rotor, Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
@@ -257,6 +257,8 @@ class Wording:
         parts, shock = [f"kicks up to {self.velocity(required.kick)}"], required.shock
         if shock:
             parts.append(f"shocks up to {self.write(shock.peak, 'acceleration')} over {self.time(shock.duration)}")
+        if (motion := required.base_record) is not None:
+            parts.append(f"base motion {printable(motion.name)} up to {self.write(motion.largest, 'acceleration')}")
         if required.blade_loss:
             change = self.write(required.blade_loss, "unbalance")
             parts.append(f"blade losses that change the unbalance by {change}")
