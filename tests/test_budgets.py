@@ -15,21 +15,21 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3647,
+    "parameters base": 3658,
     "models": 2310,
     "core": 6613,
     "motions disturbances": 4611,
     "orbits bifurcations closed_forms continuation": 6450,
-    "basins attractors": 2370,
-    "studies": 3433,
-    "cli plots report": 5603,
+    "basins attractors": 2372,
+    "studies": 3444,
+    "cli plots report": 5622,
     "rotors": 4273,
     "proofs": 5902,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_119, 291
+TESTS, ANY = 38_200, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""
