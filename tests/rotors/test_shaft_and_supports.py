@@ -85,6 +85,30 @@ def test_a_spin_down_asks_for_coefficients_down_to_standstill():
         spin_down(machine.with_modes(2).model, cm.drop())
 
 
+def test_a_planar_machine_has_internal_damping():
+    from_file = cm.load("examples/keogh-cole.toml").machine
+    external, mass, speed = from_file.damping, from_file.mass, from_file.speed
+    internal = 0.9 * external * (from_file.stiffness / mass) ** 0.5 / (speed - (from_file.stiffness / mass) ** 0.5)
+    machine = from_file.replace(internal_damping=internal)
+    rotor = rotor_of(machine)
+    own = np.roots([mass, external + internal, from_file.stiffness - 1j * speed * internal])
+    assert np.sort_complex((rotor.system.exponents + 1j) * speed) == pytest.approx(np.sort_complex(own), rel=1e-9)
+    closed = np.sqrt(from_file.stiffness / mass) * (1.0 + external / internal)
+    (limit,) = levitating(cm.models.case_of(machine), rotor).limits
+    assert limit.speed == pytest.approx(closed, rel=1e-8)
+    whirls = [synchronous_response(each, [0.4 * speed, speed]).touchdowns for each in (from_file, machine)]
+    assert whirls[1].forward == pytest.approx(whirls[0].forward, rel=1e-12)  # which it does not change
+    (own,), (other,) = (rotor_of(each.replace(force_limit=100.0)).listed_limits for each in (machine, from_file))
+    assert (own.velocity, own.displacement) == (other.velocity, other.displacement)  # the controller has no part of it
+    with pytest.raises(InputError, match="speed of the shaft changes"):
+        cm.models.jeffcott(
+            machine.parameters,
+            cm.models.planar.RIGID,
+            drive=cm.parameters.Drive(polar_inertia=1.0),
+            internal_damping=1.0,
+        )
+
+
 def own_planes(machine, speed):
     """Damping and stiffness (4N, 4N) of displacements and tilts in x, then in y."""
     rotor, turning, both = machine.rotor, np.array([[0.0, 1.0], [-1.0, 0.0]]), np.eye(2)

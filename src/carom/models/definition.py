@@ -106,6 +106,11 @@ class Definition:
         return complex(self.system.rest[0]) if len(self.system.rest) == 1 else self.system.rest
 
     @property
+    def rotating(self) -> np.ndarray | None:
+        """Damping ``D_i`` that turns with the shaft, on ``ż − iΩz``, part of the damping and the stiffness of its matrices; ``None`` where it is not known."""
+        return None
+
+    @property
     def planar(self) -> Parameters | None:
         """Dimensionless parameters of the planar rotor; ``None`` of other rotors."""
         return None

@@ -11,10 +11,9 @@ import numpy as np
 
 from carom.base.outcome import InputError, shown
 from carom.core.layout import rotor_record
-from carom.models.definition import Matrices
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.models.system import System
-from carom.parameters import ControlLimit, Scales
+from carom.parameters import ControlLimit, Parameters, Scales
 
 if TYPE_CHECKING:
     from carom.models.definition import Definition
@@ -153,15 +152,14 @@ def with_bias(system: System, limits: Sequence[Limit], asked: np.ndarray) -> Sys
     return replace(system, arrays=rotor_record(**kept | {"limit_rows": rows}))
 
 
-def limits_by(control: ControlLimit, matrices: Matrices, scales: Scales) -> tuple[Limit, ...]:
-    """The limit of a force in SI units, in those of a planar rotor with these matrices."""
-    along = np.eye(len(matrices.mass))[0]
-    stiffness, damping = matrices.stiffness.real, matrices.damping.real
+def limits_by(control: ControlLimit, at: Parameters, scales: Scales, coordinates: int) -> tuple[Limit, ...]:
+    """The limit of a force in SI units, in those of a planar rotor with these parameters."""
+    along = np.eye(coordinates)[0]
     return (
         Limit(
             control.force / scales.force,
-            (stiffness[0, 0] + control.pull / scales.stiffness) * along,
-            damping[0, 0] * along,
+            (at.omega**2 + control.pull / scales.stiffness) * along,
+            at.gamma * along,
             along,
         ),
     )

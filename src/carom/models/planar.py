@@ -27,6 +27,7 @@ from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.models.turning import Race, Shaft
 from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
+from carom.parameters.formats import number
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 from carom.parameters.touchdown_bearing import PREFIX
 
@@ -55,6 +56,8 @@ class Planar(Definition):
         In SI units; without one the speed of the shaft never changes.
     air_gap : float, optional
         Of the magnets, m: where the rotor reaches them a motion ends.
+    internal_damping : float, optional
+        Damping that turns with the shaft, N s/m: it acts on ``ż − iΩz``, as long as the rotor levitates.
 
     Raises
     ------
@@ -73,6 +76,7 @@ class Planar(Definition):
     levitates: bool = True
     drive: Drive | None = None
     air_gap: float | None = None
+    internal_damping: float = 0.0
 
     def __post_init__(self) -> None:
         if not isinstance(self.parameters, Parameters):
@@ -81,9 +85,12 @@ class Planar(Definition):
             return
         if self.parameters.scales is None:
             raise InputError("rotor", shown(self.parameters), "a planar rotor with mass, clearance and speed")
-        if self.bearing.is_plain and self.drive is None:
+        if self.bearing.is_plain and self.drive is None and not self.internal_damping:
             allowed = "a compliant bearing, has a race, a mount or an offset; a rigid wall needs no data of its own"
             raise InputError("bearing", self.bearing.words, allowed)
+        if self.internal_damping and self.drive and self.drive.polar_inertia:
+            allowed = "0 where the speed of the shaft changes, and its force with it"
+            raise InputError("internal_damping", self.internal_damping, allowed)
         if self.air_gap is not None and self.bearing.centre:
             allowed = "0 where the air gap is known, which counts from the place of levitation"
             raise InputError("touchdown_offset", self.bearing.offset, allowed)
@@ -149,6 +156,9 @@ class Planar(Definition):
         matrices, plane, none = self._row, [1.0], np.zeros((1, 1), complex)
         if not self.levitates:
             matrices = matrices._replace(damping=none, stiffness=none)
+        elif self.internal_damping:
+            own = self.internal_damping / scales.damping
+            matrices = matrices._replace(damping=matrices.damping + own, stiffness=matrices.stiffness - 1j * own)
         given, at = self.bearing or RIGID, self.parameters
         if mount := given.mount:
             plane = [1.0, -1.0]
@@ -196,7 +206,15 @@ class Planar(Definition):
     def words_of_bearing(self) -> str:
         """What is more than a rigid wall that stands still and a shaft at constant speed."""
         bearing = self.bearing.words if self.bearing and not self.bearing.is_plain else ""
-        return "; ".join(filter(None, (bearing, self.drive.words if self.drive else "")))
+        internal = f"internal damping {number(self.internal_damping)} N s/m" if self.internal_damping else ""
+        return "; ".join(filter(None, (bearing, self.drive.words if self.drive else "", internal)))
+
+    @property
+    def rotating(self) -> np.ndarray:
+        """See :attr:`carom.models.Definition.rotating`."""
+        found = np.zeros_like(self.equations.mass)
+        found[0, 0] = self.internal_damping and self.internal_damping / cast("Scales", self.scales).damping
+        return found
 
     @property
     def _left_out(self) -> tuple[str, ...]:
@@ -267,6 +285,7 @@ def jeffcott(
     levitates: bool = True,
     drive: Drive | None = None,
     air_gap: float | None = None,
+    internal_damping: float = 0.0,
 ) -> Rotor:
     """The planar rigid rotor, in a rigid wall that stands still or in a touchdown bearing of its own; see :class:`Planar`.
 
@@ -277,7 +296,7 @@ def jeffcott(
     >>> rotor.has_closed_forms, rotor.is_compliant
     (True, False)
     """
-    return Rotor(Planar(parameters, bearing, levitates, drive, air_gap))
+    return Rotor(Planar(parameters, bearing, levitates, drive, air_gap, internal_damping))
 
 
 def shaft_of(drive: Drive | None, scales: Scales, inertia: float | None = None) -> Shaft | None:

@@ -21,7 +21,7 @@ _WITHOUT_LIMITS = (
     "none: this result is known for magnetic bearings without limits alone, so leave force_limit and current_limit out for it; "
     "carom.simulate, carom.settle and others work"
 )
-_RIGID = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
+_RIGID = "a rigid wall that stands still, and a shaft at constant speed without internal damping: this result is known for these alone; carom.simulate, carom.settle and others work"
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 
 
@@ -41,8 +41,9 @@ def rotor_of(subject: Subject) -> Rotor:
         raise InputError("machine", shown(subject), _ALLOWED)
     case = case_of(subject)
     rotor, limits = rotor_of(case.parameters), case.machine.control_limit if case.machine else None
-    if (case.touchdown or case.drive) and rotor.has_closed_forms:
-        rotor = jeffcott(rotor.parameters, case.touchdown or RIGID, drive=case.drive, air_gap=case.si.get("air_gap"))
+    own = {name: case.si[name] for name in ("air_gap", "internal_damping") if name in case.si}
+    if (case.touchdown or case.drive or own.get("internal_damping")) and rotor.has_closed_forms:
+        rotor = jeffcott(rotor.parameters, case.touchdown or RIGID, drive=case.drive, **own)
     if limits is not None:
         rotor = replace(rotor, limits=limits)
     return rotor.under_gravity(case.gravity) if case.gravity else rotor

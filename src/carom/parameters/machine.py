@@ -87,6 +87,8 @@ class Machine(Tabular):
         Largest force (N) and control current (A) of one of them.
     air_gap : float or str, optional
         Radial air gap s0 of their magnets (m), larger than the clearance: a rotor that is there reaches them.
+    internal_damping : float or str, optional
+        Damping c_i that turns with the shaft (N s/m), such as that of its material: it acts on the velocity that the shaft sees.
 
     Raises
     ------
@@ -116,6 +118,7 @@ class Machine(Tabular):
     force_limit: float | None = None
     current_limit: float | None = None
     air_gap: float | None = None
+    internal_damping: float | None = None
     _resolved: Resolved
 
     def __init__(self, /, **entries: object) -> None:

@@ -76,6 +76,7 @@ HELPER_FIELDS: Mapping[str, Field] = by_name(
     Field("negative_stiffness", "k_s", "size of the negative stiffness of a bearing", "a stiffness without its sign", "N/m", 1e-30, 1e30, '"4e5 N/m"', zero=True),
     Field("force_limit", "F_max", "largest force of a bearing", "a force", "N", 1e-12, 1e15, '"500 N"'),
     Field("current_limit", "i_max", "largest control current of a bearing", "a current", "A", 1e-12, 1e9, '"3 A"'),
+    Field("internal_damping", "c_i", "damping that turns with the shaft", "a damping", "N s/m", 1e-30, 1e30, '"10 N s/m"', zero=True),
     length_field("air_gap", "s_0", "radial air gap of a bearing's magnets", 1e-9, 1e3, '"0.5 mm"'),
 )  # fmt: skip
 """Entries that set nothing themselves: those that formulas need, and limits."""

@@ -24,7 +24,8 @@ from carom.parameters import Zones
 from carom.parameters.tables import BIAS
 from carom.rotors import FlexibleMachine
 from carom.rotors.bearing_limits import asked_by_currents
-from carom.rotors.equations import RotorEquations, loops_of
+from carom.rotors.equations import RotorEquations, SpeedLaw, loops_of
+from carom.rotors.support import turning
 from carom.rotors.whirls import speeds_of
 
 
@@ -102,7 +103,7 @@ class SynchronousResponse(Result):
         return tuple(Zones().zone(float(each)) for each in self.reach.max(axis=1))
 
 
-class _Whole(NamedTuple):
+class Whole(NamedTuple):
     """A rotor in units of its own, in which speeds are divided by ``speed`` and displacements multiplied by ``length``."""
 
     equations: RotorEquations
@@ -155,7 +156,7 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
     0.4012
     """
     listed = speeds_of(speeds)
-    whole = _of_flexible(machine) if isinstance(machine, FlexibleMachine) else _of_model(rotor_of(machine))
+    whole = _of_flexible(machine) if isinstance(machine, FlexibleMachine) else whole_of(rotor_of(machine))
     answers = Ellipses(*_answers(whole.equations, listed / whole.speed))
 
     def seen(rows: np.ndarray, by_rates: np.ndarray | float = 0.0) -> Ellipses:
@@ -191,18 +192,19 @@ def _with_conjugates(alike: Ellipses, equations: RotorEquations, answers: Ellips
     return Ellipses(alike.forward + more[0], alike.backward + more[1])
 
 
-def _of_model(model: Rotor) -> _Whole:
+def whole_of(model: Rotor) -> Whole:
+    """Equations of any rotor, of which a flexible one has all its modes."""
     reduced, scales = model.finite_elements, model.scales
     if reduced is not None:
         return _of_flexible(reduced.machine)
     if scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)
-    system, conjugate = model.system, model.equations.conjugate
+    system, conjugate, rotating = model.system, model.equations.conjugate, model.definition.rotating
     n, widths = len(system.rest), system.widths
     mass, damping, gyroscopic, stiffness, forcing = model.matrices
     none = np.zeros((0, n))
-    return _Whole(
+    return Whole(
         RotorEquations(
             mass,
             damping,
@@ -220,6 +222,8 @@ def _of_model(model: Rotor) -> _Whole:
             across_unlevitated=np.zeros((2, n, n)),
             currents_across=np.zeros((2, 0, n)),
             is_anisotropic=conjugate is not None,
+            speed=1.0,
+            held=() if rotating is None else (SpeedLaw(rotating, turning),),
         ),
         scales.speed,
         scales.length * widths,
@@ -234,7 +238,7 @@ def _of_model(model: Rotor) -> _Whole:
     )
 
 
-def _of_flexible(machine: FlexibleMachine) -> _Whole:
+def _of_flexible(machine: FlexibleMachine) -> Whole:
     whole = machine.whole
     held, gravity, scales = whole.equations, machine.gravity, whole.scales
     first, resting = np.eye(len(held.mass))[0], np.zeros(len(held.mass), complex)
@@ -248,7 +252,7 @@ def _of_flexible(machine: FlexibleMachine) -> _Whole:
         both = held.both if held.is_anisotropic else held
         resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
     seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
-    return _Whole(
+    return Whole(
         held,
         1.0,
         np.ones(len(machine.touchdowns)),
@@ -279,7 +283,7 @@ def _answer(equations: RotorEquations, speed: float) -> np.ndarray:
         return equations.response(float(np.nextafter(speed, np.inf)))
 
 
-def _saturation(whole: _Whole, answers: Ellipses, speeds: np.ndarray) -> np.ndarray:
+def _saturation(whole: Whole, answers: Ellipses, speeds: np.ndarray) -> np.ndarray:
     """What is asked of each limit along the worse of its axes, as a share of it, shape (m, L)."""
     found = np.zeros((len(speeds), len(whole.limits)))
     for place, limit in enumerate(whole.limits):

@@ -19,7 +19,7 @@ from carom.parameters.indentation import is_compliant
 from carom.rotors import ReducedMachine
 from carom.studies.advice import GAIN_FACTOR, Change, evidence_of
 from carom.studies.levitating import bearing_facts, levitation_facts
-from carom.studies.questions import LABELS, UNFINISHED, Evidence, Fact
+from carom.studies.questions import GROWTH, LABELS, UNFINISHED, Evidence, Fact
 from carom.studies.standstill import spin_down_facts
 from carom.studies.study_data import StudyData
 from carom.studies.summaries import ranges_along
@@ -118,7 +118,8 @@ def _levitation(study: StudyData) -> str:
     limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
     text = f"The rotor {where}, zone {study.zone} (zone limits {limits} of the clearance)."
     if not levitation.stable:
-        return f"{text} It has no damping: vibrations do not decay."
+        grows = levitation.eigenvalues.real.max() > GROWTH
+        return f"{text} {'Small vibrations grow.' if grows else 'It has no damping: vibrations do not decay.'}"
     decay = -float(levitation.eigenvalues.real.max())
     text += f" Small vibrations decay, with a time constant of {say.time(1.0 / decay)}."
     if "air_gap" in si:

@@ -33,6 +33,7 @@ from carom.rotors import (
 )
 from carom.rotors.free_motions import StabilityLimit, stability_limits
 from carom.rotors.loop_sensitivity import Collocation, collocations, zone_of
+from carom.rotors.synchronous import whole_of
 from carom.rotors.whirls import turns
 from carom.studies.critical_speeds import Critical, known_speeds, response_curve, usual_range
 from carom.studies.questions import Fact
@@ -139,7 +140,7 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
         response, criticals = response_curve(case, whirls, usual_range(rotor, whirls, run), run)
         found = replace(found, response=response, at_speed=synchronous_response(case, [speed]), criticals=criticals)
     if machine is None:
-        return replace(found, loops=_loop_of_mass(case.si))
+        return replace(found, loops=_loop_of_mass(case.si), limits=_limits_of(rotor))
     seen = sensitivity(machine) if machine.bearings else None
     low, high = known_speeds(rotor)
     speeds = np.linspace(max(SLOWEST * speed, low), min(FASTEST * speed, high), FOLLOWED).tolist()
@@ -153,6 +154,15 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
         sensitivity=seen,
         collocations=collocations(machine, found.whirls),
     )
+
+
+def _limits_of(rotor: Rotor) -> tuple[StabilityLimit, ...]:
+    """Speeds at which the levitation of a planar rotor with internal damping begins or ceases to be stable."""
+    if rotor.scales is None or rotor.definition.rotating is None:
+        return ()
+    found = stability_limits(whole_of(rotor).equations, np.linspace(SLOWEST, FASTEST, FOLLOWED).tolist())
+    unit = rotor.scales.speed
+    return tuple(each._replace(speed=unit * each.speed, exponent=unit * each.exponent) for each in found)
 
 
 def whirls_of(rotor: Rotor, count: int = WHIRLS) -> tuple[WhirlMode, ...]:

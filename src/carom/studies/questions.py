@@ -44,6 +44,8 @@ EVENTS = {
 UNFINISHED = "question=words followed asked"
 FEW_MODES, MANY_MODES = 4, 16
 """Modes up to which an event costs about the same, of more it costs in proportion, and so many fewer are followed; and modes above which searches are coarser."""
+GROWTH = 1e-12
+"""Of small vibrations in a radian of the turn, up to which it is rounding."""
 FEWEST = 60
 """Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
 

@@ -19,7 +19,7 @@ from carom.disturbances.plans import ANY_INSTANT
 from carom.orbits import Orbit
 from carom.parameters import Scales
 from carom.parameters.formats import number, rounded_down, shown_in
-from carom.studies.questions import LABELS, Evidence, Fact, Kind, about, required_kinds
+from carom.studies.questions import GROWTH, LABELS, Evidence, Fact, Kind, about, required_kinds
 from carom.studies.study_data import StudyData
 from carom.studies.survives import decides
 from carom.studies.wording import Wording, counted, ending_words, listed
@@ -239,7 +239,8 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
         why = f"its {whirl} {what} the wall of the touchdown bearing"
         return "no-contact-free-motion", "Cannot run without contact", why
     if not levitation.stable:
-        why = "levitation has no damping, so vibrations do not decay"
+        grows = levitation.eigenvalues.real.max() > GROWTH
+        why = "small vibrations grow" if grows else "levitation has no damping, so vibrations do not decay"
         if study.rotor.system.limits:
             why = "levitation saturates the magnetic bearings, or is not damped"
         return "no-contact-free-motion", f"Does not stay in levitation, {zone}", why
