@@ -12,7 +12,7 @@ def transfer(section, length, frequency, speed=0.0):
     """State at the end of a piece of a section per state at its beginning, at ``e^{iωt}`` of either sense."""
     material = section.material
     bending = material.elastic_modulus * section.second_moment
-    shear = section.shear_coefficient * material.shear_modulus * section.area
+    shear = section.shear_coefficient * material.shear * section.area
     line, rotary = material.density * section.area, material.density * section.second_moment
     matrix = np.zeros((STATE, STATE))
     matrix[0, 1], matrix[0, 3] = 1.0, 1.0 / shear

@@ -15,21 +15,21 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3658,
-    "models": 2310,
+    "parameters base": 3660,
+    "models": 2330,
     "core": 6613,
     "motions disturbances": 4611,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2372,
-    "studies": 3444,
+    "studies": 3454,
     "cli plots report": 5622,
-    "rotors": 4273,
+    "rotors": 4366,
     "proofs": 5902,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_200, 291
+TESTS, ANY = 38_343, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""

@@ -30,7 +30,7 @@ def machine(**limits):
 def reference(reduced, start, angle, limits):
     """Displacements at the planes, m, and integrators after a time; the start is that of the vectors, in SI units."""
     at, v = reduced.machine, reduced.vectors
-    loops = loops_of(at.rotor, at.bearings, at.touchdowns)
+    loops = loops_of(at)
     pulls = loops.bearings @ reduced.basis.shapes
     planes = loops.touchdowns @ reduced.basis.shapes
     given = reduced.equations

@@ -25,6 +25,7 @@ from carom.rotors import (
     load_machine,
     sensitivity,
 )
+from carom.rotors.equations import equations_of
 from carom.rotors.reduction import contact_error, damping_of_basis
 
 MACHINE = munich()
@@ -320,7 +321,8 @@ def test_verdicts_are_those_of_all_exponents(example):
 
 def test_vectors_that_are_no_modes_do_not_grow():
     reduced = cm.load(UBERLANDIA, STABLE).parameters.finite_elements
-    assert np.linalg.eigvals(reduced._equations(reduced.basis).generator(reduced.machine.speed)).real.max() > 5.0
+    equations = equations_of(reduced.machine, reduced.basis)
+    assert np.linalg.eigvals(equations.generator(reduced.machine.speed)).real.max() > 5.0
     # The slowest of all modes, an integrator, is the slowest of the vectors too.
     slowest = reduced.machine.slowest.exponents[0].real
     assert -reduced.linear.system.decay * reduced.machine.speed == pytest.approx(slowest, rel=1e-3)

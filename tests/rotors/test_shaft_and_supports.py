@@ -14,14 +14,22 @@ from carom.models import rotor_of
 from carom.motions import spin_down
 from carom.parameters import Drive, TouchdownBearing
 from carom.rotors import (
+    PID,
+    FlexibleMachine,
+    FlexibleRotor,
+    Housing,
+    MagneticBearing,
+    Material,
     ModalDamping,
     ProportionalDamping,
+    ShaftSection,
     Support,
     TouchdownPlane,
     Unbalance,
     find_whirls,
     load_machine,
     rigid_rotor,
+    sensitivity,
     synchronous_response,
 )
 from carom.rotors.free_motions import stability_limits
@@ -216,3 +224,109 @@ def test_a_study_states_the_limit_of_speed(tmp_path):
         }
     ]
     assert found.campbell.speeds[0] == pytest.approx(700.0 * np.pi / 30.0)
+
+
+def test_magnets_react_on_a_housing_and_sensors_measure_against_it():
+    places, ki, ks, gains = (-0.12, 0.19), 60.0, -1e5, (9000.0, 12.0)
+    machine = rigid_rotor(
+        mass=12.0, polar_inertia=0.04, diametral_inertia=0.15, stations=(*places, 0.25), speed=900.0, clearance="0.25 mm",
+        bearings=[MagneticBearing(node, ki, ks, PID(gains[0], 0.0, gains[1], 0.0)) for node in (0, 1)],
+        supports=[Support(2, 2e4, 2e4, cxx=30.0, cyy=30.0)],
+        touchdowns=[TouchdownPlane(node, WALL, "20 mm", 0.15) for node in (0, 1)],
+        unbalances=[Unbalance(1, "20 g mm")],
+        housings=[Housing(20.0, 3e6, 400.0, bearings=[1], touchdowns=(1, 2)), Housing("8 kg", "1e6 N/m", bearings=[2], supports=[1])],
+    )  # fmt: skip
+    rows = np.array([[1.0, places[0], -1.0, 0.0], [1.0, places[1], 0.0, -1.0], [1.0, 0.25, 0.0, -1.0]])
+    mass = np.diag([12.0, 0.15, 20.0, 8.0])
+    spring, damper = (
+        rows.T @ np.diag([at_magnets, at_magnets, at_support]) @ rows + np.diag([0.0, 0.0, *of_housings])
+        for at_magnets, at_support, of_housings in (
+            (ki * gains[0] + ks, 2e4, (3e6, 1e6)),
+            (ki * gains[1], 30.0, (400.0, 0.0)),
+        )
+    )
+    spin = damper - 900.0j * np.diag([0.0, 0.04, 0.0, 0.0])
+    own = np.linalg.eigvals(
+        np.block([[np.zeros((4, 4)), np.eye(4)], [-np.linalg.solve(mass, spring), -np.linalg.solve(mass, spin)]])
+    )
+    found = machine.whole.equations.exponents(900.0)[0]
+    assert np.sort_complex(found) == pytest.approx(np.sort_complex(own), rel=1e-10)
+    assert np.sort_complex(machine.model.system.exponents + 1j) * 900.0 == pytest.approx(np.sort_complex(own), rel=1e-9)
+    answer = np.linalg.solve(
+        spring + 900.0j * spin - 900.0**2 * mass, 20e-6 * 900.0**2 * np.array([1.0, places[1], 0, 0])
+    )
+    whirl = synchronous_response(machine, [900.0])
+    seated = np.array([[1.0, place, -1.0, 0.0] for place in places])
+    assert whirl.touchdowns.forward[0] == pytest.approx(seated @ answer, rel=1e-9)
+    assert whirl.sensors.forward[0] == pytest.approx(rows[:2] @ answer, rel=1e-9)
+    s = 700.0j
+    free = spring + s * damper - (ki * gains[0] + s * ki * gains[1]) * rows[:2].T @ rows[:2]
+    loops = [
+        rows[:2] @ np.linalg.solve(free + sign * s * (spin - damper) + s * s * mass, rows[:2].T) for sign in (1.0, -1.0)
+    ]
+    closed = [np.diag(np.linalg.inv(np.eye(2) + ki * (gains[0] + s * gains[1]) * each)) for each in loops]
+    assert sensitivity(machine, [700.0]).values[0] == pytest.approx(0.5 * (closed[0] + closed[1]), rel=1e-9)
+
+
+def test_a_housing_of_a_touchdown_bearing_alone_is_its_mount(tmp_path):
+    wall = TouchdownBearing("hunt-crossley", stiffness="1e7 N/m", dissipation="0.5 s/m")
+    mounted = wall.replace(mount_mass="1.5 kg", mount_stiffness="4e6 N/m", mount_damping="300 N s/m")
+    plain = munich(0.1, touchdown=wall)
+    standing = replaced(plain, housings=[Housing("1.5 kg", "4e6 N/m", "300 N s/m", touchdowns=[1])])
+    other = replaced(plain, touchdowns=[replaced(plain.touchdowns[0], bearing=mounted), plain.touchdowns[1]])
+    seen = []
+    for each in (standing, other):
+        motion = cm.simulate(each.with_modes(4).model, cm.drop(), "12 ms")
+        seen.append(
+            [
+                column
+                for plane in (0, 1)
+                for name, column in motion.seen_at(plane).contacts.to_dataset().items()
+                if name in ("time", "deepest", "heat")
+            ]
+        )
+    for one, same in zip(*seen, strict=True):
+        assert len(one) >= 2
+        assert one.values == pytest.approx(same.values, rel=1e-7)
+    path = tmp_path / "machine.toml"
+    path.write_text(standing.with_modes(4).to_toml())
+    assert load_machine(path).housings == standing.housings
+    with pytest.raises(InputError, match="numbers from 1 to 2"):
+        replaced(plain, housings=[Housing(1.0, 1.0, touchdowns=[3])])
+    with pytest.raises(InputError, match="one housing at most"):
+        replaced(plain, housings=[Housing(1.0, 1.0), Housing(1.0, 1.0, touchdowns=[2])])
+
+
+@pytest.mark.parametrize("force", [-1.0, -0.6, 0.0, 2.0])
+def test_axial_force_on_a_pinned_shaft_is_as_in_closed_form(force):
+    """``w = sin βs, φ ∝ cos βs`` solves Timoshenko's beam between pins; it buckles at Engesser's ``P_E/(1 + P_E/κGA)``."""
+    material = Material("70 GPa", 2700.0, shear_modulus="15 GPa")
+    section = ShaftSection("0.5 m", "40 mm", 0.0, material)
+    bending, beta = material.elastic_modulus * section.second_moment, np.pi / section.length
+    shear, line = section.shear_coefficient * 15e9 * section.area, material.density * section.area
+    buckling = bending * beta**2 / (1.0 + bending * beta**2 / shear)
+    axial = force * buckling
+    shaft = [dataclasses.replace(section, axial_force=axial)]
+    stiff = [[shear * beta**2 + axial * beta**2, -shear * beta], [-shear * beta, bending * beta**2 + shear]]
+    closed = scipy.linalg.eigvalsh(stiff, np.diag([line, material.density * section.second_moment]))
+    found = []
+    for elements in (80, 160):
+        rotor = FlexibleRotor(shaft, [], ModalDamping(0.0), section.length / elements)
+        free = np.setdiff1d(np.arange(2 * elements + 2), [0, 2 * elements])
+        mass, stiffness = (each[np.ix_(free, free)] for each in rotor.matrices[:2])
+        extra = 0.0 if rotor.axial_stiffness is None else rotor.axial_stiffness[np.ix_(free, free)]
+        # Of inverses the largest, the lowest frequency and load, are accurate to rounding.
+        pair = (mass, stiffness + extra) if force > -1.0 else (-extra, stiffness)
+        found.append(1.0 / scipy.linalg.eigh(*pair, eigvals_only=True)[-1])
+    # The shear angle of an element is one: its error falls with the square of the length, and goes by extrapolation.
+    assert (4.0 * found[1] - found[0]) / 3.0 == pytest.approx(closed[0] if force > -1.0 else 1.0, rel=1e-8)
+    pins = [Support(node, 1e11, 1e11, cxx=1.0, cyy=1.0) for node in (0, 1)]
+    wall = [TouchdownPlane(0, TouchdownBearing("kelvin-voigt", stiffness=1e7, damping=10.0), "20 mm", 0.1)]
+    damped = dataclasses.replace(rotor, damping=ModalDamping(1e-3), longest_element=0.025)
+    machine = FlexibleMachine(damped, 100.0, "0.2 mm", [], wall, supports=pins)
+    if force > -1.0:
+        assert find_whirls(machine)[0].frequency == pytest.approx(np.sqrt(closed[0]) / (2.0 * np.pi), rel=2e-3)
+    else:
+        bent = dataclasses.replace(damped, sections=[dataclasses.replace(section, axial_force=1.01 * axial)])
+        with pytest.raises(InputError, match="a displacement to one side grows"):
+            _ = replaced(machine, rotor=bent).whole.linear

@@ -157,8 +157,10 @@ class Planar(Definition):
         if not self.levitates:
             matrices = matrices._replace(damping=none, stiffness=none)
         elif self.internal_damping:
-            own = self.internal_damping / scales.damping
-            matrices = matrices._replace(damping=matrices.damping + own, stiffness=matrices.stiffness - 1j * own)
+            turning = self.internal_damping / scales.damping
+            matrices = matrices._replace(
+                damping=matrices.damping + turning, stiffness=matrices.stiffness - 1j * turning
+            )
         given, at = self.bearing or RIGID, self.parameters
         if mount := given.mount:
             plane = [1.0, -1.0]

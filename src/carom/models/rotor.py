@@ -235,7 +235,7 @@ class Rotor(Result):
         """The limits in units of the equations."""
         if isinstance(self.limits, ControlLimit):
             scales = cast("Scales", self.scales)
-            return limits_by(self.limits, self.definition.planar, scales, len(self.matrices.mass))
+            return limits_by(self.limits, cast("Parameters", self.definition.planar), scales, len(self.matrices.mass))
         return self.limits
 
     @cached_property

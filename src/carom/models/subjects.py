@@ -41,9 +41,10 @@ def rotor_of(subject: Subject) -> Rotor:
         raise InputError("machine", shown(subject), _ALLOWED)
     case = case_of(subject)
     rotor, limits = rotor_of(case.parameters), case.machine.control_limit if case.machine else None
-    own = {name: case.si[name] for name in ("air_gap", "internal_damping") if name in case.si}
-    if (case.touchdown or case.drive or own.get("internal_damping")) and rotor.has_closed_forms:
-        rotor = jeffcott(rotor.parameters, case.touchdown or RIGID, drive=case.drive, **own)
+    air_gap, internal = case.si.get("air_gap"), case.si.get("internal_damping", 0.0)
+    if (case.touchdown or case.drive or internal) and rotor.has_closed_forms:
+        touchdown = case.touchdown or RIGID
+        rotor = jeffcott(rotor.parameters, touchdown, drive=case.drive, air_gap=air_gap, internal_damping=internal)
     if limits is not None:
         rotor = replace(rotor, limits=limits)
     return rotor.under_gravity(case.gravity) if case.gravity else rotor

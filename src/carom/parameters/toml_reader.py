@@ -17,7 +17,7 @@ from carom.parameters.quantities import Written
 _WHAT = "machine file"
 _OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
 _KINDS = ("machine", "dimensionless", "rotor")
-_LISTS = ("section", "disc", "magnetic_bearing", "shared_controller", "support", "touchdown", "unbalance")
+_LISTS = ("section", "disc", "magnetic_bearing", "shared_controller", "support", "housing", "touchdown", "unbalance")
 """Tables of which a file with ``[rotor]`` holds one for each part."""
 _RECOVERY = "recovery"
 """Table of which any file may hold several."""

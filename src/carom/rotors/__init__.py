@@ -18,7 +18,7 @@
 ``ross_reader``           the program that reads rotors with ROSS, in a process of its own
 ``ross_import``           :func:`import_rotor`: a rotor of ROSS, or of matrices
 ``starter``               a machine file to start from, for an imported rotor
-``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
+``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`, :class:`Housing`
 ``reduction``             few vectors in place of all coordinates
 ``equations``             equations of motion in SI units
 ``free_motions``          free motions, which of them grow, and the speeds at which levitation begins or ceases to be stable
@@ -35,7 +35,7 @@
 ========================  =================================================================
 """
 
-from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.rotors.attachments import Housing, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, SecondOrderSections, Series, TransferFunction, VoltagePID, ZerosPolesGain
 from carom.rotors.filters import LeadLag, LowPass, Notch
 from carom.rotors.flexible_machine import FlexibleMachine, rigid_rotor
@@ -65,6 +65,7 @@ __all__ = [
     "FlexibleMachine",
     "FlexibleRotor",
     "ForcePID",
+    "Housing",
     "ImportedRotor",
     "LeadLag",
     "LowPass",

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.parameters.touchdown_bearing import Mount
+from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import Basis, damping_by, damping_of_basis
-from carom.rotors.shared_controller import SharedController, loops_in
+from carom.rotors.shared_controller import loops_in
 from carom.rotors.support import Support, turning
+
+if TYPE_CHECKING:
+    from carom.rotors.flexible_machine import FlexibleMachine
 
 
 class SpeedLaw(NamedTuple):
@@ -68,6 +72,8 @@ class RotorEquations(NamedTuple):
     """For which damping and stiffness are, 1/s."""
     held: tuple[SpeedLaw, ...] = ()
     """What of these may differ at another speed."""
+    rows: Loops | None = None
+    """Where forces of a flexible machine act and displacements are measured, relative to housings."""
 
     def at(self, speed: float) -> RotorEquations:
         """Equations with the damping and the stiffness of another speed, 1/s, levitating and not."""
@@ -146,7 +152,7 @@ def off(matrix: np.ndarray) -> np.ndarray:
 
 
 class Loops(NamedTuple):
-    """Rows of coordinates of the rotor."""
+    """Rows of coordinates."""
 
     bearings: np.ndarray
     """Shape (B, n)."""
@@ -154,55 +160,44 @@ class Loops(NamedTuple):
     """Shape (B, n): the mean of the sensors of each."""
     touchdowns: np.ndarray
     """Shape (P, n)."""
+    supports: np.ndarray
+    """Shape (S, n)."""
 
 
-def loops_of(rotor: FreeRotor, bearings: Sequence[MagneticBearing], planes: Sequence[TouchdownPlane]) -> Loops:
-    """Where forces act and displacements are measured."""
-    none = np.empty((0, len(rotor.matrices.mass)))
-    return Loops(
-        bearings=np.array([rotor.row_at(each.node) for each in bearings] or none),
-        sensors=np.array(
-            [np.mean([rotor.row_at(node) for node in each.sensor_nodes], axis=0) for each in bearings] or none
-        ),
-        touchdowns=np.array([rotor.row_at(each.node) for each in planes] or none),
-    )
+def loops_of(at: FlexibleMachine) -> Loops:
+    """Where forces act and displacements are measured, by coordinates of the rotor."""
+    none = np.empty((0, len(at.rotor.matrices.mass)))
+
+    def rows(parts: Sequence[MagneticBearing | TouchdownPlane | Support]) -> np.ndarray:
+        return np.array([at.rotor.row_at(each.node) for each in parts] or none)
+
+    seen = [np.mean([at.rotor.row_at(node) for node in each.sensor_nodes], axis=0) for each in at.bearings]
+    return Loops(rows(at.bearings), np.array(seen or none), rows(at.touchdowns), rows(at.supports))
 
 
-def equations_of(
-    rotor: FreeRotor,
-    basis: Basis,
-    bearings: Sequence[MagneticBearing],
-    touchdowns: Sequence[TouchdownPlane],
-    unbalances: Sequence[Unbalance],
-    supports: Sequence[Support],
-    shared: Sequence[SharedController],
-    speed: float,
-) -> RotorEquations:
-    """Equations of a machine in a basis.
+def _seated(at: FlexibleMachine, basis: Basis, first: int, size: int) -> Loops:
+    """The same by the coordinates of the equations (n,), relative to the housings, whose coordinates begin at the first."""
+    found = [np.pad(rows @ basis.shapes, ((0, 0), (0, size - len(basis.frequencies)))) for rows in loops_of(at)]
+    for place, housing in enumerate(at.housings, first):
+        for rows, seated in zip(found, housing.seated(at), strict=True):
+            rows[list(seated), place] = -1.0 / np.sqrt(housing.mass)
+    return Loops(*found)
 
-    Parameters
-    ----------
-    speed : float
-        Of the machine, 1/s; also the rate with which states of controllers that will be reset fade while levitation is lost.
-    """
-    loops = loops_of(rotor, bearings, touchdowns)
-    mounts = [(plane, mount) for plane, each in enumerate(touchdowns) if (mount := each.bearing.mount)]
-    vectors, first = len(basis.frequencies), len(basis.frequencies) + len(mounts)
-    controls = loops_in(rotor, bearings, shared)
+
+def equations_of(at: FlexibleMachine, basis: Basis) -> RotorEquations:
+    """Equations of a machine in a basis; its speed is also the rate with which states of controllers that will be reset fade while levitation is lost."""
+    rotor, bearings, supports = at.rotor, at.bearings, at.supports
+    mounts = [(plane, mount) for plane, each in enumerate(at.touchdowns) if (mount := each.bearing.mount)]
+    free, seats = slice(0, len(basis.frequencies)), len(basis.frequencies) + len(mounts)
+    first = seats + len(at.housings)
+    controls = loops_in(rotor, bearings, at.shared_controllers)
     size = first + sum(each.system.states for each in controls)
-    mass, damping, gyroscopic, stiffness = np.zeros((4, size, size))
-    free = slice(0, vectors)
-    mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
-    damping[free, free] = damping_of_basis(rotor, basis)
+    rows = _seated(at, basis, seats, size)
+    mass, damping, stiffness, carried = _masses(at, basis, mounts, rows)
+    gyroscopic = np.zeros((size, size))
     gyroscopic[free, free] = _gyroscopic(rotor, basis)
-    carried = np.zeros(size)
-    carried[free], carried[vectors:first] = rotor.carried(basis.shapes), 1.0
-    planes = np.concatenate([loops.touchdowns @ basis.shapes, np.zeros((len(touchdowns), size - vectors))], axis=1)
-    for place, (plane, mount) in enumerate(mounts, vectors):
-        mass[place, place], damping[place, place], stiffness[place, place] = mount
-        planes[plane, place] = -1.0
-    held = _held(rotor, basis, supports, size)
-    alike, across = _sum(held, speed, size)
+    held = _held(rotor, basis, supports, rows.supports)
+    alike, across = _sum(held, at.speed, size)
     damping, stiffness = damping + alike[0], stiffness + alike[1]
     states = slice(first, size)
     damping[states, states] = np.eye(size - first)
@@ -213,27 +208,28 @@ def equations_of(
     amplifiers = np.full(len(bearings), -1)
     for loop in controls:
         own, listed = slice(first, first + loop.system.states), list(loop.bearings)
-        seen = loops.sensors[listed] @ basis.shapes
+        seen = rows.sensors[listed]
         for side, system in enumerate(loop.sides):
             for place, number in enumerate(listed):
-                currents[side, :, number, free] = system.D[place] @ seen, system.rate[place] @ seen
+                currents[side, :, number] = system.D[place] @ seen, system.rate[place] @ seen
                 currents[side, 0, number, own] = system.C[place]
-            levitated[side, 1, own, free], levitated[side, 1, own, own] = -(system.B @ seen), -system.A
+            levitated[side, 1, own] = -(system.B @ seen)
+            levitated[side, 1, own, own] = -system.A
         if loop.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
-            left[0, 1, own, own], regained[own] = speed * np.eye(loop.system.states), 0.0
+            left[0, 1, own, own], regained[own] = at.speed * np.eye(loop.system.states), 0.0
         elif loop.at_regain == "running":
             left[:, 1, own] = levitated[:, 1, own]
         first = own.stop
         with_amplifier = [each for each in listed if any(axis.amplifier_bandwidth for axis in bearings[each].axes)]
         amplifiers[with_amplifier] = range(first - len(with_amplifier), first)
     for number, bearing in enumerate(bearings):
-        pulls = loops.bearings[number] @ basis.shapes
+        pulls = rows.bearings[number]
         for side, magnet in enumerate(bearing.magnet):
-            levitated[side, ::-1, free] += bearing.ki * (pulls[:, None] * currents[side, :, number, None])
-            levitated[side, 1, free, free] += magnet * np.outer(pulls, pulls)
+            levitated[side, ::-1] += bearing.ki * (pulls[:, None] * currents[side, :, number, None])
+            levitated[side, 1] += magnet * np.outer(pulls, pulls)
     forcing = np.zeros(size, complex)
-    for each in unbalances:
+    for each in at.unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
     (damping, stiffness), across = levitated
     return RotorEquations(
@@ -243,7 +239,7 @@ def equations_of(
         _real(stiffness),
         forcing,
         _real(left[0]),
-        planes,
+        rows.touchdowns,
         _real(currents[0, 0]),
         _real(currents[0, 1]),
         amplifiers,
@@ -255,9 +251,39 @@ def equations_of(
         any(len(each.sides) > 1 for each in controls)
         or any(each.magnet[1] for each in bearings)
         or any(each.is_anisotropic for each in supports),
-        speed,
+        at.speed,
         held,
+        rows,
     )
+
+
+def _masses(
+    at: FlexibleMachine, basis: Basis, mounts: Sequence[tuple[int, Mount]], rows: Loops
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Mass, damping and stiffness of rotor, mounts and housings, and what each is displaced by when all are by 1 m; touchdown bearings on mounts get their rows."""
+    vectors, seats, size = len(basis.frequencies), len(basis.frequencies) + len(mounts), rows.touchdowns.shape[1]
+    free = slice(0, vectors)
+    mass, damping, stiffness = np.zeros((3, size, size))
+    carried = np.zeros(size)
+    mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
+    if at.rotor.axial_stiffness is not None:
+        stiffness[free, free] += basis.shapes.T @ at.rotor.axial_stiffness @ basis.shapes
+    damping[free, free] = damping_of_basis(at.rotor, basis)
+    carried[free], carried[vectors:seats] = at.rotor.carried(basis.shapes), 1.0
+    for place, housing in enumerate(at.housings, seats):
+        mass[place, place], carried[place] = 1.0, np.sqrt(housing.mass)
+        damping[place, place], stiffness[place, place] = (
+            housing.damping / housing.mass,
+            housing.stiffness / housing.mass,
+        )
+    for place, (plane, mount) in enumerate(mounts, vectors):
+        ring, own = np.eye(size)[place], rows.touchdowns[plane]
+        stands = ring + np.where(np.arange(size) < vectors, 0.0, own)  # on a housing or on the ground
+        mass[place, place] = mount.mass
+        damping += mount.damping * np.outer(stands, stands)
+        stiffness += mount.stiffness * np.outer(stands, stands)
+        own[vectors:] = -ring[vectors:]
+    return mass, damping, stiffness, carried
 
 
 def _real(values: np.ndarray) -> np.ndarray:
@@ -265,19 +291,18 @@ def _real(values: np.ndarray) -> np.ndarray:
     return values if values.imag.any() else values.real.copy()
 
 
-def _held(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int) -> tuple[SpeedLaw, ...]:
+def _held(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], rows: np.ndarray) -> tuple[SpeedLaw, ...]:
     """What holds the rotor with and without levitation, and the damping that turns with its shaft."""
 
-    def padded(square: np.ndarray) -> np.ndarray:
-        return np.pad(square, (0, size - len(square)))
+    def padded(part: np.ndarray) -> np.ndarray:
+        return np.pad(part, (0, rows.shape[1] - len(part)))
 
     found = []
-    for each in supports:
-        laws = [(rotor.row_at(each.node), each.coefficients)]
-        laws += [(rotor.tilt_at(each.node), each.of_tilt)] if each.tilts else []
-        for row, law in laws:
-            pull = row @ basis.shapes
-            found.append(SpeedLaw(padded(np.outer(pull, pull)), law))
+    for each, row in zip(supports, rows, strict=True):
+        found.append(SpeedLaw(np.outer(row, row), each.coefficients))
+        if each.tilts:
+            tilt = padded(rotor.tilt_at(each.node) @ basis.shapes)
+            found.append(SpeedLaw(np.outer(tilt, tilt), each.of_tilt))
     if rotor.internal_rates is not None:
         own = damping_by(basis, rotor.by_modes(rotor.internal_rates), rotor.internal_rates)
         found.append(SpeedLaw(padded(own), turning))

@@ -17,7 +17,7 @@ from carom.parameters import Field, Gravity
 from carom.parameters.fields import RPM
 from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.tables import read_entries
-from carom.rotors.attachments import PLANE_FIELDS, TouchdownPlane, Unbalance
+from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, SEATED, Housing, TouchdownPlane, Unbalance
 from carom.rotors.controllers import Series, controller_of
 from carom.rotors.equations import loops_of
 from carom.rotors.free_motions import Slowest, slowest_of
@@ -41,6 +41,7 @@ _KINDS = {
     "unbalances": Unbalance,
     "supports": Support,
     "shared_controllers": SharedController,
+    "housings": Housing,
 }
 
 
@@ -66,6 +67,8 @@ class FlexibleMachine(NamedParameters):
         What holds the rotor with and without its magnetic bearings.
     shared_controllers : sequence of SharedController, optional
         Of magnetic bearings that have no controller of their own.
+    housings : sequence of Housing, optional
+        On which magnetic bearings, touchdown bearings and supports stand; the others stand on the ground.
 
     Raises
     ------
@@ -82,6 +85,7 @@ class FlexibleMachine(NamedParameters):
     gravity: Gravity | None = None
     supports: Sequence[Support] = ()
     shared_controllers: Sequence[SharedController] = ()
+    housings: Sequence[Housing] = ()
 
     def __post_init__(self) -> None:
         rotor: object = self.rotor
@@ -111,6 +115,14 @@ class FlexibleMachine(NamedParameters):
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
+        standing = [
+            (name, number)
+            for housing in self.housings
+            for name, numbers in zip(SEATED, housing.parts(self), strict=True)
+            for number in numbers
+        ]
+        if len(set(standing)) < len(standing):
+            raise InputError("housings", "two under one part", "one housing at most for each part")
         loops_in(self.rotor, self.bearings, self.shared_controllers)  # which refuses a bearing without a controller
         if self.rotor.bends and not all(each.bearing.is_compliant for each in self.touchdowns):
             allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
@@ -123,9 +135,8 @@ class FlexibleMachine(NamedParameters):
     @cached_property
     def _rows(self) -> list[np.ndarray]:
         """Where forces act and displacements are measured, each place once."""
-        held = [self.rotor.row_at(each.node)[None] for each in self.supports]
-        held += [self.rotor.tilt_at(each.node)[None] for each in self.supports if each.tilts]
-        rows = np.concatenate([*loops_of(self.rotor, self.bearings, self.touchdowns), *held])
+        held = [self.rotor.tilt_at(each.node)[None] for each in self.supports if each.tilts]
+        rows = np.concatenate([*loops_of(self), *held])
         return list(np.unique(rows, axis=0))
 
     def basis(self, modes: int) -> Basis:
@@ -144,7 +155,7 @@ class FlexibleMachine(NamedParameters):
         finer = self.finer_than(basis)
         if finer is None:
             return 0.0
-        weight, loops = self.rotor.mass * FALL, loops_of(self.rotor, (), self.touchdowns)
+        weight, loops = self.rotor.mass * FALL, loops_of(self)
         planes = zip(loops.touchdowns, self.touchdowns, self.clearances, strict=True)
         return max(
             contact_error(self.rotor, basis, finer, row, plane.stiffness(weight * room)) for row, plane, room in planes
@@ -214,6 +225,7 @@ def rigid_rotor(
     gravity: Gravity | None = None,
     pivot: Any = None,
     shared_controllers: Sequence[SharedController] = (),
+    housings: Sequence[Housing] = (),
 ) -> FlexibleMachine:
     """Return the machine of a rigid rotor with two complex degrees of freedom, displacement and tilt.
 
@@ -221,7 +233,7 @@ def rigid_rotor(
     ----------
     mass, polar_inertia, diametral_inertia, stations, pivot
         See :class:`RigidRotor`.
-    speed, clearance, touchdowns, bearings, supports, unbalances, gravity, shared_controllers
+    speed, clearance, touchdowns, bearings, supports, unbalances, gravity, shared_controllers, housings
         See :class:`FlexibleMachine`; the ``node`` of a part is the number of its station, from 0 on.
 
     Raises
@@ -250,7 +262,7 @@ def rigid_rotor(
     """
     rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
     return FlexibleMachine(
-        rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports, shared_controllers
+        rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports, shared_controllers, housings
     )
 
 
@@ -282,6 +294,10 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     for place, support in enumerate(machine.supports, start=1):
         known = f"; from a table of {len(support.speeds)} speeds" if support.speeds else ""
         yield f"support {place}", f"at {at(support.node)}: {_entries(support.at(machine.speed), SUPPORT_FIELDS)}{known}"
+    for place, housing in enumerate(machine.housings, start=1):
+        parts = zip(("magnetic bearing", "touchdown bearing", "support"), housing.parts(machine), strict=True)
+        under = "; ".join(f"{name} {', '.join(str(each + 1) for each in listed)}" for name, listed in parts if listed)
+        yield f"housing {place}", f"{_entries(housing, HOUSING_FIELDS)}; under {under}"
     for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):
         room = format_entry(PLANE_FIELDS["clearance"], clearance)
         others = {name: field for name, field in PLANE_FIELDS.items() if name != "clearance"}

@@ -121,19 +121,28 @@ class FlexibleRotor(BendingRotor):
     @cached_property
     def matrices(self) -> RotorMatrices:  # type: ignore[override]
         """``M``, ``K`` and ``G``."""
-        matrices = np.zeros((3, 2 * len(self.places), 2 * len(self.places)))
+        found = RotorMatrices(*self._assembled[:3].copy())
+        for disc in self.discs:
+            found.add_disc(disc, self.place_of(disc.node))
+        for each in found:
+            each.flags.writeable = False
+        return found
+
+    @property
+    def axial_stiffness(self) -> np.ndarray | None:  # type: ignore[override]
+        """Stiffness by axial forces; ``None`` without any."""
+        return self._assembled[3] if self._assembled[3].any() else None
+
+    @cached_property
+    def _assembled(self) -> np.ndarray:
+        matrices = np.zeros((4, 2 * len(self.places), 2 * len(self.places)))
         first = 0
         for section, count in zip(self.sections, self.divisions, strict=True):
             element = np.array(beam_element(section, section.length / count))
             for _ in range(count):
                 matrices[:, first : first + 4, first : first + 4] += element
                 first += 2
-        found = RotorMatrices(*matrices)
-        for disc in self.discs:
-            found.add_disc(disc, self.place_of(disc.node))
-        for each in found:
-            each.flags.writeable = False
-        return found
+        return matrices
 
     @property
     def mass(self) -> float:  # type: ignore[override]

@@ -98,6 +98,8 @@ class FreeRotor(ABC):
     """``D``, shape (n, n): N s/m, N s, N m s."""
     internal_rates: np.ndarray | None = None
     """As ``damping_rates``, of the damping ``D_i`` that turns with the shaft; ``None`` without such damping."""
+    axial_stiffness: np.ndarray | None = None
+    """Stiffness by axial forces, shape (n, n); ``None`` without any.  It is no part of ``K``: it resists a tilt as a whole, as what holds a rotor does."""
     free_modes: FreeModes
     """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
     words: str

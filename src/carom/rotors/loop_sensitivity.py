@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
-from carom.rotors.equations import block, loops_of
+from carom.rotors.equations import Loops, block
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import motions_at
 from carom.rotors.shared_controller import loops_in
@@ -113,30 +113,31 @@ class _Loop:
     """The loop of all bearings, opened at the sensors."""
 
     def __init__(self, machine: FlexibleMachine) -> None:
-        whole, loops = machine.whole, loops_of(machine.rotor, machine.bearings, machine.touchdowns)
-        held, vectors = whole.equations, slice(0, whole.vectors)
+        whole = machine.whole
+        held, has_mass = whole.equations, whole.equations.mass.any(axis=1)
+        both = np.ix_(has_mass, has_mass)
+        rows = Loops(*(each[:, has_mass] for each in whole.loops))
         self.bearings = machine.bearings
         controls = loops_in(machine.rotor, machine.bearings, machine.shared_controllers)
         self.loops = [(np.array(each.bearings), each.both) for each in controls]
-        self.pulls, self.seen = loops.bearings @ whole.basis.shapes, loops.sensors @ whole.basis.shapes
+        self.pulls, self.seen = rows.bearings, rows.sensors
         softer = [
             bearing.magnet[0] * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)
         ]
-        self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
-        self.spin = held.unlevitated[0][vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
+        self.mass, self.stiffness = held.mass[both], held.unlevitated[1][both] + np.sum(softer, axis=0)
+        self.spin = held.unlevitated[0][both] - 1j * machine.speed * held.gyroscopic[both]
         # Anisotropic supports, where they hold the rotor.
-        laws = ((each.node, each.coefficients(machine.speed)[1].tolist()) for each in machine.supports)
-        nodes = [(node, stiffness, damping) for node, (damping, stiffness) in laws if stiffness or damping]
-        nodes += [(each.node, each.magnet[1], 0j) for each in self.bearings if each.magnet[1]]
-        rows = [machine.rotor.row_at(node) @ whole.basis.shapes for node, *_ in nodes]
-        self.held = np.reshape(rows, (len(nodes), whole.vectors))
-        self.across = np.array([each for _, *each in nodes]).reshape(-1, 2)
+        across = [each.coefficients(machine.speed)[1, ::-1] for each in machine.supports]
+        across += [np.array([each.magnet[1], 0j]) for each in self.bearings]
+        acts = [bool(each.any()) for each in across]
+        self.held = np.concatenate([rows.supports, rows.bearings])[acts]
+        self.across = np.array(across)[acts]
         self.is_anisotropic = held.is_anisotropic
 
     def answers(self, frequency: float) -> np.ndarray:
         """What sensors measure, and displacements at such supports, by forces of whirls at bearings and there; shape (B + S, B + S)."""
         s = 1j * frequency
-        dynamic = self.stiffness + s * self.spin + s * s * np.eye(len(self.stiffness))
+        dynamic = self.stiffness + s * self.spin + s * s * self.mass
         pushed = np.concatenate([self.pulls, self.held])
         found: np.ndarray = np.concatenate([self.seen, self.held]) @ np.linalg.solve(dynamic, pushed.T)
         return found

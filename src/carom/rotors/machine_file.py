@@ -158,13 +158,19 @@ def _read_rotor(
 ) -> FreeRotor | None:
     """The rotor itself: rigid with stations, of a file of matrices, or of sections; ``None`` if it has errors."""
     steel = vars(problems.attempt(lambda: Material(**entries_in(whole, MATERIAL_FIELDS))) or Material())
-    discs = _each(tables, "disc", problems, lambda entry: {**steel, **entry})
+    everywhere = steel | entries_in(whole, ("axial_force",))
+
+    def of_material(entry: dict[str, object]) -> dict[str, object]:
+        # A shear modulus is that of its own elastic modulus.
+        return everywhere | ({"shear_modulus": None} if "elastic_modulus" in entry else {}) | entry
+
+    discs = _each(tables, "disc", problems, of_material)
     if stations is not None:
         numbers: dict[str, Any] = {name: whole.get(name) for name in RIGID_FIELDS}
         return problems.attempt(lambda: RigidRotor(**numbers, stations=stations)) if stations else None
     if "source" in whole:
         return problems.attempt(_of_source, tables, whole, discs)
-    sections = _each(tables, "section", problems, lambda entry: {**steel, **entry})
+    sections = _each(tables, "section", problems, of_material)
     if not tables.parts.get("section"):
         allowed = "one or more tables, each with its length and outer_diameter; or [rotor] source = a file of matrices"
         problems.errors.append(InputError("[[section]]", None, allowed))
@@ -183,8 +189,11 @@ def _of_source(tables: MachineTables, whole: Mapping[str, object], discs: list[D
         raise InputError(
             "source", shown(given), "the path of a file of matrices, .npz or .mat, seen from the machine file"
         )
-    if tables.parts.get("section") or "longest_element" in whole:
-        found = "[[section]]" if tables.parts.get("section") else "longest_element"
+    beside = (
+        ["[[section]]"] if tables.parts.get("section") else [*entries_in(whole, ("longest_element", "axial_force"))]
+    )
+    if beside:
+        found = beside[0]
         raise InputError("source", shown(given), f"not allowed beside {found}: the file holds the whole shaft")
     stated = any(name in whole for name in RENAMED)
     own = damping_of(whole) if stated else None

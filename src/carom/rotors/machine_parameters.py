@@ -18,7 +18,7 @@ from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, 
 from carom.parameters.fields import nearest_name, why_not_modelled
 from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import PREFIX
-from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
+from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
 from carom.rotors.controllers import numbers_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import BEARING_FIELDS
@@ -47,6 +47,7 @@ _KINDS: Mapping[str, tuple[str, _Paths]] = {
         "touchdown bearing",
         _own(PLANE_FIELDS) | {PREFIX + name: (("bearing", name), SETTINGS[PREFIX + name]) for name in TOUCHDOWN_FIELDS},
     ),
+    "housings": ("housing", {f"housing_{name}": ((name,), field) for name, field in HOUSING_FIELDS.items()}),
     "unbalances": ("[[unbalance]]", {"unbalance": (("size",), UNBALANCE_FIELDS["size"])}),
 }
 """By the attribute of a machine, what its parts are called, and their entries."""

@@ -12,7 +12,15 @@ from carom.base.outcome import InputError, shown, together
 from carom.parameters import MACHINE_FIELDS, TOUCHDOWN_FIELDS, Field, TouchdownBearing
 from carom.parameters.fields import by_name, unknown_name
 from carom.parameters.tables import toml_line
-from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
+from carom.rotors.attachments import (
+    HOUSING_FIELDS,
+    PLANE_FIELDS,
+    SEATED,
+    UNBALANCE_FIELDS,
+    Housing,
+    TouchdownPlane,
+    Unbalance,
+)
 from carom.rotors.controllers import (
     PID,
     PID_FIELDS,
@@ -28,6 +36,7 @@ from carom.rotors.flexible_rotor import LONGEST
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS
 from carom.rotors.shaft_parts import (
+    AXIAL_FORCE,
     DISC_FIELDS,
     MATERIAL_FIELDS,
     MODAL_FIELDS,
@@ -53,6 +62,7 @@ INTERNAL = {"internal_damping_ratio": "ratio", "internal_damping_of_stiffness": 
 ROTOR_ENTRIES: Mapping[str, Any] = {
     "speed": MACHINE_FIELDS["speed"],
     **MATERIAL_FIELDS,
+    "axial_force": AXIAL_FORCE,
     "longest_element": LONGEST,
     "source": None,
     "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
@@ -69,6 +79,7 @@ ATTACHED = {
     "unbalances": "unbalance",
     "supports": "support",
     "shared_controllers": "shared_controller",
+    "housings": "housing",
 }
 """Parts of a machine beside its rotor, and their tables."""
 PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
@@ -254,6 +265,7 @@ PARTS: Mapping[str, PartTable] = {
     "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER, "y": None}, ("node", "ki", "ks"), _bearing),
     "shared_controller": PartTable({"bearings": None, **dict.fromkeys(_PARTS_OF_SHARED), **dict.fromkeys("ABCD"), **_SAMPLED, "at_regain": None}, (), _shared),
     "support": PartTable({**_PLACE, **SUPPORT_FIELDS, "speeds": MACHINE_FIELDS["speed"]}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
+    "housing": PartTable({**HOUSING_FIELDS, **dict.fromkeys(SEATED)}, ("mass", "stiffness"), lambda entry: Housing(**entry)),
     "touchdown": PartTable({**_PLACE, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS}, ("node", "law", "rotor_radius", "friction", "clearance"), _plane),
     "unbalance": PartTable({**_PLACE, **UNBALANCE_FIELDS}, ("node", "size"), lambda entry: Unbalance(**entry)),
 }  # fmt: skip

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from carom.parameters.touchdown_bearing import OF_CATALOGUE
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
-from carom.rotors.equations import RotorEquations, equations_of, loops_of
+from carom.rotors.equations import Loops, RotorEquations, equations_of
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.free_motions import slowest_of, stability_limits
 from carom.rotors.part_tables import machine_toml
@@ -108,12 +108,12 @@ class ReducedMachine(Result):
     @cached_property
     def equations(self) -> RotorEquations:
         """Equations of motion in SI units."""
-        return self._equations(self.damped)
+        return equations_of(self.machine, self.damped)
 
-    def _equations(self, basis: Basis) -> RotorEquations:
-        at = self.machine
-        parts = at.bearings, at.touchdowns, at.unbalances, at.supports, at.shared_controllers
-        return equations_of(at.rotor, basis, *parts, speed=at.speed)
+    @property
+    def loops(self) -> Loops:
+        """Where forces act and displacements are measured, by its coordinates, relative to housings."""
+        return cast("Loops", self.equations.rows)
 
     @cached_property
     def damped(self) -> Basis:
@@ -121,7 +121,7 @@ class ReducedMachine(Result):
         if self.modes == self.vectors or self.machine.slowest.grows:
             return self.basis
         ways = [self.basis._replace(damping_ratio=each) for each in DAMPING_RATIOS]
-        return next((each for each in ways if self._comes_back(self._equations(each))), self.basis)
+        return next((each for each in ways if self._comes_back(equations_of(self.machine, each))), self.basis)
 
     @property
     def comes_back(self) -> bool:
@@ -251,10 +251,7 @@ class ReducedMachine(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of its magnetic bearings, in units of the equations, on the gains of which they depend."""
-        at, given = self.machine, self.equations
-        pulls = np.zeros(given.currents.shape)
-        pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
-        return limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
+        return limits_of_bearings(self.equations, tuple(self.machine.bearings), self.loops.bearings, self.scales)
 
     def held_by_bias(self, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What constant currents add to a constant push, N/√kg per coordinate, and these currents, A, shape (B,): those by which no sensor is displaced.
@@ -264,17 +261,10 @@ class ReducedMachine(Result):
         at, given = self.machine, self.equations
         controls = loops_in(at.rotor, at.bearings, at.shared_controllers)
         held = sorted(number for loop in controls if not loop.integrates for number in loop.bearings)
-        loops, n, currents = (
-            loops_of(at.rotor, at.bearings, at.touchdowns),
-            len(pull),
-            np.zeros(len(at.bearings), complex),
-        )
+        n, currents = len(pull), np.zeros(len(at.bearings), complex)
         if not held:
             return np.zeros_like(pull), currents
-        pushes, seen = (
-            np.pad(rows[held] @ self.basis.shapes, ((0, 0), (0, n - self.vectors)))
-            for rows in (loops.bearings, loops.sensors)
-        )
+        pushes, seen = self.loops.bearings[held], self.loops.sensors[held]
         twice = np.eye(1 + given.is_anisotropic)  # of anisotropic supports conjugates are unknowns too
         pushes, seen = np.kron(twice, pushes), np.kron(twice, seen)
         stiffness = given.both.stiffness if given.is_anisotropic else given.stiffness
@@ -347,26 +337,23 @@ class ReducedMachine(Result):
     @property
     def _magnets(self) -> np.ndarray | None:
         """Displacement at each magnet, in its air gap, per coordinate in units of the equations; ``None`` where no gap is known."""
-        known = [each for each in self.machine.bearings if each.air_gap is not None]
-        if not known:
+        gaps = {number: each.air_gap for number, each in enumerate(self.machine.bearings) if each.air_gap is not None}
+        if not gaps:
             return None
-        rows = np.zeros((len(known), len(self.equations.mass)))
-        gaps = np.array([each.air_gap for each in known])
-        seen = loops_of(self.machine.rotor, known, ()).bearings @ self.basis.shapes
-        rows[:, : self.vectors] = math.sqrt(self.scales.mass) * self.scales.length / gaps[:, None] * seen
-        return rows
+        unit = math.sqrt(self.scales.mass) * self.scales.length
+        return np.asarray(unit / np.array([*gaps.values()])[:, None] * self.loops.bearings[list(gaps)])
 
     def places(self, nodes: Sequence[int]) -> dict[str, np.ndarray]:
         """Displacement, in clearances of the machine, per coordinate in units of the equations: at magnetic bearings, the mean of the sensors of each, and at nodes."""
         for node in nodes:
             self.machine.rotor.check_node("nodes", node)
-        loops, named = loops_of(self.machine.rotor, self.machine.bearings, ()), dict[str, np.ndarray]()
-        for number, (pulls, seen) in enumerate(zip(loops.bearings, loops.sensors, strict=True), start=1):
-            named |= {f"magnetic_bearing_{number}": pulls, f"magnetic_bearing_{number}_sensor": seen}
-        named |= {f"node_{node}": self.machine.rotor.row_at(node) for node in nodes}
-        beside = len(self.equations.mass) - self.vectors
-        size = math.sqrt(self.scales.mass)
-        return {name: np.pad(size * row @ self.basis.shapes, (0, beside)) for name, row in named.items()}
+        named, size, n = dict[str, np.ndarray](), math.sqrt(self.scales.mass), len(self.equations.mass)
+        for number, (pulls, seen) in enumerate(zip(self.loops.bearings, self.loops.sensors, strict=True), start=1):
+            named |= {f"magnetic_bearing_{number}": size * pulls, f"magnetic_bearing_{number}_sensor": size * seen}
+        for node in nodes:
+            shown = size * self.machine.rotor.row_at(node) @ self.basis.shapes
+            named[f"node_{node}"] = np.pad(shown, (0, n - self.vectors))
+        return named
 
     def currents(self, coordinates: np.ndarray, rates: np.ndarray) -> np.ndarray:
         """Control currents (n, B), A, of coordinates and their rates (n, N) in the fixed frame, in units of the equations."""

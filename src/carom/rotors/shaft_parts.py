@@ -42,11 +42,16 @@ MATERIAL_FIELDS: Mapping[str, Field] = by_name(
     Field("elastic_modulus", "E", "elastic modulus", "a modulus", "Pa", 1e3, 1e15, '"211 GPa"'),
     Field("density", "", "density", "a density", "kg/m^3", 1.0, 1e6, '"7860 kg/m^3"'),
     Field("poisson_ratio", "", "Poisson's ratio", "a number", "", 0.0, 0.5, "0.3"),
+    Field("shear_modulus", "G", "shear modulus, where it does not follow from Poisson's ratio", "a modulus", "Pa", 1e3, 1e15, '"5 GPa"'),
+)  # fmt: skip
+AXIAL_FORCE = Field(
+    "axial_force", "", "axial force in the shaft, tension above zero", "a force", "N", -1e12, 1e12, '"-5 kN"', True
 )
 SECTION_FIELDS: Mapping[str, Field] = by_name(
     length_field("length", "L", "length of the section", 1e-6, 1e3, '"94 mm"'),
     length_field("outer_diameter", "", "outer diameter of the section", 1e-6, 1e2, '"8 mm"'),
     length_field("inner_diameter", "", "inner diameter of the section", 1e-6, 1e2, '"4 mm"', True),
+    AXIAL_FORCE,
 )
 
 
@@ -64,6 +69,8 @@ class Material:
         kg/m³.
     poisson_ratio : float or str
         From 0 to 0.5.
+    shear_modulus : float or str, optional
+        ``G``, Pa; by default ``E/(2(1 + ν))``.  Of a composite it is another one.
 
     Raises
     ------
@@ -74,14 +81,15 @@ class Material:
     elastic_modulus: float = 211e9
     density: float = 7850.0
     poisson_ratio: float = 0.3
+    shear_modulus: float | None = None
 
     def __post_init__(self) -> None:
         read_entries(self, MATERIAL_FIELDS)
 
     @property
-    def shear_modulus(self) -> float:
+    def shear(self) -> float:
         """Shear modulus ``G``, Pa."""
-        return self.elastic_modulus / (2.0 * (1.0 + self.poisson_ratio))
+        return self.shear_modulus or self.elastic_modulus / (2.0 * (1.0 + self.poisson_ratio))
 
 
 @dataclass(frozen=True)
@@ -97,6 +105,8 @@ class ShaftSection:
     inner_diameter : float or str, optional
         m; 0 by default.
     material : Material, optional
+    axial_force : float or str, optional
+        N, tension above zero, which keeps its size and its direction along the axis; 0 by default.
 
     Raises
     ------
@@ -108,6 +118,7 @@ class ShaftSection:
     outer_diameter: float
     inner_diameter: float = 0.0
     material: Material = Material()
+    axial_force: float = 0.0
 
     def __post_init__(self) -> None:
         read_entries(self, SECTION_FIELDS)
@@ -150,16 +161,18 @@ class ElementMatrices(NamedTuple):
     mass: np.ndarray
     stiffness: np.ndarray
     gyroscopic: np.ndarray
+    axial: np.ndarray
+    """Stiffness by the axial force, N/m, N and N m."""
 
 
 def beam_element(section: ShaftSection, length: float) -> ElementMatrices:
     """Matrices of an element of a section with this length, m; the gyroscopic one is by the speed of the shaft, rad/s.
 
-    ``M ẅ − iΩG ẇ + K w = 0``.
+    ``M ẅ − iΩG ẇ + K w = 0``.  An axial force ``N`` has the energy ``½ N ∫ |dw/ds|² ds``.
     """
     material = section.material
     bending = material.elastic_modulus * section.second_moment
-    shear = section.shear_coefficient * material.shear_modulus * section.area
+    shear = section.shear_coefficient * material.shear * section.area
     places = 0.5 * (1.0 + POINTS)
     displacement, tilt, curvature, angle = _courses(places, length, 12.0 * bending / (shear * length**2))
 
@@ -173,6 +186,7 @@ def beam_element(section: ShaftSection, length: float) -> ElementMatrices:
         stiffness=bending * integral(curvature) + shear * length * np.outer(angle, angle),
         # The polar moment of a round section is twice that about a diameter.
         gyroscopic=2.0 * rotary,
+        axial=section.axial_force * integral(tilt + angle[:, None]),
     )
 
 

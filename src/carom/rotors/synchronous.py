@@ -24,7 +24,7 @@ from carom.parameters import Zones
 from carom.parameters.tables import BIAS
 from carom.rotors import FlexibleMachine
 from carom.rotors.bearing_limits import asked_by_currents
-from carom.rotors.equations import RotorEquations, SpeedLaw, loops_of
+from carom.rotors.equations import RotorEquations, SpeedLaw
 from carom.rotors.support import turning
 from carom.rotors.whirls import speeds_of
 
@@ -251,14 +251,13 @@ def _of_flexible(machine: FlexibleMachine) -> Whole:
             pull, asked = pull + pushed, asked_by_currents(held, machine.bearings, currents)
         both = held.both if held.is_anisotropic else held
         resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
-    seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
     return Whole(
         held,
         1.0,
         np.ones(len(machine.touchdowns)),
         np.abs(held.planes @ resting),
         np.array(machine.clearances),
-        seen,
+        whole.loops.sensors,
         held.currents,
         tuple(replace(each, velocity=each.velocity / scales.speed) for each in whole.limits),
         scales.length * np.sqrt(scales.mass),
