@@ -8,7 +8,9 @@ of controllers, which see displacements alone; where bearings are anisotropic, s
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,7 +18,15 @@ from carom.base.outcome import InputError, shown
 from carom.core.wall import Wall
 from carom.models import Force, LinearEquations, Rotor, Stage, Trigger
 from carom.models.mode_arrays import STEADY
+from carom.models.turning import Shaft
+from carom.motions.descent import turning_at
+from carom.motions.standstill import shaft_and_changes
 from carom.parameters import RecoveryAction, Scales, own_time
+
+STEPS = 20
+"""In which the speed of a shaft changes."""
+HELD = 1e15
+"""Inertia, in ``m c_r²``, of a shaft that is held at its speed."""
 
 
 def recovery_stages(
@@ -39,37 +49,85 @@ def recovery_stages(
         raise InputError(
             "recovery", recovery.name, "a rotor with mass, clearance and speed: its entries are in SI units"
         )
-    yield Stage(falling, _trigger(falling, recovery, scales), carry)
+    turning = _Turning.of(rotor, falling, recovery, scales)
+    if recovery.regain_speed is None:
+        yield Stage(falling, _trigger(recovery, scales), carry)
+    else:
+        for middle, edge in turning.steps_down_to(recovery.regain_speed / scales.speed):
+            last = edge == turning.speed
+            yield Stage(turning.at(falling, middle), Trigger(shaft_speed=edge), carry if last else None)
     if recovery.lasts is not None:
-        lasts = own_time("lasts", recovery.lasts / scales.time, scales)
-        yield Stage(_acting(rotor, falling, recovery, scales), Trigger(time=lasts))
-    yield Stage(rotor)
+        lasts, helped = own_time("lasts", recovery.lasts / scales.time, scales), _with_gains(rotor, recovery)
+
+        def acting(speed: float) -> Rotor:
+            return _acting(turning.at(helped, speed), turning.at(falling, speed), recovery, scales)
+
+        if recovery.slow_to is None:
+            yield Stage(acting(turning.speed), Trigger(time=lasts))
+        else:
+            steps = turning.steps_down_to(recovery.slow_to / scales.speed, by_drive=True)
+            for middle, _ in steps:
+                yield Stage(acting(middle), Trigger(time=lasts / len(steps)), slowed_to=middle)
+    yield Stage(turning.at(rotor, turning.speed), slowed_to=turning.speed if recovery.slow_to else math.inf)
 
 
-def _trigger(falling: Rotor, recovery: RecoveryAction, scales: Scales) -> Trigger:
-    """When levitation is regained."""
+@dataclass
+class _Turning:
+    """A shaft that is slowed down from the nominal speed, in ``Ω``, in steps of equal size; in each its matrices are those of the middle."""
+
+    shaft: Shaft | None
+    changes: Callable[[float], np.ndarray] | None = None
+    speed: float = 1.0
+
+    @classmethod
+    def of(cls, rotor: Rotor, falling: Rotor, recovery: RecoveryAction, scales: Scales) -> _Turning:
+        """The shaft of a rotor, if the recovery has to do with its speed; one whose inertia is not known is held at its speed by the drive."""
+        if recovery.regain_speed is None and recovery.slow_to is None:
+            return cls(None)
+        speeds = [each for each in (scales.speed, recovery.regain_speed, recovery.slow_to) if each is not None]
+        if speeds != sorted(set(speeds), reverse=True):
+            raise InputError(
+                "slow_to", recovery.slow_to, "speeds that fall: that of the machine, regain_speed, slow_to"
+            )
+        if rotor.acting.asked_by_bias.any():
+            raise InputError(
+                "recovery", recovery.name, "no speeds beside limits of magnetic bearings that carry the weight"
+            )
+        try:
+            return cls(*shaft_and_changes(rotor, falling, None))
+        except InputError:
+            if recovery.regain_speed is not None:
+                raise
+            return cls(Shaft(HELD))
+
+    def steps_down_to(self, speed: float, by_drive: bool = False) -> list[tuple[float, float]]:
+        """Middle and end of each step down to a speed, which the shaft then has; friction needs one alone where nothing changes with the speed."""
+        edges = np.linspace(self.speed, speed, 1 + (STEPS if by_drive or self.changes else 1))
+        self.speed = speed
+        return list(zip((0.5 * (edges[:-1] + edges[1:])).tolist(), [*edges[1:-1].tolist(), speed], strict=True))
+
+    def at(self, rotor: Rotor, speed: float) -> Rotor:
+        """The rotor at about a speed."""
+        own = rotor.equations.shaft
+        if self.shaft is None or (own is not None and self.changes is None):
+            return rotor
+        return turning_at(rotor, speed, self.shaft, self.changes)
+
+
+def _trigger(recovery: RecoveryAction, scales: Scales) -> Trigger:
+    """When levitation is regained, at whatever speed."""
     if recovery.regain_after is not None:
         return Trigger(time=own_time("regain_after", recovery.regain_after / scales.time, scales))
-    if recovery.regain_quiet is not None:
-        slow = 0.0 if recovery.quiet_speed is None else recovery.quiet_speed / scales.velocity
-        return Trigger(quiet_time=recovery.regain_quiet / scales.time, quiet_speed=slow)
-    speed = float(recovery.regain_speed or 0.0)
-    if falling.system.shaft is None:
-        allowed = (
-            "a shaft that friction slows down: a table [drive] beside [machine] with a compliant touchdown bearing"
-        )
-        raise InputError("regain_speed", speed, allowed)
-    if speed >= scales.speed:
-        raise InputError("regain_speed", speed, f"below the speed of the shaft, {scales.speed:g} rad/s")
-    return Trigger(shaft_speed=speed / scales.speed)
+    slow = 0.0 if recovery.quiet_speed is None else recovery.quiet_speed / scales.velocity
+    return Trigger(quiet_time=(recovery.regain_quiet or math.inf) / scales.time, quiet_speed=slow)
 
 
 def _acting(rotor: Rotor, falling: Rotor, recovery: RecoveryAction, scales: Scales) -> Rotor:
-    """The levitated rotor while the action lasts."""
-    helped, forces = _with_gains(rotor, recovery), []
+    """The levitated rotor while the action lasts, from that with its gains."""
+    forces = []
     if recovery.set_point:
         at = cmath.rect(recovery.set_point / scales.length, recovery.set_point_angle)
-        forces.append(Force(STEADY, _held_at(helped, falling, at)))
+        forces.append(Force(STEADY, _held_at(rotor, falling, at)))
     if pushed := recovery.force or recovery.current:
         ahead = cmath.rect(pushed, rotor.unbalance_phase + recovery.phase)
         forces.append(Force(0.0, _pushed(rotor, recovery, ahead, scales)))
@@ -79,9 +137,10 @@ def _acting(rotor: Rotor, falling: Rotor, recovery: RecoveryAction, scales: Scal
             recovery.name,
             "other gains alone: limits of magnetic bearings do not see forces, currents and set points",
         )
-    if recovery.current and falling.system.shaft is not None:
-        raise InputError("current", recovery.current, "a shaft at constant speed: it turns with the nominal speed")
-    return helped.under(*forces) if forces else helped
+    if pushed and rotor.system.shaft is not None:
+        allowed = "left out where the speed of the shaft changes: it turns with the nominal speed"
+        raise InputError("current" if recovery.current else "force", pushed, allowed)
+    return rotor.under(*forces) if forces else rotor
 
 
 def _with_gains(rotor: Rotor, recovery: RecoveryAction) -> Rotor:

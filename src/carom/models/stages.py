@@ -65,11 +65,14 @@ class Stage:
         What ends it; by default nothing.
     carry : array_like, shape (2n, 2n), optional
         Coordinates and rates in the next stage per coordinate and rate at the end of this one; by default they are the same.
+    slowed_to : float
+        Speed of a shaft to which the drive has slowed it down where the stage begins, in ``Ω``.
     """
 
     rotor: Rotor
     trigger: Trigger = NEVER
     carry: np.ndarray | None = None
+    slowed_to: float = np.inf
 
     def __post_init__(self) -> None:
         rotor: object = self.rotor

@@ -121,25 +121,10 @@ class Modes:
         if number != self.number:
             middle = (number - 0.5) / self.steps
             if self.rotor is None or self.changes is not None:
-                self.rotor = self._turning_at(middle)
+                self.rotor = turning_at(self.falling, middle, self.shaft, self.changes)
             self._pass(middle)
             self.number = number
         return cast("Rotor", self.rotor), (number - 1) / self.steps
-
-    def _turning_at(self, speed: float) -> Rotor:
-        equations = self.falling.equations
-        damping, stiffness = (0.0, 0.0) if self.changes is None else self.changes(speed)
-        found = replace(
-            equations,
-            damping=equations.damping + damping,
-            stiffness=equations.stiffness + stiffness + 1j * damping,
-            touchdowns=[
-                replace(each, bearing=self.falling.definition.bearing_at(plane))
-                for plane, each in enumerate(equations.touchdowns)
-            ],
-            shaft=replace(self.shaft, torque=0.0, in_stages=True),
-        )
-        return replace(self.falling, definition=found)
 
     def _pass(self, middle: float) -> None:
         """Note the frequencies that the speed has passed since the step before."""
@@ -150,6 +135,22 @@ class Modes:
             passed = (self.above < 0.0) & (above >= 0.0)
             self.criticals += (middle + above[passed] / (above[passed] - self.above[passed]) / self.steps).tolist()
         self.above = above
+
+
+def turning_at(rotor: Rotor, speed: float, shaft: Shaft, changes: Callable[[float], np.ndarray] | None) -> Rotor:
+    """The rotor with its shaft turning at about this speed, in ``Ω``, for which its matrices are; see :class:`Modes`."""
+    equations = rotor.equations
+    damping, stiffness = (0.0, 0.0) if changes is None else changes(speed)
+    found = replace(
+        equations,
+        damping=equations.damping + damping,
+        stiffness=equations.stiffness + stiffness + 1j * damping,
+        touchdowns=[
+            replace(each, bearing=rotor.definition.bearing_at(plane)) for plane, each in enumerate(equations.touchdowns)
+        ],
+        shaft=replace(shaft, torque=0.0, in_stages=True),
+    )
+    return replace(rotor, definition=found, forces=rotor.acting.forces, carried_by_bias=False)
 
 
 @dataclass

@@ -130,6 +130,9 @@ def stretches(
     passed = 0.0
     for stage in stages_of(model):
         longest = time_limit(stage.rotor, stage.trigger) if end is None else end - passed
+        if stage.slowed_to < np.inf:
+            speed, angle = state.shaft or (1.0, 0.0)
+            state = dataclasses.replace(state, shaft=(min(speed, stage.slowed_to), angle))
         for piece in follow_stage(stage.rotor, state, longest, stage.trigger, following):
             yield piece
         if piece.outcome is not Outcome.TRIGGERED:

@@ -161,9 +161,7 @@ def spin_down(
         raise InputError("regained_after", "a time", "left out: a spin-down follows a shaft without levitation")
     if falling.is_anisotropic:
         raise InputError("supports", "anisotropic", "alike in both directions, in a spin-down")
-    shaft, changes = _shaft_and_changes(
-        before, falling, drive or (machine.drive if isinstance(machine, Case) else None)
-    )
+    shaft, changes = shaft_and_changes(before, falling, drive or (machine.drive if isinstance(machine, Case) else None))
     limit = LONGEST if until is None else own_time("until", until, before.scales)
     question = present_question()
     following = Following(False, False, PATIENCE, int(min(max_events, question.left)), Reporter())
@@ -199,7 +197,7 @@ def spin_down(
     )
 
 
-def _shaft_and_changes(
+def shaft_and_changes(
     before: Rotor, falling: Rotor, drive: Drive | None
 ) -> tuple[Shaft, Callable[[float], np.ndarray] | None]:
     """The shaft, and what its speed adds to damping and stiffness without levitation, if that changes."""

@@ -14,7 +14,7 @@ from carom.parameters.tables import Table, entries_of, entry, toml_line
 
 REGAINED = ("regain_after", "regain_speed", "regain_quiet")
 """What makes levitation come back, one of them."""
-OF_ACTION = ("gains", "gain_factors", "force", "current", "set_point")
+OF_ACTION = ("gains", "gain_factors", "force", "current", "set_point", "slow_to")
 """What an action may be, one or several of them."""
 UP = 0.5 * math.pi
 """Up the y axis, as an angle from the x axis."""
@@ -46,6 +46,8 @@ class RecoveryAction(Table):
         Amplitude, 0 to peak, of a force on the centre of mass, N, or of the current of every magnetic bearing, A, that turns with the shaft.
     phase : float or str, optional
         Angle of this force or current from the unbalance, in the sense of rotation, rad.
+    slow_to : float or str, optional
+        Speed to which the drive slows the shaft down at a constant rate while the action lasts, rad/s.
     set_point, set_point_angle : float or str, optional
         Distance from the centre at which the rotor levitates, m, and where, from the fixed x axis in the sense of rotation, rad: up by default.
 
@@ -80,6 +82,9 @@ class RecoveryAction(Table):
     phase: float = entry("", "angle from the unbalance", "rad", -1e6, 1e6, '"180 deg"', True, 0.0)
     set_point: float | None = entry(
         "", "distance at which it levitates", "m", 1e-12, 1.0, '"50 um"', usual=("µm", 1e-6)
+    )
+    slow_to: float | None = entry(
+        "", "speed to which the drive slows the shaft down", "rad/s", 1e-6, 1e6, '"3000 rpm"', usual=_RPM
     )
     set_point_angle: float = entry("", "angle of the set point", "rad", -1e6, 1e6, '"90 deg"', True, UP)
 
@@ -143,6 +148,8 @@ class RecoveryAction(Table):
                 parts.append(f"synchronous {name} {said[name]} at {format_angle(self.phase)} from the unbalance")
         if self.set_point:
             parts.append(f"set point {said['set_point']} at {format_angle(self.set_point_angle)}")
+        if self.slow_to:
+            parts.append(f"slowed down to {said['slow_to']}")
         return f"{text}; for {said['lasts']}: {', '.join(parts)}" if self.acts else text
 
     def to_toml(self) -> str:
