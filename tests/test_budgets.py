@@ -15,10 +15,10 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3660,
-    "models": 2330,
+    "parameters base": 3665,
+    "models": 2331,
     "core": 6613,
-    "motions disturbances": 4611,
+    "motions disturbances": 4653,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2372,
     "studies": 3454,
@@ -29,7 +29,7 @@ LIMITS = {
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_343, 291
+TESTS, ANY = 38_380, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""
