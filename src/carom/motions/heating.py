@@ -76,6 +76,7 @@ def ball_torque(bearing: TouchdownBearing, speed: Reals, load: Reals) -> np.ndar
     ...     "hunt-crossley", dissipation=0.5, torque_factor=2, load_factor=0.0008, viscosity="30 mm^2/s", **size
     ... )
     >>> print(f"{1e3 * cm.motions.ball_torque(bearing, 1000.0, 500.0):.0f} N mm")
+    300 N mm
     """
     turning, load = np.abs(speed), np.asarray(load, float)
     ring = bearing.ring

@@ -48,14 +48,14 @@ class BallHeat(Table):
     shaft_mass: float | None = entry("", "mass of the sleeve on the shaft", "kg", 1e-9, 1e9, '"0.1 kg"')
     race_mass: float | None = entry("", "mass of the inner race", "kg", 1e-9, 1e9, '"0.08 kg"')
     outer_mass: float | None = entry("", "mass of the outer ring", "kg", 1e-9, 1e9, '"0.12 kg"')
-    shaft_conductance: float | None = entry("", "conductance of sleeve to shaft", "W/K", 1e-9, 1e9, '"2 W/K"', True)
-    landing_conductance: float | None = entry("", "conductance of sleeve to race", "W/K", 1e-9, 1e9, '"1 W/K"', True)
-    inner_conductance: float | None = entry("", "conductance of race to balls", "W/K", 1e-9, 1e9, '"0.5 W/K"', True)
+    shaft_conductance: float | None = entry("", "conductance of sleeve to shaft", "W/K", 1e-9, 1e6, '"2 W/K"', True)
+    landing_conductance: float | None = entry("", "conductance of sleeve to race", "W/K", 1e-9, 1e6, '"1 W/K"', True)
+    inner_conductance: float | None = entry("", "conductance of race to balls", "W/K", 1e-9, 1e6, '"0.5 W/K"', True)
     outer_conductance: float | None = entry(
-        "", "conductance of balls to outer ring", "W/K", 1e-9, 1e9, '"0.5 W/K"', True
+        "", "conductance of balls to outer ring", "W/K", 1e-9, 1e6, '"0.5 W/K"', True
     )
     housing_conductance: float | None = entry(
-        "", "conductance of outer ring to housing", "W/K", 1e-9, 1e9, '"5 W/K"', True
+        "", "conductance of outer ring to housing", "W/K", 1e-9, 1e6, '"5 W/K"', True
     )
     specific_heat: float | None = entry("", "specific heat of the rings", "J/(kg K)", 1.0, 1e5, '"460 J/(kg K)"')
     ball_specific_heat: float | None = entry("", "specific heat of the balls", "J/(kg K)", 1.0, 1e5, '"800 J/(kg K)"')
