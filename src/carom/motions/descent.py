@@ -77,17 +77,17 @@ class Torques:
     def go_on(self, before: float, after: float, time: float) -> None:
         """Note that the motion has gone on, and how friction has changed the speed in that time."""
         self.ahead -= time
-        self.slowing = abs(self.shaft.rate(before)) + max(before - after, 0.0) / max(time, TINY)
+        self.slowing = max(before - after, 0.0) / max(time, TINY) - self.shaft.rate(before)
 
     def stop(self, speed: float) -> float:
         """Take all speed that is left; return the time in which it would have fallen to zero."""
-        left = max(speed, 0.0) + abs(self.shaft.rate(0.0)) * self.ahead
+        left = max(speed, 0.0) - self.shaft.rate(0.0) * self.ahead
         self._take(speed if speed > STILL else 0.0, 0.0)
         return left / self.slowing
 
     def of_motion(self, speed: float) -> float:
         """Speed without what they have done ahead of the motion."""
-        return speed + abs(self.shaft.rate(speed)) * self.ahead
+        return speed - self.shaft.rate(speed) * self.ahead
 
     def _take(self, before: float, after: float) -> None:
         self.taken += 0.5 * self.shaft.inertia * (before**2 - after**2)
@@ -219,8 +219,8 @@ class Descent:
     def _note(self, piece: Trajectory, begun: float) -> None:
         """Add a piece to turns and time."""
         place = int(piece.rotor.system.arrays["shaft"][0]) + 1
-        starts, ends = piece.segment_amplitudes, np.concatenate([piece.event_amplitudes, piece.last_amplitudes[None]])
-        both, durations = np.stack([starts, ends])[..., place].real, piece.durations
+        ends = np.append(piece.event_amplitudes[:, place], piece.last_amplitudes[place])
+        both, durations = np.stack([piece.segment_amplitudes[:, place], ends]).real, piece.durations
         self.time, self.speed, self.events = begun + piece.time, piece.final.shaft[0], self.events + len(durations) - 1
         if self.speed <= STILL and len(durations) > 1 and both[1, -2] < 0.0 < both[0, -2]:
             late = both[1, -2] / (both[1, -2] - both[0, -2]) * durations[-2]
