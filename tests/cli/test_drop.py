@@ -132,7 +132,9 @@ def test_until_the_shaft_stands(carom, tmp_path):
     assert found["course"]["time"] == slowed.course[:, 0].tolist()
     given = found["energy_into_bearings_si"][0] + found["braked_si"]
     assert 0.9 < given / (0.5 * 4e-6 * cm.load(path).parameters.scales.speed ** 2) < 1.1
-    words = " ".join(carom(*command)[1].split())
+    words = " ".join(carom(*command, "--out", str(tmp_path / "report"))[1].split())
+    assert json.loads((tmp_path / "report" / "drop.json").read_text())["figures"][0] == "figures/drop-standstill.svg"
+    assert "in 20 steps of speed down to standstill" in (tmp_path / "report" / "drop.html").read_text(encoding="utf-8")
     assert "The shaft stands" in words
     assert "by 20 steps of speed" in words
     (whirl,) = found["largest_whirl"]

@@ -6,6 +6,7 @@ import pytest
 import carom as cm
 from carom import plots
 from carom.motions import drop_loads
+from carom.motions.courses import first_contacts
 
 pytestmark = pytest.mark.jit_only
 
@@ -79,3 +80,38 @@ def test_forces_of_all_bearings_and_how_fast_races_turn(soft):
     rigid = cm.simulate(cm.load("tests/machine_files/four-degrees.toml"), cm.drop(), "20 ms")
     titles = [axes.get_title() for axes in plots.landing(rigid).axes if axes.get_title()]
     assert titles == ["touchdown bearing 1", "touchdown bearing 2"]
+
+
+def test_temperatures_have_a_panel_for_each_bearing_that_states_the_mass_of_its_race():
+    warm = cm.load(
+        "examples/touchdown-balls.toml", ["touchdown_race_mass=0.06 kg", "touchdown_internal_clearance=8 um"]
+    )
+    motion = cm.simulate(warm, cm.drop(), "20 ms")
+    (plane,) = drop_loads(motion).planes
+    *_, temperature = plots.landing(motion).axes
+    drawn = [each for each in temperature.lines if each.get_gid() == "race"]
+    assert drawn[0].get_ydata() == pytest.approx(plane.temperatures.values[:, 1])
+    assert drawn[0].get_xdata()[-1] == pytest.approx(20.0)
+
+
+def test_a_shaft_on_its_way_to_standstill_and_its_first_events():
+    machine, drive = cm.load("examples/touchdown-balls.toml"), cm.parameters.Drive("2e-5 kg m^2", brake="0.05 N m")
+    slowed = cm.motions.spin_down(machine, cm.drop(), drive=drive, steps=20, keep=10**6)
+    speed, radius = slowed.plot().axes
+    times, speeds = line(speed, "shaft").get_data()
+    assert times[-1] == pytest.approx(1e3 * slowed.time * slowed.scales.time)
+    assert speeds[-1] == 0.0
+    assert line(radius, "radius 1").get_ydata().max() == slowed.largest[0][0]
+    # All of it is kept, so its loads are the same, and contacts that go on through stages are one.
+    (whole,), (kept,) = slowed.loads.planes, drop_loads(slowed.motion).planes
+    assert (kept.force, kept.contacts, kept.heat) == (whole.force, whole.contacts, whole.heat)
+    assert first_contacts(slowed.motion, 3) == pytest.approx(1.02 * whole_end(slowed.motion, 3), abs=1e-2)
+    assert slowed.motion.channels("1 ms").shaft_speed.values[-1] < 0.05 * 300 * np.pi
+
+
+def whole_end(motion, number):
+    """End of a contact, counted from 1: the first two have gone by when the force becomes zero for the third time."""
+    found = motion.channels(2e-3)
+    held = found.touchdown_1_normal_force.values > 0.0
+    (ends,) = np.nonzero(held[:-1] & ~held[1:])
+    return found.time.values[ends[number - 1]] / motion.scales.time

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, cast
 
 from carom.base.outcome import InputError
@@ -15,6 +15,7 @@ from carom.cli.terminal import check_output, console, hand_over, progress, read_
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from carom.base.progress import Reporter
     from carom.basins import DropMap
     from carom.cli.starts import StatedBeginning
     from carom.disturbances import Drop
@@ -103,62 +104,65 @@ def drop(
         refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
     record = history_writer(case, history, every, nodes)
-    if record is not None and (plane is not None or until == STANDSTILL):
-        raise InputError(
-            "--history", history, "allowed for one drop that ends at a time, or where its outcome is certain"
-        )
+    if record is not None and plane is not None:
+        raise InputError("--history", history, "allowed without --map")
     if until == STANDSTILL:
         if plane is not None:
             raise InputError("--until", until, "a time beside --map, such as '0.5 s'")
-        return _slow_down(case, begins, steps, out, as_json)
+        return _drop_once(case, begins, partial(_slowed, steps), out, record, as_json)
     end = read_time(until, case.parameters.scales)
     if asked:
         shape = tuple(USUAL.values()) if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
         _map(case, begins, {"over": asked.over(shape), "until": end}, out, as_json)
     else:
-        _drop_once(case, begins, end, out, record, as_json)
+        _drop_once(case, begins, partial(_followed, end), out, record, as_json)
 
 
 def _drop_once(
     case: Case,
     begins: StatedBeginning,
-    end: float | None,
+    follow: Callable[[Case, StatedBeginning, int, Reporter], tuple[DropStudy, Trajectory | None]],
     out: str | None,
     record: Callable[[Trajectory], None] | None,
     as_json: bool,
 ) -> None:
     """Follow one drop, write its histories and its report, and tell what the bearing bears."""
-    page = None
+    page, drawn = None, out is not None or record is not None
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        rotor, state, echo = begins.apply(case)
-        from carom.motions import follow_loads, simulate
-        from carom.studies.drops import DropStudy
-
-        drawn = out is not None or record is not None
-        loads = follow_loads(rotor, state, end, progress=tell.part(0.0, 0.4) if drawn else tell)
-        found = DropStudy(case, echo, loads, begins.reduction_error(case, loads))
-        if drawn:
-            motion = simulate(rotor, state, end, settle=True, max_events=_DRAWN)
-            if record is not None:
-                record(motion)
-        if out is not None:
+        found, motion = follow(case, begins, _DRAWN if drawn else 0, tell.part(0.0, 0.4) if drawn else tell)
+        if motion is not None and record is not None:
+            record(motion)
+        if motion is not None and out is not None:
             from carom.report import write_drop_report
 
             page = write_drop_report(found, motion, out, progress=tell.part(0.4, 1.0))
     hand_over(found.document, as_json, lambda: _print_drop(console(), found, out), out, f"Report: {page}")
 
 
-def _slow_down(case: Case, begins: StatedBeginning, steps: int, out: str | None, as_json: bool) -> None:
-    """Follow one drop until the shaft stands, and tell how long it takes and what the bearing bears."""
-    with progress("slowing down (the kernels are compiled on first use)") as tell:
-        from carom.motions import spin_down
-        from carom.studies.drops import DropStudy
+def _followed(
+    end: float | None, case: Case, begins: StatedBeginning, drawn: int, tell: Reporter
+) -> tuple[DropStudy, Trajectory | None]:
+    """A drop followed to a time, with its first events where they are to be drawn."""
+    rotor, state, echo = begins.apply(case)
+    from carom.motions import follow_loads, simulate
+    from carom.studies.drops import DropStudy
 
-        _, _, echo = begins.apply(case)
-        slowed = spin_down(case, cast("Drop", begins.release), steps=steps, progress=tell)
-        found = DropStudy(case, echo, slowed.loads, begins.reduction_error(case, slowed.loads), spin_down=slowed)
-        write_output(out, case, "standstill", found.document, {})
-    hand_over(found.document, as_json, lambda: _print_drop(console(), found, "" if out is None else out), out)
+    loads = follow_loads(rotor, state, end, progress=tell)
+    found = DropStudy(case, echo, loads, begins.reduction_error(case, loads))
+    return found, simulate(rotor, state, end, settle=True, max_events=drawn) if drawn else None
+
+
+def _slowed(
+    steps: int, case: Case, begins: StatedBeginning, drawn: int, tell: Reporter
+) -> tuple[DropStudy, Trajectory | None]:
+    """The same until the shaft stands."""
+    _, _, echo = begins.apply(case)
+    from carom.motions import spin_down
+    from carom.studies.drops import DropStudy
+
+    slowed = spin_down(case, cast("Drop", begins.release), steps=steps, keep=drawn, progress=tell)
+    error = begins.reduction_error(case, slowed.loads)
+    return DropStudy(case, echo, slowed.loads, error, spin_down=slowed), slowed.motion
 
 
 def _print_drop(screen: Console, found: DropStudy, out: str | None) -> None:

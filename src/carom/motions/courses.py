@@ -129,6 +129,5 @@ def shown_until(motion: Trajectory) -> float:
 def first_contacts(motion: Trajectory, number: int) -> float:
     """Time from the release, in ``1/Ω``, until shortly after so many contacts of the plane, or impacts; infinite if there are less."""
     parts = [part.seen_at(motion.plane) for part in motion.parts]
-    ends = [part.begins + part.contacts.end for part in parts]
-    every = np.sort(np.concatenate(ends))
+    every = np.sort(ContactLog.joined([(part.begins, part.contacts) for part in parts]).whole.end)
     return 1.02 * float(every[number - 1]) if len(every) >= number else math.inf

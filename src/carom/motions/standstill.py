@@ -10,13 +10,14 @@ resistance, without which a rotor that stands rocks for ever.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
-from carom.base.arguments import Count, checked
-from carom.base.outcome import InputError, shown
+from carom.base.arguments import Count, Whole, checked
+from carom.base.outcome import InputError, Outcome, shown
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Result
 from carom.models import Rotor, Subject, rotor_of
@@ -30,6 +31,7 @@ from carom.motions.loads import DropLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import Following
 from carom.motions.starts import Beginning, Until
+from carom.motions.trajectories import Trajectory, joined
 from carom.parameters import Case, Drive, Scales, own_time
 
 LONGEST = 2e7
@@ -69,6 +71,8 @@ class SpinDown(Result):
     criticals : tuple of float
         Speeds passed on the way down, in ``Ω``, at which the free rotor has a forward mode of the same frequency.
     scales : Scales or None
+    motion : Trajectory or None
+        Its first events, to be drawn, where they are kept.
     """
 
     loads: DropLoads
@@ -82,6 +86,9 @@ class SpinDown(Result):
     course: np.ndarray
     criticals: tuple[float, ...]
     scales: Scales | None = None
+    motion: Trajectory | None = None
+
+    figure: ClassVar[str] = "standstill"
 
     @property
     def largest(self) -> tuple[tuple[float, float], ...]:
@@ -118,6 +125,7 @@ def spin_down(
     drive: Drive | None = None,
     steps: Count = 200,
     max_events: Count = 1_000_000,
+    keep: Whole = 0,
     progress: ShowProgress = None,
 ) -> SpinDown:
     """Follow a rotor that has lost its levitation until its shaft stands still.
@@ -136,6 +144,8 @@ def spin_down(
         its middle.
     max_events : int
         Impacts and steps of lasting contact after which to give up.
+    keep : int
+        Of so many the motion is kept, to be drawn or written.
 
     Raises
     ------
@@ -174,8 +184,9 @@ def spin_down(
         modes, torques = Modes(falling, shaft, changes, steps), Torques(shaft, 1.0 / steps)
         return Descent(modes, torques, limit, following, tell)
 
+    kept = _Kept(keep)
     fine = descent(steps, tell.part(0.0, 0.5 if in_steps else 1.0))
-    loads, error = replace(loads_of(fine.follow(state)), shaft=None), None
+    loads, error = replace(loads_of(kept.passing(fine.follow(state))), shaft=None), None
     if in_steps:
         coarse = descent(max(steps // 2, 1), tell.part(0.5, 1.0))
         for _ in coarse.follow(state):
@@ -194,7 +205,34 @@ def spin_down(
         course=np.array(fine.course),
         criticals=tuple(fine.modes.criticals),
         scales=before.scales,
+        motion=kept.motion,
     )
+
+
+@dataclass
+class _Kept:
+    """The first pieces of a motion, by stages, up to so many events."""
+
+    most: int
+    stages: list[list[Trajectory]] = field(default_factory=list)
+
+    def passing(self, pieces: Iterable[Trajectory]) -> Iterator[Trajectory]:
+        """Keep pieces as they pass."""
+        for piece in pieces:
+            if self.most > 0:
+                if not self.stages or self.stages[-1][-1].begins != piece.begins:
+                    self.stages.append([])
+                self.stages[-1].append(piece)
+                self.most -= len(piece.segment_starts)
+            yield piece
+
+    @property
+    def motion(self) -> Trajectory | None:
+        """All that was kept."""
+        if not self.stages:
+            return None
+        *earlier, last = map(joined, self.stages)
+        return replace(last, outcome=Outcome.TIME_REACHED, earlier=tuple(earlier))
 
 
 def shaft_and_changes(

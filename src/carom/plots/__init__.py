@@ -19,7 +19,7 @@ from carom.plots.basins import attractors, basin, basin_pair, proven_kicks
 from carom.plots.courses import energies, radius, shock_response, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, applied, figures_for, heading, save
-from carom.plots.landings import landing
+from carom.plots.landings import landing, standstill
 from carom.plots.levitation import campbell, mode_shapes, sensitivity, unbalance_response
 from carom.plots.maps import drop_map, gain_map
 from carom.plots.motions import drop_orbit, motion, orbit
@@ -60,6 +60,7 @@ __all__ = [
     "save",
     "sensitivity",
     "shock_response",
+    "standstill",
     "sweep_map",
     "touchdown",
     "unbalance_response",

@@ -142,7 +142,11 @@ _ORBIT = (
     "Orbit of the rotor centre in the fixed frame, coloured by time, and its gap to the wall over the angle from the direction of gravity. "
     "The arrow shows the weight."
 )
-_LANDING = "Contact force at each touchdown bearing over time, and how fast the shaft and its race turn, where one of them changes."
+_STANDSTILL = "Speed of the shaft until it stands, with the critical speeds of the free rotor, and the widest whirl in each step of speed (0-to-peak)."
+_LANDING = (
+    "Contact force at each touchdown bearing over time, how fast the shaft and its race turn, where one of them changes, and temperatures, where the "
+    "mass of the race is stated."
+)
 _SOFT = "Distance from the centre, contact forces, slip velocity and surface speed of the race."
 _RIGID = "Distance from the centre, forces in lasting contact, the impulse of each impact, and slip velocity."
 _WALLS = {
@@ -173,6 +177,8 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
     if drawn < found.loads.time and not motion.outcome.settled:
         say = Wording(found.case.parameters.scales)
         cut = f" Drawn: the first {say.time(drawn)} of {say.time(found.loads.time)}."
+    if found.spin_down is not None:
+        wanted.append(ReportPicture("drop-standstill", "drop", _STANDSTILL, found.spin_down.plot))
     over_time = partial(plots.landing, motion)
     wanted.append(ReportPicture("drop-landing", "drop", _LANDING + cut, over_time))
     for plane in planes:

@@ -25,12 +25,16 @@ COLUMN = (
     ("fastest race", "{fastest_race:speed}"),
 )
 """Loads of a touchdown bearing in a table in which each has a column."""
+WARMEST = "highest temperature"
 
 
 def load_columns(found: DropStudy) -> list[tuple[str, list[str]]]:
     """Labels, and what each touchdown bearing has of that load; what none of them has is left out."""
     columns = [dict(Wording(plane.scales).rows(COLUMN, plane)) for plane in found.loads.planes]
-    labels = [label for label, _ in COLUMN if any(label in column for column in columns)]
+    for column, plane in zip(columns, found.loads.planes, strict=True):
+        if plane.temperatures is not None:
+            column[WARMEST] = f"{number(plane.temperatures.highest, 3)} °C, {plane.temperatures.hottest}"
+    labels = [label for label in (*dict(COLUMN), WARMEST) if any(label in column for column in columns)]
     return [(label, [column.get(label, "\N{EM DASH}") for column in columns]) for label in labels]
 
 
@@ -48,8 +52,8 @@ class Accepted(NamedTuple):
         """A load against its limit."""
         where = "" if check.touchdown_bearing is None else f", bearing {check.touchdown_bearing}"
         load, limit = (LoadLimits.format(check.name, each) for each in (check.value, check.limit))
-        margin, over = number(100.0 * abs(check.margin), 3), check.value > check.limit
-        room = f"{margin} % above" if over else "none in time" if check.endless else f"{margin} %"
+        margin, over = f"{number(100.0 * abs(check.margin), 3)} %", check.value > check.limit
+        room = f"{margin} above" if over else "none in time" if check.endless else margin
         kept = "kept" if check.settled and not check.still_growing else "kept so far"
         verdict = "exceeded" if check.exceeded else kept
         return cls(f"{LIMIT_FIELDS[check.name].words}{where}", load, limit, room, verdict)
