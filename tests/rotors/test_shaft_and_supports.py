@@ -230,7 +230,7 @@ def test_magnets_react_on_a_housing_and_sensors_measure_against_it():
     places, ki, ks, gains = (-0.12, 0.19), 60.0, -1e5, (9000.0, 12.0)
     machine = rigid_rotor(
         mass=12.0, polar_inertia=0.04, diametral_inertia=0.15, stations=(*places, 0.25), speed=900.0, clearance="0.25 mm",
-        bearings=[MagneticBearing(node, ki, ks, PID(gains[0], 0.0, gains[1], 0.0)) for node in (0, 1)],
+        bearings=[MagneticBearing(node, ki, ks, PID(gains[0], 0.0, gains[1], 0.0), ks_tilt=-3e3 * node) for node in (0, 1)],
         supports=[Support(2, 2e4, 2e4, cxx=30.0, cyy=30.0)],
         touchdowns=[TouchdownPlane(node, WALL, "20 mm", 0.15) for node in (0, 1)],
         unbalances=[Unbalance(1, "20 g mm")],
@@ -245,6 +245,7 @@ def test_magnets_react_on_a_housing_and_sensors_measure_against_it():
             (ki * gains[1], 30.0, (400.0, 0.0)),
         )
     )
+    spring[1, 1] -= 3e3
     spin = damper - 900.0j * np.diag([0.0, 0.04, 0.0, 0.0])
     own = np.linalg.eigvals(
         np.block([[np.zeros((4, 4)), np.eye(4)], [-np.linalg.solve(mass, spring), -np.linalg.solve(mass, spin)]])

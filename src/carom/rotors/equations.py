@@ -162,6 +162,8 @@ class Loops(NamedTuple):
     """Shape (P, n)."""
     supports: np.ndarray
     """Shape (S, n)."""
+    tilts: np.ndarray
+    """Tilt at each bearing, shape (B, n), where its magnet meets it; zeros elsewhere."""
 
 
 def loops_of(at: FlexibleMachine) -> Loops:
@@ -172,14 +174,17 @@ def loops_of(at: FlexibleMachine) -> Loops:
         return np.array([at.rotor.row_at(each.node) for each in parts] or none)
 
     seen = [np.mean([at.rotor.row_at(node) for node in each.sensor_nodes], axis=0) for each in at.bearings]
-    return Loops(rows(at.bearings), np.array(seen or none), rows(at.touchdowns), rows(at.supports))
+    tilts = [bool(each.ks_tilt) * at.rotor.tilt_at(each.node) for each in at.bearings]
+    return Loops(
+        rows(at.bearings), np.array(seen or none), rows(at.touchdowns), rows(at.supports), np.array(tilts or none)
+    )
 
 
 def _seated(at: FlexibleMachine, basis: Basis, first: int, size: int) -> Loops:
     """The same by the coordinates of the equations (n,), relative to the housings, whose coordinates begin at the first."""
     found = [np.pad(rows @ basis.shapes, ((0, 0), (0, size - len(basis.frequencies)))) for rows in loops_of(at)]
     for place, housing in enumerate(at.housings, first):
-        for rows, seated in zip(found, housing.seated(at), strict=True):
+        for rows, seated in zip(found[:-1], housing.seated(at), strict=True):
             rows[list(seated), place] = -1.0 / np.sqrt(housing.mass)
     return Loops(*found)
 
@@ -228,6 +233,7 @@ def equations_of(at: FlexibleMachine, basis: Basis) -> RotorEquations:
         for side, magnet in enumerate(bearing.magnet):
             levitated[side, ::-1] += bearing.ki * (pulls[:, None] * currents[side, :, number, None])
             levitated[side, 1] += magnet * np.outer(pulls, pulls)
+        levitated[0, 1] += bearing.ks_tilt * np.outer(rows.tilts[number], rows.tilts[number])
     forcing = np.zeros(size, complex)
     for each in at.unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)

@@ -137,7 +137,7 @@ class FlexibleMachine(NamedParameters):
         """Where forces act and displacements are measured, each place once."""
         held = [self.rotor.tilt_at(each.node)[None] for each in self.supports if each.tilts]
         rows = np.concatenate([*loops_of(self), *held])
-        return list(np.unique(rows, axis=0))
+        return list(np.unique(rows[rows.any(axis=1)], axis=0))
 
     def basis(self, modes: int) -> Basis:
         """Vectors of the reduction with so many modes of the free rotor, at least the rigid ones."""

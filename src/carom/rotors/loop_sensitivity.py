@@ -122,7 +122,8 @@ class _Loop:
         self.loops = [(np.array(each.bearings), each.both) for each in controls]
         self.pulls, self.seen = rows.bearings, rows.sensors
         softer = [
-            bearing.magnet[0] * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)
+            each.magnet[0] * np.outer(pull, pull) + each.ks_tilt * np.outer(tilt, tilt)
+            for each, pull, tilt in zip(self.bearings, rows.bearings, rows.tilts, strict=True)
         ]
         self.mass, self.stiffness = held.mass[both], held.unlevitated[1][both] + np.sum(softer, axis=0)
         self.spin = held.unlevitated[0][both] - 1j * machine.speed * held.gyroscopic[both]

@@ -24,6 +24,7 @@ AT_REGAIN = ("reset", "hold", "running")
 BEARING_FIELDS: Mapping[str, Field] = by_name(
     Field("ki", "k_i", "force of the bearing per current", "a force per current", "N/A", 1e-9, 1e12, '"50 N/A"'),
     Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
+    Field("ks_tilt", "", "moment of the bearing per tilt at constant current", "a tilt stiffness", "N m/rad", -1e15, 1e15, '"-50 N m/rad"', True),
     Field("gain_factor", "", "factor of the whole controller", "a number", "", 1e-6, 1e6, "1.2"),
     Field("sensor_gain", "", "voltage of the sensors per displacement; the controller then is one of voltages, V/V", "a gain", "V/m", 1e-6, 1e12, '"10 V/mm"'),
     Field("amplifier_gain", "", "current of the amplifier per voltage", "a gain", "A/V", 1e-9, 1e9, '"0.8 A/V"'),
@@ -71,6 +72,8 @@ class MagneticBearing:
         are none.
     air_gap : float or str, optional
         Radial air gap of its magnets, m: where the rotor reaches them a motion ends; by default it is not known.
+    ks_tilt : float or str, optional
+        Moment against a tilt at constant current, N m/rad, alike in both directions: below zero of a long magnet; 0 by default.
     axis_angle : float or str, optional
         Angle of one of its axes in the fixed frame, rad; 0 by default.
     gain_factor : float, optional
@@ -109,6 +112,7 @@ class MagneticBearing:
     amplifier_gain: float | None = None
     sensor_bandwidth: float | None = None
     y: MagneticBearing | None = None
+    ks_tilt: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("bearing node", self.node))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from carom.base.outcome import InputError, shown
 from carom.base.results import Result
 from carom.rotors.equations import RotorEquations
 from carom.rotors.flexible_machine import FlexibleMachine
-from carom.rotors.free_motions import STRAIGHT, growing, motions_at
+from carom.rotors.free_motions import STRAIGHT, StabilityLimit, growing, motions_at, stability_limits
 
 LEAST_LIKENESS = 0.7
 """Least likeness of a motion at two speeds for it to count as the same; below, the speed between both is looked at too."""
@@ -208,6 +209,12 @@ class Campbell(Result):
 
     figure: ClassVar[str] = "campbell"
     shown: ClassVar = ("speeds", "frequencies", "damping_ratios", "levitates")
+
+    @cached_property
+    def limits(self) -> tuple[StabilityLimit, ...]:
+        """Speeds between these at which levitation begins or ceases to be stable, to rounding."""
+        speeds = np.sort(self.speeds).tolist()
+        return () if self.levitates.all() else stability_limits(self.machine.whole.equations, speeds)
 
     @property
     def frequencies(self) -> np.ndarray:

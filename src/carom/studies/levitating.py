@@ -150,7 +150,7 @@ def levitating(case: Case, rotor: Rotor) -> Levitating:
         loops=() if seen is None else _loops(seen),
         machine=machine,
         campbell=known,
-        limits=() if known.levitates.all() else stability_limits(machine.whole.equations, speeds),
+        limits=known.limits,
         sensitivity=seen,
         collocations=collocations(machine, found.whirls),
     )
