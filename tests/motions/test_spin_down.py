@@ -203,7 +203,7 @@ def test_the_unbalance_takes_from_the_shaft_what_the_damping_of_supports_takes_f
 @pytest.mark.parametrize(
     ("drive", "words"),
     [
-        (None, "polar_inertia = nothing given: a spin-down needs"),
+        (None, "polar_inertia = nothing given: a shaft that slows down needs"),
         (Drive("1 kg m^2"), "regained_after = a time: left out"),
     ],
 )

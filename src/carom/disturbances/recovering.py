@@ -84,21 +84,23 @@ class _Turning:
         """The shaft of a rotor, if the recovery has to do with its speed; one whose inertia is not known is held at its speed by the drive."""
         if recovery.regain_speed is None and recovery.slow_to is None:
             return cls(None)
-        speeds = [each for each in (scales.speed, recovery.regain_speed, recovery.slow_to) if each is not None]
-        if speeds != sorted(set(speeds), reverse=True):
+        for name, fastest in (("regain_speed", scales.speed), ("slow_to", recovery.regain_speed or scales.speed)):
+            given = getattr(recovery, name)
+            if given is not None and given >= fastest:
+                raise InputError(name, given, f"below the speed before, {fastest:g} rad/s")
+        if rotor.is_anisotropic:
             raise InputError(
-                "slow_to", recovery.slow_to, "speeds that fall: that of the machine, regain_speed, slow_to"
-            )
-        if rotor.acting.asked_by_bias.any():
-            raise InputError(
-                "recovery", recovery.name, "no speeds beside limits of magnetic bearings that carry the weight"
+                "supports", "anisotropic", "alike in both directions, where the speed of the shaft changes"
             )
         try:
-            return cls(*shaft_and_changes(rotor, falling, None))
+            found = cls(*shaft_and_changes(rotor, falling, None))
         except InputError:
             if recovery.regain_speed is not None:
                 raise
-            return cls(Shaft(HELD))
+            found = cls(Shaft(HELD))
+        if rotor.limits and (rotor.equations.shaft is None or found.changes):
+            raise InputError("recovery", recovery.name, "one without speeds, beside limits of magnetic bearings")
+        return found
 
     def steps_down_to(self, speed: float, by_drive: bool = False) -> list[tuple[float, float]]:
         """Middle and end of each step down to a speed, which the shaft then has; friction needs one alone where nothing changes with the speed."""

@@ -144,7 +144,7 @@ class Definition:
 
     def pushed_by_currents(self, current: complex) -> np.ndarray:
         """Accelerations (n,) by this current, A, in all magnetic bearings, each of which pushes where it points."""
-        raise InputError("current", abs(current), "a [rotor] with magnetic bearings; others have a force")
+        raise InputError("current", f"{abs(current):g}", "a [rotor] with magnetic bearings; others have a force")
 
     def bearing_at(self, plane: int) -> TouchdownBearing | None:
         """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""

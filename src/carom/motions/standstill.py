@@ -247,7 +247,9 @@ def shaft_and_changes(
         own = shaft_of(drive or Drive(), before.scales, inertia)
     if own is None:
         raise InputError(
-            "polar_inertia", None, "a spin-down needs a table [drive] with it, such as polar_inertia = '0.02 kg m^2'"
+            "polar_inertia",
+            None,
+            "a shaft that slows down needs a table [drive] with it, such as polar_inertia = '0.02 kg m^2'",
         )
     if elements is not None:
         return own, elements.changes_at
