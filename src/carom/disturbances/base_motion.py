@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.base.outcome import InputError
 from carom.disturbances.coordinates import Starts, displaced
 from carom.disturbances.model import Disturbance
 from carom.disturbances.response_spectra import BaseCourse
 
 if TYPE_CHECKING:
-    from carom.models import Force, Rotor, Subject
+    from carom.models import Force, Rotor, Stage, Subject
     from carom.motions.starts import State
 
 
@@ -83,8 +84,7 @@ class BaseMotion(Disturbance):
         InputError
             The rotor cannot levitate inside the wall.
         """
-        from carom.models import Stage, Trigger, in_stages, rotor_of
-        from carom.models.forcing_modes import ForcingModes
+        from carom.models import in_stages, rotor_of
         from carom.models.stages import stages_of
         from carom.motions.starts import State
 
@@ -92,9 +92,33 @@ class BaseMotion(Disturbance):
         rotor = further[0].rotor
         size, angle, begun = self.whole(values, instant, rotor.scales)
         rotor.system.require_levitation()
-        moved = ForcingModes.of(rotor, self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft)))
+        stages = self.stages_of_base(rotor, size, angle, begun)
+        return in_stages((*stages, *further)), State.of(*rotor.system.kicked(0j, begun), time=begun)
+
+    def stages_of_base(self, rotor: Rotor, size: float, angle: float, begun: float) -> list[Stage]:
+        """The rotor, which levitates or falls, in a stage for each section.
+
+        In free fall weight and a ramp drive the same velocity and displacement, so weight becomes part of the ramp.
+
+        Raises
+        ------
+        InputError
+            It falls, and weight acts in another way than the motion of the base, as where mounts are shaken too.
+        """
+        from carom.models import Stage, Trigger
+        from carom.models.forcing_modes import ForcingModes
+
+        forces = self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft))
+        weight, constant, along = rotor.acting.weight, 0.0 + 0j, forces[0].accelerations
+        if forces[0].rates is not None and weight is not None and not rotor.system.levitates:
+            constant = complex(np.vdot(along, weight) / np.vdot(along, along))
+            if np.abs(weight - constant * along).max() > 1e-9 * np.abs(weight).max() or rotor.is_anisotropic:
+                raise InputError(self.kind, "mounts that are shaken", "a drop on touchdown bearings without mounts")
+            rotor = rotor.unforced
+        moved = ForcingModes.of(rotor, forces)
         stages, time = list[Stage](), begun
         for section in self.sections(rotor):
-            stages.append(Stage(moved.at(size * section.values, time), Trigger(time=section.duration)))
+            values = size * section.values + (np.array([0.0, constant]) if constant else 0.0)
+            stages.append(Stage(moved.at(values, time), Trigger(time=section.duration)))
             time += section.duration
-        return in_stages((*stages, *further)), State.of(*rotor.system.kicked(0j, begun), time=begun)
+        return stages

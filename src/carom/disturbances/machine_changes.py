@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from carom.parameters.formats import format_angle, format_quantity, number
 from carom.parameters.tables import STIFFNESS
 
 if TYPE_CHECKING:
+    from carom.disturbances.base_motion import BaseMotion
     from carom.models import Rotor, Subject
     from carom.motions.starts import State
     from carom.parameters import Scales
@@ -166,6 +167,8 @@ class Drop(Disturbance):
         Speed of the race at the release, in ``Ω`` or text with a unit; by default that of the model, which is 0 for a machine file.
     recovery : carom.parameters.RecoveryAction, optional
         When the bearing holds the rotor again, and what its controller does then, in place of ``regained_after``.
+    base : Single, optional
+        A shock or a recorded motion of the base that begins at the release.
     """
 
     at: State | Single | None = None
@@ -173,6 +176,7 @@ class Drop(Disturbance):
     regained_after: float | str | None = None
     race_speed: float | str | None = None
     recovery: RecoveryAction | None = None
+    base: Single | None = None
     kind: ClassVar[str] = "drop"
     noun: ClassVar[str] = "drops"
     changes_machine: ClassVar[bool] = True
@@ -220,6 +224,12 @@ class Drop(Disturbance):
             falling = falling.under_gravity(ASSUMED)
         kept = rotor.equations.regained
         carry = None if kept is None else np.diag(np.tile(kept, 2))
+        if self.base is not None:
+            if self.regained_after is not None or self.recovery is not None:
+                raise InputError("base", self.base.model.kind, "left out beside levitation that is regained")
+            size, angle, _ = self.base.model.whole(self.base.values, 0.0, rotor.scales)
+            shaken = cast("BaseMotion", self.base.model).stages_of_base(falling, size, angle, start.time)
+            return in_stages((*shaken, Stage(falling))), start
         if self.recovery is not None:
             from carom.disturbances.recovering import recovery_stages
 

@@ -185,28 +185,37 @@ class _Modes:
         except InputError:  # modes that nearly coincide, as those of a thin shaft that tilts about one support
             return self._driven_by(exponent, push, APART)
 
-    def ramped_by(self, force: Force, place: slice, conjugates: slice | None) -> _Modes:
-        """With a force ``(a + ḃt) e^{σt}`` that is in resonance with no mode: with ``ṡ = σs + q`` and ``q̇ = σq`` it adds ``(σ − M)⁻¹ b`` and ``−(σ − M)⁻² b``."""
+    def ramped_by(self, force: Force, rates_at: slice, conjugates: slice | None) -> _Modes:
+        """With a force ``(a + ḃt) e^{σt}``: with ``ṡ = σs + q`` and ``q̇ = σq`` it adds ``(σ − M)⁻¹ b`` and ``−(σ − M)⁻² b``.
+
+        What is in resonance follows ``q`` and ``s`` in one chain: velocity and displacement in free fall are its third and fourth.
+        """
         exponent, rates = force.exponent, np.asarray(force.rates)
         along = rates if rates.any() else force.accelerations
-        push = self.left[:, place] @ along
+        push = self.left[:, rates_at] @ along
         if conjugates is not None:  # of a force that is constant in the fixed frame both exponents are one
             push = push + self.left[:, conjugates] @ np.conj(along)
         moved, left = self.free & (np.abs(push) > EQUAL * np.abs(push).max(initial=0.0)), len(push)
-        if (np.abs(self.exponents[moved] - exponent) <= APART**2).any():
-            raise InputError(
-                "base", "a recorded motion", "a rotor that levitates: without levitation nothing brings it back"
-            )
+        near = self.free & (np.abs(self.exponents - exponent) <= ONE * (1.0 + abs(exponent)))
+        for last in np.flatnonzero(self.driven & near & np.insert(self.free[:-1], 0, False)).tolist():
+            if (gap := self.exponents[last] - self.exponents[last - 1]) != 0.0:
+                return self._as_one(last, gap).ramped_by(force, rates_at, conjugates)
+        place, size = left, 1.0 + 0j
+        if (pushed := np.flatnonzero(near & moved)).size:
+            place, size = int(pushed[0]), complex(push[pushed[0]])
+            if len(pushed) == 2 and self.driven[place + 1] and pushed[1] == place + 1:
+                return self._with_one_pushed(place, push[place + 1] / size).ramped_by(force, rates_at, conjugates)
+            if len(pushed) > 1 or self.driven[place]:
+                raise InputError(
+                    "base", "a recorded motion", "a rotor on which nothing else drives what is in free fall"
+                )
         whole = exponent * np.eye(left) - np.diag(self.exponents) - np.diag(self.driven[1:].astype(complex), -1)
-        free, solved, again = np.flatnonzero(self.free), np.zeros(left, complex), np.zeros(left, complex)
-        solved[free] = np.linalg.solve(whole[np.ix_(free, free)], push[free])
-        again[free] = np.linalg.solve(whole[np.ix_(free, free)], solved[free])
+        others, solved, again = np.flatnonzero(self.free & ~near), np.zeros(left, complex), np.zeros(left, complex)
+        solved[others] = np.linalg.solve(whole[np.ix_(others, others)], push[others])
+        again[others] = np.linalg.solve(whole[np.ix_(others, others)], solved[others])
         start, growth = (np.vdot(along, each) / np.vdot(along, along) for each in (force.accelerations, rates))
-        with_growth = self._added(left, exponent, -again, growth)
-        found = with_growth._added(left + 1, exponent, np.append(solved, 0.0), start)
-        driven = found.driven.copy()
-        driven[-1] = True
-        return replace(found, driven=driven)
+        found = self._added(place, exponent, solved / size, start * size)
+        return found._added(place, exponent, np.insert(-again / size, place, 0.0), growth * size)
 
     def _driven_by(self, exponent: complex, push: np.ndarray, resonant: float) -> _Modes:
         """The same; modes farther than ``resonant`` from a force, relative to one plus its size, are none that it drives."""
@@ -289,6 +298,13 @@ class _Modes:
         right[:, last] -= right[:, last - 1] * gap / 2.0
         left[last - 1] += left[last] * gap / 2.0
         return replace(self, exponents=exponents, right=right, left=left)
+
+    def _with_one_pushed(self, first: int, ratio: complex) -> _Modes:
+        """With a pair of equal exponents whose second is taken so that a force which drives it by this ratio to the first drives the first alone."""
+        right, left = self.right.copy(), self.left.copy()
+        right[:, first] += ratio * right[:, first + 1]
+        left[first + 1] -= ratio * left[first]
+        return replace(self, right=right, left=left)
 
     def _added(self, place: int, exponent: complex, shares: np.ndarray, amplitude: complex) -> _Modes:
         """With a forcing mode at a place, which adds these shares to the others and drives the one after it, if there is one."""
