@@ -60,6 +60,8 @@ def drop(
     start: str | None = options.START,
     kick: str | None = options.KICK,
     whirl: str | None = WHIRL,
+    shock: str | None = options.SHOCK,
+    base_record: str | None = options.BASE_RECORD,
     phase: str | None = PHASE,
     race_speed: str | None = RACE_SPEED,
     regained_after: str | None = options.REGAINED_AFTER,
@@ -82,7 +84,8 @@ def drop(
 ) -> None:
     """Drop the rotor on its touchdown bearings: forces, depth, heat, whirl and race speed, against their limits.
 
-    Levitation is lost and the rotor falls under [gravity], or 9.81 m/s² downward if the file has none. With --out it also writes figures, drop.json
+    Levitation is lost and the rotor falls under [gravity], or 9.81 m/s² downward if the file has none; with --shock or --base-record the base moves from the
+    release on. With --out it also writes figures, drop.json
     and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map drops are simulated over two quantities, with --recovery many
     are, to compare what brings the rotor back.
     """
@@ -95,11 +98,21 @@ def drop(
     ways = {"--start": start, "--kick": kick, "--whirl": whirl}
     sampled = {"--drops": drops, "--kicks-up-to": kicks_up_to, "--seed": seed}
     if compare:
-        others = {**ways, "--phase": phase, "--race-speed": race_speed, "--map": plane}
+        others = {
+            **ways,
+            "--shock": shock,
+            "--base-record": base_record,
+            "--phase": phase,
+            "--race-speed": race_speed,
+            "--map": plane,
+        }
         others |= {"--regained-after": regained_after, "--regained-by": regained_by}
         return compare_recoveries(case, drops, kicks_up_to, seed, others, until, out, as_json)
     refuse_without("--recovery", sampled)
-    begins = released(case, ways, regained_after, phase, race_speed, called="the release", regained_by=regained_by)
+    bases = {"--shock": shock, "--base-record": base_record}
+    begins = released(
+        case, ways, regained_after, phase, race_speed, called="the release", regained_by=regained_by, bases=bases
+    )
     if plane is None:
         refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)

@@ -317,6 +317,7 @@ def released(
     race_speed: str | None = None,
     called: str = "--drop",
     regained_by: str | None = None,
+    bases: Mapping[str, str | None] = MappingProxyType({}),
 ) -> StatedBeginning:
     """How levitation is lost, at the state that one of some ways gives; wrong input is refused before kernels are loaded."""
     from carom.disturbances import Drop
@@ -340,4 +341,8 @@ def released(
             else "the name of a table [[recovery]], which the machine file has not"
         )
         raise InputError("--regained-by", regained_by, known)
-    return StatedBeginning(release=Drop(at, turned, regained, turning, named.get(regained_by or "")))
+    moves = [read_one(option, text, scales) for option, text in bases.items() if text is not None]
+    if len(moves) > 1:
+        raise InputError("--base-record", bases["--base-record"], "not allowed with --shock")
+    recovery = named.get(regained_by or "")
+    return StatedBeginning(release=Drop(at, turned, regained, turning, recovery, moves[0] if moves else None))

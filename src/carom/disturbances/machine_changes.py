@@ -303,6 +303,10 @@ class Drop(Disturbance):
             back = f"; the inner race turns at {number(shown.in_usual_unit(turning * scales.speed), 6)} {shown.usual_unit}{back}"
         if self.recovery is not None:
             back = f"; levitation {self.recovery.words}"
+        if self.base is not None:
+            shaken = self.base.model.echo(rotor, *self.base.model.whole(self.base.values, 0.0, scales)[:-1])
+            back = f"{back}; from then on {shaken.words}"
+            sizes |= {f"base_{name}": size for name, size in shaken.sizes.items()}
         words = (
             f"Release: {where}; gravity {(gravity or ASSUMED).words}; angles are measured from the fixed x axis in the "
             f"sense of rotation (unbalance at the release: {format_angle(phase)}){back}"
@@ -321,6 +325,7 @@ def drop(
     regained_after: float | str | None = None,
     race_speed: float | str | None = None,
     recovery: RecoveryAction | None = None,
+    base: Single | None = None,
 ) -> Drop:
     """Levitation is lost: stiffness and damping of the bearing act no longer, weight and unbalance do.
 
@@ -336,6 +341,8 @@ def drop(
         Time after which levitation is back, in ``1/Ω`` or text with a unit, such as ``"50 ms"``; by default never.
     race_speed : float or str, optional
         Speed of the race of the touchdown bearing at the release, in ``Ω`` or text with a unit, such as ``"500 rpm"``.
+    base : Single, optional
+        A shock or a recorded motion of the base that begins at the release, such as ``carom.BaseShock.read("5 g, 11 ms", machine)``.
     recovery : carom.parameters.RecoveryAction, optional
         When levitation is back, and what the controller does then, in place of ``regained_after``.
 
@@ -356,4 +363,4 @@ def drop(
     >>> print(f"{motion.contacts.time[0] * motion.rotor.scales.time * 1e3:.6f} ms")
     7.139216 ms
     """
-    return Drop(at, phase, regained_after, race_speed, recovery)
+    return Drop(at, phase, regained_after, race_speed, recovery, base)
