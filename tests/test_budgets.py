@@ -16,20 +16,20 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3665,
-    "models": 2331,
+    "models": 2342,
     "core": 6613,
-    "motions disturbances": 4677,
+    "motions disturbances": 4703,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2372,
     "studies": 3458,
-    "cli plots report": 5676,
+    "cli plots report": 5693,
     "rotors": 4379,
     "proofs": 5902,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_440, 291
+TESTS, ANY = 38_511, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""
