@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -76,12 +76,13 @@ def channels_of(
     places = {} if rotor.finite_elements is None else rotor.finite_elements.places(nodes)
     if rotor.planar is not None and len(motion.rotor.system.rest) > 1:  # on a mount
         places = {"rotor": np.array([1.0, 0.0])}
+    currents = None if rotor.finite_elements is None else rotor.finite_elements.currents
     times, found = step * np.arange(count), list[dict[str, Column]]()
     which = np.searchsorted([part.begins for part in motion.parts], times, side="right") - 1
     for number, part in enumerate(motion.parts):
         own = np.minimum(times[which == number] - part.begins, part.time)
         for first in range(0, len(own), TOGETHER):
-            found.append(_sampled(part, own[first : first + TOGETHER], places, rotor.finite_elements))
+            found.append(_sampled(part, own[first : first + TOGETHER], places, currents))
     columns = {
         name: ("time", np.concatenate([each[name][1] for each in found]), attributes)
         for name, (_, _, attributes) in found[0].items()
@@ -95,7 +96,12 @@ def channels_of(
     return xarray.Dataset(columns, {"time": time}, attributes)
 
 
-def _sampled(part: Trajectory, times: np.ndarray, places: dict[str, np.ndarray], elements: Any) -> dict[str, Column]:
+def _sampled(
+    part: Trajectory,
+    times: np.ndarray,
+    places: dict[str, np.ndarray],
+    currents: Callable[[np.ndarray, np.ndarray], np.ndarray] | None,
+) -> dict[str, Column]:
     """Columns of a stage at times (n,) of it."""
     system, whole, columns = part.rotor.system, part.rotor.scales, dict[str, Column]()
     amplitudes, phases = part.amplitudes_at(times)
@@ -120,14 +126,11 @@ def _sampled(part: Trajectory, times: np.ndarray, places: dict[str, np.ndarray],
     position, rate = (np.reshape(each, (len(times), -1)) * turn[:, None] for each in system.state(amplitudes))
     for name, row in places.items():
         displaced(name, position @ row, f"displacement at {name.replace('_', ' ')}")
-    if elements is not None:
-        levitates = part.rotor.finite_elements is not None
-        currents = (
-            elements.currents(position, rate + 1j * position)
-            if levitates
-            else np.full((len(times), len(elements.machine.bearings)), complex(np.nan, np.nan))
-        )
-        for number, current in enumerate(currents.T, start=1):
+    if currents is not None:
+        known = currents(position, rate + 1j * position)
+        if part.rotor.finite_elements is None:  # levitation is lost
+            known = np.full_like(known, complex(np.nan, np.nan))
+        for number, current in enumerate(known.T, start=1):
             for axis, values in (("x", current.real), ("y", current.imag)):
                 words = f"control current of magnetic bearing {number}, along {axis}"
                 columns[f"magnetic_bearing_{number}_current_{axis}"] = (
