@@ -22,7 +22,7 @@ LIMITS = {
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2372,
     "studies": 3458,
-    "cli plots report": 5693,
+    "cli plots report": 5696,
     "rotors": 4379,
     "proofs": 5902,
     "explorer": 2300,

@@ -33,8 +33,9 @@ _FREE = replace(LOOKS["contact-free"], line="-", width=1.7)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
 _RUB = replace(LOOKS["rub"], words=f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
 _SADDLE = Look("#5c1f47", f"{STEADY_WORDS['rub']}, unstable", line="--", width=1.1)
-_LIMIT = Look("#d55e00", "API 617 limit", line="-.", width=1.1)
+_LIMIT = Look("#cc79a7", "API 617 limit", line="-.", width=1.1)
 PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
+LIMIT = Look("#cc79a7", "limit of speed", line="-", width=1.1)
 CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
 _HALF = Look("#0072b2", "0.707 of the peak, for the amplification factor", line="-", width=1.0)
 _HIGHEST = 1.3
@@ -192,7 +193,7 @@ def campbell(found: Campbell) -> Figure:
     """Draw the frequencies of free whirls over the speed of the shaft, and below them their damping ratios.
 
     Each whirl is a line: solid and with triangles that point up where it goes forward, broken and with triangles that point down where it
-    goes backward.  Where it grows the triangles are hollow.  Dotted lines are where forward whirls meet the line on which unbalance excites them: undamped, these would be the critical speeds.
+    goes backward.  Where it grows the triangles are hollow, and at a limit of speed levitation begins or ceases to be stable.  Dotted lines are where forward whirls meet the line on which unbalance excites them: undamped, these would be the critical speeds.
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1.0))
@@ -217,6 +218,8 @@ def campbell(found: Campbell) -> Figure:
     for axes in (upper, lower):
         for each in criticals:
             axes.axvline(each, **CRITICAL.stroke, label=f"critical speeds of forward whirl: {rates} rpm")
+        for limit in found.limits:
+            axes.axvline(limit.speed / RPM, **LIMIT.stroke, label=f"limit of speed, {limit.speed / RPM:,.0f} rpm")
         present = found.machine.speed / RPM
         axes.axvline(present, **PRESENT.stroke, label=f"present speed, {present:,.0f} rpm", gid="present")
     lower.axhline(0.0, color="#1a1a1a", lw=0.5)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -95,7 +95,7 @@ class FlexibleRotor(BendingRotor):
     @cached_property
     def divisions(self) -> tuple[int, ...]:
         """Number of elements of each section."""
-        longest: Any = self.longest_element
+        longest = cast("float", self.longest_element)
         # A section that is a whole number of longest elements, but for rounding, gets that number.
         return tuple(max(1, math.ceil(section.length / longest * (1.0 - 1e-12))) for section in self.sections)
 
