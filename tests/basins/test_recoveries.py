@@ -1,5 +1,6 @@
 """Shares of drops that come back, with a recovery action and without."""
 
+import numpy as np
 import pytest
 
 import carom as cm
@@ -22,6 +23,14 @@ def test_shares_are_those_of_single_drops():
         assert row.share.count + row.elsewhere + row.not_settled + row.not_regained == 12
         assert row.share.low <= row.share.fraction <= row.share.high
         assert sum(row.motions.values()) == 12
+    draw = np.random.default_rng(3)
+    phases, angles = 2.0 * np.pi * draw.random((2, 12))
+    speeds = 0.15 / MACHINE.parameters.scales.velocity * np.sqrt(draw.random(12))
+    ends = [
+        cm.simulate(MACHINE, cm.drop(cm.kick(speed, angle), phase=phase, regained_after="20 ms")).outcome.label
+        for speed, angle, phase in zip(speeds.tolist(), angles.tolist(), phases.tolist(), strict=True)
+    ]
+    assert ends.count("levitated") == found.each[0].share.count
     # On its bearing the rotor never is free of contact for long.
     assert found.each[1].not_regained == found.each[3].not_regained == 12
     early, stiff = found.each[0], found.each[2]

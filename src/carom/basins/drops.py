@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from carom.parameters.formats import number
 if TYPE_CHECKING:
     import xarray
 
+_End = TypeVar("_End")
 MOST_STEPS = 100_000
 """Default number of impacts and steps of contact after which a drop is given up: several seconds of a machine on its bearing."""
 USUAL = {"phase": 24, "speed": 16}
@@ -230,6 +231,18 @@ def map_drops(
     return DropMap(dataset)
 
 
+def in_threads(
+    follow: Callable[[Rotor, Drop], _End], drops: Sequence[tuple[Rotor, Drop]], threads: int
+) -> Iterator[_End]:
+    """What is found of drops, in their order, several at a time; when the caller stops, no other one is begun."""
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            yield from pool.map(lambda one: follow(*one), drops)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
 @dataclass(frozen=True)
 class Landing(Measure):
     """How drops end, and what the touchdown bearing bears; ``longest`` is in seconds."""
@@ -267,13 +280,7 @@ class Landing(Measure):
 
     def entries(self, rotor: Rotor, axes: tuple[Axis, Axis], nodes: Sequence[tuple[float, float]]) -> Iterator[Entry]:
         """Drop all nodes in their order, several at a time; when the caller stops, no other one is begun."""
-        moved = [self._moved(rotor, axes, node) for node in nodes]
-        with ThreadPoolExecutor(self.threads) as pool:
-            try:
-                yield from pool.map(lambda node: self._dropped(*node), moved)
-            except BaseException:
-                pool.shutdown(cancel_futures=True)
-                raise
+        return in_threads(self._dropped, [self._moved(rotor, axes, node) for node in nodes], self.threads)
 
     def _moved(self, rotor: Rotor, axes: tuple[Axis, Axis], node: tuple[float, float]) -> tuple[Rotor, Drop]:
         """Machine and release of a node; the release comes last, for its units may be those of the machine."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from carom.base.arguments import Count, Seed, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
 from carom.base.results import Column, Result, record, table_of
-from carom.basins.drops import MOST_STEPS
+from carom.basins.drops import MOST_STEPS, in_threads
 from carom.basins.shares import Share
 from carom.core.processors import available_cores
 from carom.disturbances import Drop, kick
@@ -248,16 +248,11 @@ def compare_recoveries(
         replace(starts[0], recovery=way).apply(rotor)  # refuses what the machine has not
     following = Following(True, False, PATIENCE, MOST_STEPS, Reporter())
     tell = Reporter.of(progress, "following drops")
-    pairs = [(way, start) for way, _ in ways for start in starts]
-    with ThreadPoolExecutor(threads or available_cores()) as pool:
-        ends = []
-        try:
-            for end in pool.map(lambda pair: _end(rotor, pair[0], pair[1], longest, following), pairs):
-                ends.append(end)
-                tell(len(ends) / len(pairs))
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    begun = [(rotor, replace(start, recovery=way)) for way, _ in ways for start in starts]
+    ends: list[DropEnding] = []
+    for end in in_threads(partial(_end, longest, following), begun, threads or available_cores()):
+        ends.append(end)
+        tell(len(ends) / len(begun))
     found = [ends[place * drops : (place + 1) * drops] for place in range(len(ways))]
     each = [RecoveryShare.of(way, own, found[plain]) for (way, plain), own in zip(ways, found, strict=True)]
     return Recoveries(rotor, tuple(each), drops, seed, fastest, longest)
@@ -273,10 +268,10 @@ def _with_plain(recoveries: Sequence[RecoveryAction]) -> list[tuple[RecoveryActi
     return [(each, place) for place, each in enumerate(plain.values())] + acting
 
 
-def _end(rotor: Rotor, recovery: RecoveryAction, start: Drop, longest: float, following: Following) -> DropEnding:
+def _end(longest: float, following: Following, rotor: Rotor, dropped: Drop) -> DropEnding:
     """Follow one drop."""
     regained, passed = math.nan, 0.0
-    for piece in stretches(rotor, replace(start, recovery=recovery), longest, following):
+    for piece in stretches(rotor, dropped, longest, following):
         if piece.outcome is Outcome.TRIGGERED:
             passed += piece.time
             regained = passed if math.isnan(regained) else regained
