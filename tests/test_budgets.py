@@ -16,20 +16,20 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3665,
-    "models": 2342,
+    "models": 2371,
     "core": 6613,
     "motions disturbances": 4710,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2372,
     "studies": 3458,
     "cli plots report": 5696,
-    "rotors": 4379,
-    "proofs": 5902,
+    "rotors": 4407,
+    "proofs": 5907,
     "explorer": 2300,
     "sweeps": 1397,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_523, 291
+TESTS, ANY = 38_584, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""

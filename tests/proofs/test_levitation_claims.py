@@ -70,3 +70,22 @@ def test_levitation_that_grows_is_not_proven(case):
     grows = prove(rotor_of(case).replace(gamma=-0.01))
     assert grows["levitation stable"].status == "undecided"
     assert all(claim.about == "levitation" for claim in grows)
+
+
+@pytest.mark.jit_only
+def test_bias_currents_take_their_part_of_a_limit(tmp_path):
+    """A vertical load of 1.96 A by a bias current, of 3 A: kicks up to the bound stay below the limit, in every direction."""
+    path, text = tmp_path / "heavy.toml", machine_file("flywheel").read_text(encoding="utf-8")
+    text = text.replace("700 g mm", "70 g mm") + '[gravity]\nacceleration = "9.81 m/s^2"\n'
+    path.write_text(
+        text.replace('"-1.348e7 N/m"', '"-1.348e7 N/m"\namplifier_bandwidth = "5 kHz"\ncurrent_limit = "3 A"'), "utf-8"
+    )
+    case = cm.load(path)
+    speed = float(prove(case)["kicks never touch"].enclosures["speed"].low)
+
+    def reaches(share: float, angle: float) -> bool:
+        return bool(cm.simulate(rotor_of(case), kick(share * speed, angle, 0.0), 30.0).segment_limits.max() > 1)
+
+    angles = np.linspace(-np.pi, np.pi, 12, endpoint=False).tolist()
+    assert not any(reaches(1.0, angle) for angle in angles)
+    assert any(reaches(2.0, angle) for angle in angles)

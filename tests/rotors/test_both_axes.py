@@ -5,12 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 from machines import machine_text
+from refusals import assert_refused
 from scipy import signal
 from scipy.integrate import solve_ivp
-from scipy.linalg import block_diag, eigvals
+from scipy.linalg import block_diag, eigvals, expm
 
 import carom as cm
-from carom.rotors import SharedController, StateSpace, load_machine, sensitivity
+from carom.rotors import PID, SharedController, StateSpace, load_machine, sensitivity
 
 FILE = machine_text("flywheel")
 MASS, TILTED, POLAR, SPEED, AT, KI, KS = 293.1, 36.8927, 5.4238, 1000.0 * np.pi, (0.650, -0.825), 819.10, 1.348e7
@@ -174,3 +175,30 @@ def test_each_axis_has_limits_of_its_own(limits, weight, tmp_path):
         end = motion.seen_at(plane).position([motion.time], "fixed")[0] * scales.length
         assert abs(end - (x + place * tilt) - 1j * (y + place * other)) < 1e-8 * scales.length
     assert cm.motions.energy_ledger(motion).imbalance < 1e-9
+
+
+@pytest.mark.jit_only
+def test_controllers_run_on_while_the_rotor_falls(tmp_path):
+    """From the whirl of levitation with its sag, falling with the coupled controllers of both axes running, and regained: by matrix exponentials."""
+    system, falls, ends = law(), 3e-3, 8e-3
+    found = machine(SharedController(matrices=StateSpace(*system), at_regain="running"), tmp_path)
+    found = dataclasses.replace(found, gravity=cm.parameters.Gravity(carried_by="stiffness"))
+    motion = cm.simulate(found.model, cm.drop(regained_after=f"{falls} s"), f"{ends} s")
+    held = np.zeros((20, 20))
+    held[:17, :17], held[4, 17], held[6, 18], held[6, 19] = real_matrix(system), 7e-4 / MASS, 7e-4 / MASS, -9.81
+    held[4:8, 17:19] *= SPEED**2
+    held[17, 18], held[18, 17] = -SPEED, SPEED
+    dropped = held.copy()
+    dropped[4:8, [*range(4), *range(8, 17)]] = 0.0
+    whirl = np.linalg.solve(1j * SPEED * np.eye(17) - held[:17, :17], held[:17, 17] - 1j * held[:17, 18])
+    sag = -np.linalg.solve(held[:17, :17], held[:17, 19])
+    start = np.concatenate([whirl.real + sag, [1.0, 0.0, 1.0]])
+    x, tilt, y, other = (expm((ends - falls) * held) @ expm(falls * dropped) @ start)[:4]
+    for plane, place in enumerate((0.7, -0.88)):
+        end = motion.seen_at(plane).position([motion.time], "fixed")[0] * 2.5e-4
+        assert abs(end - (x + place * tilt) - 1j * (y + place * other)) < 1e-8 * 2.5e-4
+    integrating = [dataclasses.replace(each, controller=PID(P, 1.0), at_regain="running") for each in found.bearings]
+    assert_refused(
+        lambda: dataclasses.replace(found, bearings=integrating, shared_controllers=()),
+        r"^at_regain = running: reset or hold",
+    )

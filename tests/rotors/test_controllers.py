@@ -141,6 +141,28 @@ def test_a_sampled_controller_is_its_z_transform_with_its_hold(order):
     assert TransferFunction([2.2, -2.1], [1.0, -1.0], time).state_space.sampling_error(0.1 / time) < 1e-9
 
 
+@pytest.mark.parametrize(("rule", "share"), [(None, 1.0), ("tustin", 0.5)])
+@pytest.mark.parametrize(("integral", "late"), [(900.0, 2e-4), (0.0, 3e-5), (900.0, 0.0)])
+def test_sampled_gains_are_their_rule_with_one_hold(rule, share, integral, late):
+    time, at = 5e-5, 1j * np.array([10.0, 1e3, 5e3, 1e4])
+    if not late and rule:
+        assert_refused(
+            lambda: PID(5e3, integral, 5.0, late, time, rule), r"^filter_time = 0: above 0 with Tustin's rule"
+        )
+        return
+    own = PID(5e3, integral, 5.0, late, "50 us", rule)
+    z = np.exp(at * time)
+    s = (z - 1.0) / (time * (share * z + 1.0 - share))
+    digital = SecondOrderSections(signal.butter(2, 0.2, output="sos"), time)
+    whole = Series(own, [digital, LowPass("3 kHz")])
+    exact = (5e3 + integral / s + 5.0 * s / (1.0 + late * s)) * -np.expm1(-at * time) / (at * time)
+    both = exact * signal.sosfreqz(digital.sos, at.imag * time)[1] * LowPass("3 kHz").state_space.at(at)
+    for found, expected in ((own, exact), (whole, both)):
+        error = getattr(found, "sampled", found.state_space).sampling_error(1e4)
+        assert np.abs(state_space_of(found).at(at) / expected - 1.0).max() < 1.01 * error + 1e-12
+        assert error < 2e-5
+
+
 def bearing(**changes):
     return MagneticBearing(**{"node": 0, "ki": 50.0, "ks": -1e5, "controller": PID(1.0), **changes})
 
@@ -172,6 +194,8 @@ def bearing(**changes):
         (lambda: ZerosPolesGain([], [-3j, 4j], 1.0), r"^controller poles = \[.*: numbers, or pairs \[re, im\]"),
         (lambda: SecondOrderSections([[1.0, 2.0]]), r"^controller sos = an array of shape \(1, 2\): rows of six"),
         (lambda: TransferFunction([1.0], [1.0, 0.5], "0 s"), r"^sample_time = 0 s: must be a time"),
+        (lambda: PID(1.0, sampling="tustin"), r"^sampling = tustin: one of backward-euler, tustin, beside sample_time"),
+        (lambda: bearing(controller=TransferFunction([1.0], [1.0, 1.0], 1e-4)), r"^controller = a pole at z = -1"),
         (
             lambda: Series(PID(1.0), [TransferFunction([1.0], [1.0, 0.5], 1e-4)]),
             r"^filter = with a sample time of 0.0001 s: filters in continuous time",

@@ -55,7 +55,8 @@ def modes_of(matrix: np.ndarray, mass: np.ndarray | None = None) -> Modes:
     ``A`` is upper triangular, ``[[λ, t], [0, μ]]`` (Schur).  Its first vector is the driven mode, the second one over
     ``t`` the driving mode.  Where more modes nearly coincide, those of a rotor whose coordinates can be separated are
     still known: each coordinate has a pair.  Parts of the state that do not act on each other have modes of their own, such as the
-    displacement of a free rotor beside its tilt.  Otherwise the system is refused.
+    displacement of a free rotor beside its tilt; and parts that are only driven, such as controllers that run while the rotor falls, are what the
+    modes of the others make of them, beside modes of their own.  Otherwise the system is refused.
     """
     found = [_by_eigenvectors(matrix)]
     if found[0].error(matrix) > EXACT:
@@ -63,6 +64,8 @@ def modes_of(matrix: np.ndarray, mass: np.ndarray | None = None) -> Modes:
     if mass is not None and found[0].error(matrix) > EXACT:
         found += [modes for weight in MIXTURES if (modes := _by_coordinates(matrix, mass, weight))]
     best = min(found, key=lambda modes: modes.error(matrix))
+    if best.error(matrix) > ACCURATE and (cascade := _by_cascade(matrix)):
+        best = cascade
     if best.error(matrix) > ACCURATE:
         raise InputError(
             "mass, damping, stiffness",
@@ -105,6 +108,26 @@ def _by_parts(matrix: np.ndarray) -> Modes:
         exponents[those], driven[those], basis[places, those] = modes.exponents, modes.driven, modes.basis
         first += len(places)
     return Modes(exponents, driven, basis)
+
+
+def _by_cascade(matrix: np.ndarray) -> Modes | None:
+    """Modes of the states that act on others, with what they drive, then those of the states that are only driven; ``None`` without such."""
+    acts = (matrix != 0.0) | np.eye(len(matrix), dtype=bool)
+    for _ in range(len(matrix).bit_length()):
+        acts = acts @ acts
+    last = ~(acts & ~acts.T).any(axis=0)
+    if last.all():
+        return None
+    first, second = (modes_of(matrix[np.ix_(those, those)]) for those in (~last, last))
+    inner, pushes = matrix[np.ix_(last, last)], matrix[np.ix_(last, ~last)] @ first.basis
+    basis, count = np.zeros(matrix.shape, complex), len(first.exponents)
+    basis[~last, :count], basis[last, count:] = first.basis, second.basis
+    for mode in reversed(range(count)):
+        push = -pushes[:, mode]
+        if mode + 1 < count and first.driven[mode + 1]:
+            push = push + basis[last, mode + 1]
+        basis[last, mode] = np.linalg.lstsq(inner - first.exponents[mode] * np.eye(len(inner)), push)[0]
+    return Modes(np.append(first.exponents, second.exponents), np.append(first.driven, second.driven), basis)
 
 
 def _by_coordinates(matrix: np.ndarray, mass: np.ndarray, weight: float) -> Modes | None:

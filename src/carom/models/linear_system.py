@@ -24,7 +24,7 @@ import numpy as np
 from carom.base.outcome import InputError
 from carom.core.wall import Wall
 from carom.models.definition import is_singular
-from carom.models.forcing import Force, with_forces
+from carom.models.forcing import ONE, Force, with_forces
 from carom.models.from_modes import modal_system, modes_of, second_order_system, walls_as_arrays
 from carom.models.mode_arrays import TURN
 from carom.models.system import System
@@ -106,6 +106,17 @@ def anisotropic_system(given: LinearEquations, conjugate: np.ndarray) -> System:
     """System of the coordinates ``U`` from that of both; what acts on conjugates, damping and stiffness, is that of the fixed frame."""
     doubled = _doubled(given, conjugate)
     n, free, arrays = len(given.mass), doubled.free, doubled.arrays
+    # Pairs of a free rotor are alike in U and in V, and so is what a constant force makes of them, where their coordinates are orthogonal.
+    for last in np.flatnonzero(arrays["driven"]).tolist():
+        ahead, behind = doubled.shapes[:, last - 1], doubled.shapes[:, last]
+        gap = arrays["exponents"][last] - arrays["exponents"][last - 1]
+        if abs(gap) <= ONE:
+            share = np.vdot(behind, ahead) / np.vdot(behind, behind)
+            for right in (doubled.shapes, arrays["rows"]):
+                right[:, last - 1] -= share * right[:, last]
+                right[:, last] *= 1.0 - share * gap
+            for left in (doubled.to_modes, arrays["columns"]):
+                left[last] = (left[last] + share * left[last - 1]) / (1.0 - share * gap)
     modes = int(free.sum())
     forward, backward = np.split(doubled.rest, 2)
     ellipse = backward.conj()

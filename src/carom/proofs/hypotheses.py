@@ -243,7 +243,7 @@ class StatedEquations:
     numbers : mapping of str to lists
         Each array as text of its doubles: ``mass``, ``damping`` (with the gyroscopic terms), ``stiffness``, ``across`` (``C′``, ``K′``), ``forcing`` ``f``,
         ``weight`` ``g``, ``planes`` ``W``, ``translation`` (the change of the rates by a kick), ``push`` (the force of an unbalance of one) and
-        ``limits`` of the magnetic bearings: rows by ``z``, then by ``ż``, then the bound; and ``units``: the speed and the length in SI units that count
+        ``limits`` of the magnetic bearings: rows by ``z``, then by ``ż``, then what bias currents leave of the bound; and ``units``: the speed and the length in SI units that count
         one, none if they are not known.
     values : mapping of str to str
         What is assumed, in words.
@@ -280,7 +280,13 @@ class StatedEquations:
         across, push = whole.equations.conjugate, np.zeros(n)
         with suppress(InputError):  # of several nodes with an unbalance, a step of which is meant?
             push = whole.definition.unbalance_push()
-        limits = [[*each.displacement, *each.velocity, each.bound] for each in whole.listed_limits]
+        # Bias currents that carry the weight take their part of a limit.
+        rooms = [
+            np.nextafter(each.bound - abs(asked), -np.inf)
+            for each, asked in zip(whole.listed_limits, whole.acting.asked_by_bias.tolist(), strict=True)
+        ]
+        rows = zip(whole.listed_limits, rooms, strict=True)
+        limits = [[*each.displacement, *each.velocity, room] for each, room in rows]
         given = {
             "mass": mass,
             "damping": damping - 1j * gyroscopic,

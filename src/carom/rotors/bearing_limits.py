@@ -129,7 +129,7 @@ def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterato
     state = own * np.conj(place.axis) / out
     changing, follows = out * place.rate, (0.0,) * before
     # Behind an ideal derivative the current has a part of the displacement beside the last state.
-    moving = place.current_rate + place.current - out * place.axis * own
+    moving = place.current_rate + place.current * (1.0 - own)
     if of_current < np.inf:
         asked = place.current + changing / bandwidth
         yield limit(of_current, asked, moving / bandwidth, none, -bandwidth * state)

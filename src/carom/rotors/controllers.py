@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -32,43 +32,11 @@ def gains_in(proportional: str, integral: str, derivative: str, example: str) ->
     }
 
 
+RULES = {"backward-euler": 1.0, "tustin": 0.5}
+"""Rules by which gains become a program, and the share of the newer one of two samples in an integral."""
 CONJUGATE = 1e-9
 """Relative difference up to which two roots of a real polynomial are conjugates."""
 _ALLOWED = "a controller of carom.rotors, or a system of SciPy or python-control: with A, B, C, D; num, den; or zeros, poles, gain"
-_COEFFICIENT = Field("", "", "", "a number", "", -1e60, 1e60, "1", True)
-
-
-class Number(NamedTuple):
-    """A number of a controller that can be varied: the attributes and places that lead to it, and its field."""
-
-    path: tuple[str | int, ...]
-    field: Field
-
-
-def numbers_of(controller: object) -> dict[str, Number]:
-    """Numbers of a controller by their names, those that are stated."""
-    if isinstance(controller, Series):
-        found = {
-            name: Number(("controller", *path), field)
-            for name, (path, field) in numbers_of(controller.controller).items()
-        }
-        for place, each in enumerate(controller.filters):
-            own = numbers_of(each)
-            words = f"of filter {place + 1}"
-            found |= {
-                f"filter{place + 1}_{name}": Number(
-                    ("filters", place, *path), replace(field, words=f"{field.words}, {words}")
-                )
-                for name, (path, field) in own.items()
-            }
-        return found
-    fields: Mapping[str, Field] = getattr(controller, "fields", {})
-    found = {name: Number((name,), field) for name, field in fields.items() if getattr(controller, name) is not None}
-    for name, path, words in getattr(controller, "coefficients", ()):
-        found[name] = Number(path, replace(_COEFFICIENT, name=name, words=words))
-    if getattr(controller, "sample_time", None) is not None:
-        found["sample_time"] = Number(("sample_time",), SAMPLE_TIME)
-    return found
 
 
 @dataclass(frozen=True)
@@ -87,17 +55,23 @@ class PID:
         ``D``, A s/m.
     filter_time : float or str, optional
         ``T``, s: of the derivative; 0 for an ideal one, which no controller is.
+    sample_time : float or str, optional
+        ``h``, s: it runs as a program, with ``s = (z − 1)/(h(θz + 1 − θ))`` and its hold; by default it is in continuous time.
+    sampling : {"backward-euler", "tustin"}, optional
+        Its rule, ``θ = 1`` by default, or ``1/2``.
 
     Raises
     ------
     InputError
-        A value is not of this kind or out of range, or there is a derivative without a filter.
+        A value is not of this kind or out of range, or there is a derivative without a filter, or Tustin's of an ideal one.
     """
 
     proportional: float
     integral: float = 0.0
     derivative: float = 0.0
     filter_time: float | None = None
+    sample_time: float | None = None
+    sampling: str | None = None
 
     fields: ClassVar[Mapping[str, Field]] = PID_FIELDS
 
@@ -107,11 +81,18 @@ class PID:
             raise InputError(
                 "filter_time", None, "a derivative needs the time of its filter, such as '0.1 ms'; 0 for an ideal one"
             )
+        if self.sampling not in (None, *RULES) or (self.sampling and self.sample_time is None):
+            raise InputError("sampling", shown(self.sampling), f"one of {', '.join(RULES)}, beside sample_time")
+        if self.sampling == "tustin" and self.derivative and not self.filter_time:
+            raise InputError("filter_time", 0, "above 0 with Tustin's rule, by which an ideal derivative never settles")
+        object.__setattr__(self, "sample_time", self.state_space.sample_time)
 
     @property
     def state_space(self) -> StateSpace:
         """The same as matrices."""
         matrix, into, out, straight, rate = [], [], [], self.proportional, 0.0
+        if self.sample_time is not None:
+            return self._program(read_quantity(SAMPLE_TIME, self.sample_time))
         if self.integral:
             matrix, into, out = [0.0], [self.integral], [1.0]
         if self.derivative and self.filter_time:
@@ -121,6 +102,14 @@ class PID:
         elif self.derivative:
             rate = self.derivative
         return StateSpace(np.diag(matrix), np.array(into), np.array(out), np.array(straight), rate=rate).balanced()
+
+    def _program(self, step: float) -> StateSpace:
+        """What it is from sample to sample."""
+        new, late = RULES[self.sampling or "backward-euler"] * step, self.filter_time or 0.0
+        pole, wide = (late + new - step) / (late + new), self.derivative / (late + new)
+        into, out = np.array([step * self.integral, wide]), np.array([1.0, pole - 1.0])
+        used, straight = into != 0.0, np.array(self.proportional + new * self.integral + wide)
+        return StateSpace(np.diag([1.0, pole])[np.ix_(used, used)], into[used], out[used], straight, step).balanced()
 
 
 class VoltagePID(PID):
@@ -280,7 +269,8 @@ class Series:
     Parameters
     ----------
     controller : a controller
-    filters : sequence of Notch, LeadLag, LowPass, or controllers in continuous time
+    filters : sequence of Notch, LeadLag, LowPass, or controllers
+        In continuous time, or sampled with the controller: then one hold is behind all of them that are.
     """
 
     controller: Controller
@@ -289,18 +279,31 @@ class Series:
     def __post_init__(self) -> None:
         object.__setattr__(self, "controller", controller_of(self.controller))
         object.__setattr__(self, "filters", tuple(map(controller_of, self.filters)))
+        time = self.controller.state_space.sample_time
         for each in self.filters:
-            if each.state_space.sample_time is not None:
-                raise InputError(
-                    "filter",
-                    f"with a sample time of {each.state_space.sample_time:g} s",
-                    "filters in continuous time: what is sampled is one controller",
+            if (own := each.state_space.sample_time) not in (None, time):
+                allowed = "filters in continuous time" + (
+                    f", or with that of the controller, {time:g} s" if time else ""
                 )
+                raise InputError("filter", f"with a sample time of {own:g} s", allowed)
+
+    @property
+    def sampled(self) -> StateSpace:
+        """What of it runs as one program; the controller alone in continuous time."""
+        spaces = [each.state_space for each in (self.controller, *self.filters)]
+        time = spaces[0].sample_time
+        return replace(
+            in_series([replace(each, sample_time=None) for each in spaces if each.sample_time == time]),
+            sample_time=time,
+        )
 
     @property
     def state_space(self) -> StateSpace:
         """The same as matrices."""
-        return in_series([each.state_space.held for each in (self.controller, *self.filters)])
+        analog = [each.state_space for each in self.filters]
+        return in_series(
+            [self.sampled.held, *(each for each in analog if each.sample_time != self.sampled.sample_time)]
+        )
 
 
 Controller = (

@@ -18,7 +18,7 @@ from carom.parameters.fields import RPM
 from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.tables import read_entries
 from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, SEATED, Housing, TouchdownPlane, Unbalance
-from carom.rotors.controllers import Series, controller_of
+from carom.rotors.controllers import Controller, Series
 from carom.rotors.equations import loops_of
 from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor
@@ -310,19 +310,18 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
         )
 
 
-def _law(controller: object) -> str:
+def _law(controller: Controller | None) -> str:
     """A controller in words; of a sampled one how well it is approximated."""
     if controller is None:
         return "shared controller"
-    if isinstance(controller, Series):
-        return "; ".join(map(_law, (controller.controller, *controller.filters)))
-    if fields := getattr(controller, "fields", {}):
-        return _entries(controller, fields)
-    name, space = type(controller).__name__, controller_of(controller).state_space
+    whole = controller if isinstance(controller, Series) else Series(controller, ())
+    listed = (whole.controller, *whole.filters)
+    names = [_entries(each, each.fields) if hasattr(each, "fields") else type(each).__name__ for each in listed]
+    space, rule, name = whole.sampled, getattr(whole.controller, "sampling", None), "; ".join(names)
     if space.sample_time is None:
         return name
     error, time = space.sampling_error(space.highest), 1e6 * space.sample_time
-    return f"{name} in z every {number(time)} us with its hold, as a quotient in s right to {error:.1g} up to {number(space.highest / (2.0 * math.pi))} Hz"
+    return f"{name}{f', {rule}' if rule else ''}; in z every {number(time)} us with its hold, as a quotient in s right to {error:.1g} up to {number(space.highest / (2.0 * math.pi))} Hz"
 
 
 def _entries(part: object, fields: Mapping[str, Field]) -> str:

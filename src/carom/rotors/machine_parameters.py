@@ -19,9 +19,10 @@ from carom.parameters.fields import nearest_name, why_not_modelled
 from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import PREFIX
 from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
-from carom.rotors.controllers import numbers_of
+from carom.rotors.controllers import Series
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import BEARING_FIELDS
+from carom.rotors.state_spaces import SAMPLE_TIME
 from carom.rotors.support import SUPPORT_FIELDS
 
 WHOLE: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
@@ -33,6 +34,42 @@ _LEFT_OUT = (("exponent", 1.0), ("tilt_stiffness", 0.0), ("tilt_damping", 0.0), 
 _Path = tuple[str | int, ...]
 _Paths = dict[str, tuple[_Path, Field]]
 """By the name of an entry, the attributes that lead to it from its part, and its field."""
+
+
+_COEFFICIENT = Field("", "", "", "a number", "", -1e60, 1e60, "1", True)
+
+
+class Number(NamedTuple):
+    """A number of a controller that can be varied: the attributes and places that lead to it, and its field."""
+
+    path: tuple[str | int, ...]
+    field: Field
+
+
+def numbers_of(controller: object) -> dict[str, Number]:
+    """Numbers of a controller by their names, those that are stated."""
+    if isinstance(controller, Series):
+        found = {
+            name: Number(("controller", *path), field)
+            for name, (path, field) in numbers_of(controller.controller).items()
+        }
+        for place, each in enumerate(controller.filters):
+            own = numbers_of(each)
+            words = f"of filter {place + 1}"
+            found |= {
+                f"filter{place + 1}_{name}": Number(
+                    ("filters", place, *path), replace(field, words=f"{field.words}, {words}")
+                )
+                for name, (path, field) in own.items()
+            }
+        return found
+    fields: Mapping[str, Field] = getattr(controller, "fields", {})
+    found = {name: Number((name,), field) for name, field in fields.items() if getattr(controller, name) is not None}
+    for name, path, words in getattr(controller, "coefficients", ()):
+        found[name] = Number(path, replace(_COEFFICIENT, name=name, words=words))
+    if getattr(controller, "sample_time", None) is not None:
+        found["sample_time"] = Number(("sample_time",), SAMPLE_TIME)
+    return found
 
 
 def _own(fields: Mapping[str, Field]) -> _Paths:

@@ -92,7 +92,7 @@ class _Kind(NamedTuple):
 
     make: Callable[..., Controller]
     needed: tuple[str, ...]
-    entries: Mapping[str, Field]
+    entries: Mapping[str, Field | None]
 
 
 _QUOTIENTS = (
@@ -102,7 +102,7 @@ _QUOTIENTS = (
     _Kind(StateSpace, ("A", "B", "C", "D"), _SAMPLED),
 )
 _PARTS_OF_SHARED: Mapping[str, type[PID]] = {"translation": ForcePID, "tilt": MomentPID}
-_CONTROLLERS = (_Kind(PID, ("proportional",), PID_FIELDS), *_QUOTIENTS)
+_CONTROLLERS = (_Kind(PID, ("proportional",), {**PID_FIELDS, **_SAMPLED, "sampling": None}), *_QUOTIENTS)
 _FILTERS = (
     _Kind(Notch, ("notch_frequency",), NOTCH_FIELDS),
     _Kind(LeadLag, ("lead_zero", "lead_pole"), LEAD_FIELDS),
@@ -232,12 +232,6 @@ def _of_kind(what: str, entry: Mapping[str, object], kinds: Iterable[_Kind], gai
         raise InputError(what, ", ".join(each.needed[0] for each in stated) or None, f"one of: {allowed}")
     kind = stated[0]
     require(entry, kind.needed)
-    if "sample_time" in entry and "sample_time" not in kind.entries:
-        raise InputError(
-            "sample_time",
-            shown(entry["sample_time"]),
-            "none beside gains: state the controller in z, or the delay of sampling and computing as delay",
-        )
     make: Callable[..., Controller] = gains if kind.make is PID else kind.make
     return make(**entries_in(entry, dict.fromkeys((*kind.needed, *kind.entries))))
 
@@ -258,7 +252,12 @@ class PartTable(NamedTuple):
 _NODE, _PLACE = {"node": None}, {"node": None, "position": POSITION}
 _DIAMETERS = by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter")))
 _OF_BEARING = {"sensor_nodes": None, "sensor_positions": None, "at_regain": None, **BEARING_FIELDS, **PID_FIELDS}
-_OF_CONTROLLER = {**dict.fromkeys(name for kind in _QUOTIENTS for name in kind.needed), **_SAMPLED, "filter": None}
+_OF_CONTROLLER = {
+    **dict.fromkeys(name for kind in _QUOTIENTS for name in kind.needed),
+    **_SAMPLED,
+    "sampling": None,
+    "filter": None,
+}
 PARTS: Mapping[str, PartTable] = {
     "section": PartTable({**SECTION_FIELDS, **MATERIAL_FIELDS}, ("length", "outer_diameter"), _section),
     "disc": PartTable({**_NODE, **DISC_FIELDS, "width": None, **_DIAMETERS, **MATERIAL_FIELDS}, ("node",), _disc),

@@ -231,6 +231,8 @@ class StateSpace:
         shift = delay(self.sample_time, PADE)
         unit, through = np.eye(self.states), float(shift.D[0, 0])
         out, into = np.kron(unit, shift.C), np.kron(unit, shift.B)
+        if self.states and np.linalg.cond(unit - through * self.A) > SINGULAR:
+            raise InputError("controller", "a pole at z = -1", "none there, at half the sampling rate")
         next_states = np.linalg.solve(unit - through * self.A, np.concatenate([self.A @ out, self.B], axis=1))
         by_states, by_input = np.split(next_states, [PADE * self.states], axis=1)
         inner = StateSpace(
