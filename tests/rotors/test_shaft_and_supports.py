@@ -289,6 +289,11 @@ def test_a_housing_of_a_touchdown_bearing_alone_is_its_mount(tmp_path):
     for one, same in zip(*seen, strict=True):
         assert len(one) >= 2
         assert one.values == pytest.approx(same.values, rel=1e-7)
+    seated = replaced(standing, housings=[Housing(3.0, 4e6, bearings=[1], touchdowns=[1])]).with_modes(4).model
+    found = cm.simulate(seated, cm.drop(), "9 ms").channels("0.1 ms", [3], seated)
+    assert np.ptp(found.housing_1_y.values) > 1e-6
+    between = found.node_3_y - found.housing_1_y  # the magnet stands at this node
+    assert found.magnetic_bearing_1_y.values == pytest.approx(between.values, abs=1e-15)
     path = tmp_path / "machine.toml"
     path.write_text(standing.with_modes(4).to_toml())
     assert load_machine(path).housings == standing.housings

@@ -344,7 +344,7 @@ class ReducedMachine(Result):
         return np.asarray(unit / np.array([*gaps.values()])[:, None] * self.loops.bearings[list(gaps)])
 
     def places(self, nodes: Sequence[int]) -> dict[str, np.ndarray]:
-        """Displacement, in clearances of the machine, per coordinate in units of the equations: at magnetic bearings, the mean of the sensors of each, and at nodes."""
+        """Displacement, in clearances of the machine, per coordinate in units of the equations: at magnetic bearings and the mean of the sensors of each, relative to housings; at nodes, and of housings."""
         for node in nodes:
             self.machine.rotor.check_node("nodes", node)
         named, size, n = dict[str, np.ndarray](), math.sqrt(self.scales.mass), len(self.equations.mass)
@@ -353,6 +353,9 @@ class ReducedMachine(Result):
         for node in nodes:
             shown = size * self.machine.rotor.row_at(node) @ self.basis.shapes
             named[f"node_{node}"] = np.pad(shown, (0, n - self.vectors))
+        seats = self.vectors + sum(bool(each.bearing.mount) for each in self.machine.touchdowns)
+        for number, housing in enumerate(self.machine.housings):
+            named[f"housing_{number + 1}"] = size / math.sqrt(housing.mass) * np.eye(n)[seats + number]
         return named
 
     def currents(self, coordinates: np.ndarray, rates: np.ndarray) -> np.ndarray:
