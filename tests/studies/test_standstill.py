@@ -3,12 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from studies import study_once
 
 import carom as cm
 from carom.models import rotor_of
 from carom.motions.budget import Budget
 from carom.parameters import Drive
-from carom.studies.questions import SPIN_DOWN, events_for
+from carom.studies.questions import SPIN_DOWN, about, events_for
 from carom.studies.standstill import spin_down_facts, spin_down_of
 
 pytestmark = pytest.mark.jit_only
@@ -32,3 +33,10 @@ def test_a_shaft_that_stands_and_one_for_which_the_events_do_not_suffice():
 def test_nothing_is_said_without_a_drive():
     case = cm.load("examples/overhung-rotor.toml")
     assert not list(spin_down_facts(spin_down_of(case)))
+
+
+def test_a_study_states_it():
+    found = study_once(cm.load("tests/machines/drive.toml"))
+    (said, _) = about(found.facts, "Spin-down")
+    assert said.text.startswith("The shaft stands 23.8 s after the release")
+    assert found.spin_down.stands
