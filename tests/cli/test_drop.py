@@ -140,6 +140,7 @@ def test_until_the_shaft_stands(carom, tmp_path):
     (whirl,) = found["largest_whirl"]
     assert f"largest whirl {1e3 * whirl['radius_si']:.3f} mm 0-to-peak in the fixed frame, 1.06 of the" in words
     assert "torque of unbalance left out: up to" in words
+    assert "limit 50 µm: kept ball pressure" in words
     code, _, err = carom(*command, "--map", "phase,speed")
     assert (code, "--until = standstill: a time beside --map" in err) == (2, True)
 

@@ -182,11 +182,11 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     return tuple(found)
 
 
-def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
-    """The loads of all planes against the limits that are stated; of several the checks name theirs."""
+def checks_of_planes(loads: DropLoads, limits: LoadLimits, stands: bool = False) -> tuple[LoadCheck, ...]:
+    """The loads of all planes against the limits that are stated; of several the checks name theirs.  Where the shaft stands, nothing is open."""
     several = len(loads.planes) > 1
     return tuple(
-        replace(check, touchdown_bearing=place if several else None)
+        replace(check, touchdown_bearing=place if several else None, settled=check.settled or stands)
         for place, plane in enumerate(loads.planes, start=1)
         for check in check_loads(plane, limits)
     )
@@ -323,7 +323,7 @@ class DropStudy(Result):
     @property
     def checks(self) -> tuple[LoadCheck, ...]:
         """The loads of all planes against the limits that are stated."""
-        return checks_of_planes(self.loads, self.case.limits)
+        return checks_of_planes(self.loads, self.case.limits, self.spin_down is not None and self.spin_down.stands)
 
     @property
     def headline(self) -> str:
