@@ -127,13 +127,19 @@ def stretches(
     if following.settle is None:
         following = following._replace(settle=until is None)
     end = None if until is None and following.settle else own_time("until", until, model.scales)
-    passed = 0.0
-    for stage in stages_of(model):
+    stages, passed = stages_of(model), 0.0
+    known = sum(stage.trigger.time for stage in stages if stage.trigger.time < np.inf)
+    whole = (
+        end or 2.0 * known or time_limit(stages[0].rotor, stages[0].trigger)
+    )  # the rest counts as much as what has an end
+    for stage in stages:
         longest = time_limit(stage.rotor, stage.trigger) if end is None else end - passed
+        shares = (min(1.0, time / whole) for time in (passed, passed + min(longest, stage.trigger.time)))
+        in_stage = following._replace(tell=following.tell.part(*shares))
         if stage.slowed_to < np.inf:
             speed, angle = state.shaft or (1.0, 0.0)
             state = dataclasses.replace(state, shaft=(min(speed, stage.slowed_to), angle))
-        for piece in follow_stage(stage.rotor, state, longest, stage.trigger, following):
+        for piece in follow_stage(stage.rotor, state, longest, stage.trigger, in_stage):
             yield piece
         if piece.outcome is not Outcome.TRIGGERED:
             return
