@@ -213,11 +213,13 @@ def test_physical_axis_needs_a_machine(write):
 
 def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_path):
     """Up to the workers, who have the kernels to themselves, the compiler would only hold up a sweep of any size."""
+    (tmp_path / "quake.csv").write_text("time (s),x (g)\n0,0\n0.01,1\n0.02,0\n", encoding="utf-8")
     sizes = {
         "kick": 'fastest = "0.1 m/s"',
         "kick-plane": "fastest = 1",
         "shock": 'peak = "20 g"\nduration = "11 ms"',
         "blade-loss": 'change = "0.2 mm"',
+        "base-record": f'file = "{tmp_path}/quake.csv, 2 g"',
         "release": 'motion = "rolling"',
         "slice": "",
         "state": "fastest = 1",

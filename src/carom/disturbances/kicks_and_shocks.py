@@ -247,7 +247,7 @@ class BaseShock(BaseMotion):
     def sections(self, rotor: Rotor) -> list[BaseSection]:
         """Pulses, with pauses between them."""
         course = self.course(1.0)
-        return [BaseSection(*each) for each in zip(course.durations, np.sign(course.frequencies)[:, None], strict=True)]
+        return list(map(BaseSection, course.durations.tolist(), np.sign(course.frequencies)[:, None]))
 
     def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
         """See :meth:`BaseMotion.course`; the angle counts from the axes that turn with the shaft, at its beginning."""

@@ -12,7 +12,7 @@ import pydantic
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, Problems, shown, together
-from carom.disturbances import MODELS, Sample
+from carom.disturbances import MODELS, BaseRecord, Sample
 from carom.loading import load
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
@@ -255,6 +255,8 @@ def _disturbance(table: Mapping[str, object], scales: Scales | None) -> tuple[Di
             allowed = unknown_name(shown(kind), kind, MODELS, f"{where}.kind").allowed
         raise InputError(f"{where}.kind", None if kind is None else shown(kind), allowed)
     model = MODELS[kind]
+    if "file" in table and kind == BaseRecord.kind:
+        return model.single_of(str(table["file"]), scales, f"{where}.file").model, ()
     # The velocity of a slice has two parts, and stays zero here.
     fields = {each.name: each for each in dataclasses.fields(model) if not isinstance(each.default, complex)}
     problems = Problems()
