@@ -12,6 +12,7 @@ from scipy.linalg import block_diag, eigvals, expm
 
 import carom as cm
 from carom.rotors import PID, SharedController, StateSpace, load_machine, sensitivity
+from carom.rotors.loop_sensitivity import sampling_error
 
 FILE = machine_text("flywheel")
 MASS, TILTED, POLAR, SPEED, AT, KI, KS = 293.1, 36.8927, 5.4238, 1000.0 * np.pi, (0.650, -0.825), 819.10, 1.348e7
@@ -55,7 +56,7 @@ def machine(shared, tmp_path, **changes):
         dataclasses.replace(each, axis_angle=angle, **changes)
         for each, angle in zip(found.bearings, ANGLES, strict=True)
     ]
-    return dataclasses.replace(found, bearings=bearings, shared_controllers=[] if shared is None else [shared])
+    return dataclasses.replace(found, bearings=bearings, shared_controllers=[shared])
 
 
 def assert_exponents(found, expected):
@@ -202,3 +203,38 @@ def test_controllers_run_on_while_the_rotor_falls(tmp_path):
         lambda: dataclasses.replace(found, bearings=integrating, shared_controllers=()),
         r"^at_regain = running: reset or hold",
     )
+
+
+@pytest.mark.parametrize(("time", "stated"), [(2e-5, 1e-3), (1e-4, 0.1)])
+def test_the_error_of_sampling_is_that_of_the_motion_from_sample_to_sample(time, stated, tmp_path):
+    """Monodromy of two sampled controllers with exact holds, by SciPy's discretisation of rotor and magnets."""
+    gains = [PID(P, 1e4, D, T, time, "tustin"), PID(1.1 * P, 0.0, D, T, time)]
+    found = machine(SharedController(matrices=StateSpace(*law())), tmp_path)
+    bearings = [dataclasses.replace(each, controller=own) for each, own in zip(found.bearings, gains, strict=True)]
+    found = dataclasses.replace(found, bearings=bearings, shared_controllers=())
+    at, plant = rows((0.0, 0.0)), real_matrix((np.zeros((0, 0)), np.zeros((0, 4)), np.zeros((4, 0)), np.zeros((4, 4))))
+    inner, pushed, seen, *_ = signal.cont2discrete(
+        (plant, np.concatenate([np.zeros((4, 4)), -KI * INVERSE @ at.T]), np.eye(4, 8), np.zeros((4, 4))), time
+    )
+    laws = [signal.tf2ss(*quotient(own, time)) for own in gains for _ in "xy"]
+    A, B, C, through = (block_diag(*each) for each in zip(*laws, strict=True))
+    step = np.block([[inner + pushed @ through @ at @ seen, pushed @ C], [B @ at @ seen, A]])
+    exact = np.log(eigvals(step).astype(complex)) / time
+    highest, error = sampling_error(found)
+    own = found.whole.equations.exponents(SPEED)[0]
+    both = np.append(own, own.conj())
+    expected = max(np.abs(both / each - 1.0).min() for each in exact if abs(each) <= highest)
+    assert error == pytest.approx(expected, rel=1e-4)
+    assert error < stated
+    assert f"right to {error:.1g}" in dict(found.rows())["sampled controllers"]
+
+
+def quotient(gains, time):
+    """Numerator and denominator in ``z`` of gains by their rule."""
+    share = 0.5 if gains.sampling else 1.0
+    late, new, old = gains.filter_time, share * time, (1.0 - share) * time
+    slow, fast = np.array([1.0, -1.0]), np.array([late + new, old - late])
+    if not gains.integral:
+        return gains.proportional * fast + gains.derivative * slow, fast
+    above = np.polymul(gains.proportional * fast + gains.derivative * slow, slow)
+    return np.polyadd(above, gains.integral * np.polymul([new, old], fast)), np.polymul(slow, fast)

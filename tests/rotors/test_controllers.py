@@ -163,6 +163,19 @@ def test_sampled_gains_are_their_rule_with_one_hold(rule, share, integral, late)
         assert error < 2e-5
 
 
+def test_sampled_integrators_leave_no_undamped_states():
+    """The shift by Padé's approximation is one at √60/T too, where the hold is zero: such a state would never come to rest."""
+    lag = TransferFunction([2.0, -1.9], [1.0, -0.7], 1e-4)
+    for system in (PID(5e3, 900.0, 5.0, 2e-4, 1e-4), Series(PID(5e3, 900.0, sample_time=1e-4), [lag]).sampled):
+        own = state_space_of(system)
+        poles = np.linalg.eigvals(own.A)
+        assert np.abs(poles[poles.real > -1.0]).max() < 1e-6
+        at = 1j * np.array([10.0, 1e3, 5e3])
+        z = np.exp(1e-4 * at)
+        exact = system.state_space.at(z) * -np.expm1(-1e-4 * at) / (1e-4 * at)
+        assert own.at(at) == pytest.approx(exact, rel=1e-4)
+
+
 def bearing(**changes):
     return MagneticBearing(**{"node": 0, "ki": 50.0, "ks": -1e5, "controller": PID(1.0), **changes})
 

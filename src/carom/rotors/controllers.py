@@ -288,6 +288,12 @@ class Series:
                 raise InputError("filter", f"with a sample time of {own:g} s", allowed)
 
     @property
+    def analog(self) -> list[StateSpace]:
+        """Filters that are not part of that program, behind it."""
+        spaces, time = [each.state_space for each in self.filters], self.controller.state_space.sample_time
+        return [each for each in spaces if each.sample_time != time]
+
+    @property
     def sampled(self) -> StateSpace:
         """What of it runs as one program; the controller alone in continuous time."""
         spaces = [each.state_space for each in (self.controller, *self.filters)]
@@ -300,10 +306,7 @@ class Series:
     @property
     def state_space(self) -> StateSpace:
         """The same as matrices."""
-        analog = [each.state_space for each in self.filters]
-        return in_series(
-            [self.sampled.held, *(each for each in analog if each.sample_time != self.sampled.sample_time)]
-        )
+        return in_series([self.sampled.held, *self.analog])
 
 
 Controller = (

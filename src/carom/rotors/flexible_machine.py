@@ -271,6 +271,8 @@ _MILLIMETRES = 1e3
 
 def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     """The rotor and what stands around it, part by part; places along the shaft are from its beginning."""
+    from carom.rotors.loop_sensitivity import sampling_error  # which is about machines
+
     places = _MILLIMETRES * machine.rotor.node_places
 
     def at(*nodes: int) -> str:
@@ -287,6 +289,9 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
         if bearing.y is not None:
             other = f"{_entries(bearing.y, BEARING_FIELDS)}; {_law(bearing.y.controller)}"
             yield f"magnetic bearing {place}, second axis", other
+    if error := sampling_error(machine):
+        shown = f"exponents up to {number(error[0])} 1/s right to {error[1]:.1g}, beside the motion from sample to sample with all images"
+        yield "sampled controllers", shown
     for place, shared in enumerate(machine.shared_controllers, start=1):
         laws = (f"{name} {_law(getattr(shared, name))}" for name in shared.parts)
         listed = ", ".join(str(number + 1) for number in shared.numbers(machine.bearings))

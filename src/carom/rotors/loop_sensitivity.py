@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
+from scipy.linalg import expm  # type: ignore[import-untyped]
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
+from carom.rotors.controllers import Series
 from carom.rotors.equations import Loops, block
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import motions_at
 from carom.rotors.shared_controller import loops_in
+from carom.rotors.state_spaces import in_series, side_by_side
 from carom.rotors.whirls import WhirlMode, speeds_of
 
 LIMITS = {"A": 3.0, "B": 4.0, "C": 5.0}
@@ -182,6 +186,43 @@ class _Loop:
             place = int(sizes.argmax())
             best = max(best, (float(sizes[place]), float(frequencies[place])))
         return best
+
+
+def sampling_error(machine: FlexibleMachine) -> tuple[float, float] | None:
+    """Frequency, rad/s, a quarter of the sampling rate, and the largest relative error of exponents up to that size, beside those of the motion from sample to sample.
+
+    Between samples the currents are held, so that motion is a product of matrix exponentials, with all images.  ``None`` unless each bearing has a sampled controller of its own, all at once,
+    and nothing is anisotropic.  Delays of computing are approximated in both.
+    """
+    bearings, listed = machine.bearings, [each.controller for each in machine.bearings if each.controller is not None]
+    laws = [each if isinstance(each, Series) else Series(each, ()) for each in listed]
+    times = {each.sampled.sample_time for each in laws}
+    time = times.pop() if len(times) == 1 and len(laws) == len(bearings) else None
+    if time is None or machine.whole.equations.is_anisotropic:
+        return None
+    law = side_by_side([replace(each.sampled, sample_time=None) for each in laws])
+    before = side_by_side([each.stages[0] for each in bearings])
+    behind = (in_series([*own.analog, *each.stages[1:]]) for own, each in zip(laws, bearings, strict=True))
+    after, loop = side_by_side(list(behind)), _Loop(machine)
+    n, count = len(loop.mass), len(bearings)
+    forces = -np.linalg.solve(loop.mass, loop.pulls.T * np.array([each.ki for each in bearings]))
+    places, rates, sensors, currents, held = (
+        slice(*ends) for ends in pairwise(np.cumsum([0, n, n, before.states, after.states, count]).tolist())
+    )
+    matrix = np.zeros((held.stop, held.stop), complex)
+    matrix[places, rates] = np.eye(n)
+    matrix[rates, places], matrix[rates, rates] = -np.linalg.solve(loop.mass, np.stack([loop.stiffness, loop.spin]))
+    matrix[rates, currents], matrix[rates, held] = forces @ after.C, forces @ after.D
+    matrix[sensors, places], matrix[sensors, sensors] = before.B @ loop.seen, before.A
+    matrix[currents, currents], matrix[currents, held] = after.A, after.B
+    seen = np.zeros((count, held.start))
+    seen[:, places], seen[:, sensors] = before.D @ loop.seen, before.C
+    inner, pushed = np.split(expm(matrix * time)[: held.start], [held.start], axis=1)
+    step = np.block([[inner + pushed @ law.D @ seen, pushed @ law.C], [law.B @ seen, law.A]])
+    turns, highest = np.linalg.eigvals(step), 0.5 * math.pi / time
+    exact = np.log(turns[turns != 0.0]) / time
+    exact, found = exact[np.abs(exact) <= highest], machine.whole.equations.exponents(machine.speed)[0]
+    return highest, max((float(np.abs(found / each - 1.0).min()) for each in exact if each), default=0.0)
 
 
 HARDLY = 0.02

@@ -9,6 +9,7 @@ from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.linalg import schur  # type: ignore[import-untyped]
 
 from carom.base.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
@@ -23,6 +24,8 @@ SINGULAR = 1e12
 """Condition of the matrix of a system above which it integrates."""
 NO_CONJUGATES = 1e-12
 """What a system of both axes makes of conjugates, relative to the rest, that is rounding."""
+HIDDEN = 1e-6
+"""Relative distance up to which an exponent is that of a hidden state, and its output."""
 SMALL = 1e-9
 """Share of the largest size of a system below which errors are compared with that share."""
 SAMPLE_TIME = Field("sample_time", "", "time between samples of a controller whose numbers are those of z", "a time", "s", 1e-9, 10.0, '"50 us"', usual="ms", usual_size=1e-3)  # fmt: skip
@@ -243,7 +246,19 @@ class StateSpace:
         )
         time = self.sample_time
         hold = of_polynomials([time**2 / 60.0, 0.0, 1.0], [time**3 / 120.0, time**2 / 10.0, time / 2.0, 1.0])
-        return inner.then(side_by_side([hold] * len(self.D))).balanced()
+        return inner.then(side_by_side([hold] * len(self.D))).balanced()._without_hidden(math.sqrt(60.0) / time)
+
+    def _without_hidden(self, frequency: float) -> StateSpace:
+        """The same without undamped states at a frequency, rad/s, that no output shows: an integrator is one there too, as Padé's shift turns once, and the hold is zero there."""
+        at = np.array([1j, -1j]) * frequency
+        form, turned, count = schur(
+            self.A, sort=lambda real, turn: np.abs(complex(real, turn) - at).min() < HIDDEN * frequency
+        )
+        out = self.C @ turned
+        if not count or np.abs(out[:, :count]).max() > HIDDEN * np.abs(out).max():
+            return self
+        kept = StateSpace(form[count:, count:], (turned.T @ self.B)[count:], out[:, count:], self.D, rate=self.rate)
+        return kept.balanced()
 
     @property
     def highest(self) -> float:
