@@ -281,3 +281,9 @@ def test_levitation_is_back_at_a_speed_with_the_gyroscopic_moments_of_it():
 def test_speeds_need_a_shaft_that_slows_down(entries, words):
     with pytest.raises(InputError, match=words):
         cm.simulate(HEAVY, cm.drop(recovery=RecoveryAction("one", **entries)))
+
+
+def test_asking_often_counts_as_events():
+    often = RecoveryAction("often", regain_quiet="10 ns", quiet_speed="1e-9 m/s")
+    motion = cm.simulate(HEAVY, cm.drop(recovery=often), max_events=500)
+    assert (len(motion.parts), motion.outcome.label, len(motion.segment_starts)) == (1, "event-limit", 501)

@@ -176,7 +176,7 @@ def follow_stage(
             phases = np.concatenate([first[0][None], log.phases])
             restless = max(restless, last_unrest(rotor.system, log, phases, amplitudes, reached, trigger))
             if outcome is Outcome.TIME_REACHED and asked < until and reached < restless + trigger.quiet_time:
-                outcome, count = Outcome.EVENT_LIMIT, count + 1
+                outcome, count, events = Outcome.EVENT_LIMIT, count + 1, events + 1
                 log = with_pause(log, now, amplitudes, reached, recollection.limited)
         impact_times = np.append(impact_times, log.times)[-LOW_FOR:]
         tell(reached / until if until > 0.0 else 1.0)
