@@ -23,13 +23,13 @@ LIMITS = {
     "basins attractors": 2372,
     "studies": 3458,
     "cli plots report": 5696,
-    "rotors": 4461,
+    "rotors": 4472,
     "proofs": 5907,
     "explorer": 2300,
     "sweeps": 1399,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_642, 291
+TESTS, ANY = 38_644, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""

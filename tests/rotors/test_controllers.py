@@ -157,6 +157,8 @@ def test_sampled_gains_are_their_rule_with_one_hold(rule, share, integral, late)
     whole = Series(own, [digital, LowPass("3 kHz")])
     exact = (5e3 + integral / s + 5.0 * s / (1.0 + late * s)) * -np.expm1(-at * time) / (at * time)
     both = exact * signal.sosfreqz(digital.sos, at.imag * time)[1] * LowPass("3 kHz").state_space.at(at)
+    slower = dataclasses.replace(whole, sample_time=2.0 * time)
+    assert [each.sample_time for each in (slower.controller, slower.filters[0])] == [2.0 * time] * 2
     for found, expected in ((own, exact), (whole, both)):
         error = getattr(found, "sampled", found.state_space).sampling_error(1e4)
         assert np.abs(state_space_of(found).at(at) / expected - 1.0).max() < 1.01 * error + 1e-12

@@ -271,15 +271,26 @@ class Series:
     controller : a controller
     filters : sequence of Notch, LeadLag, LowPass, or controllers
         In continuous time, or sampled with the controller: then one hold is behind all of them that are.
+    sample_time : float, optional
+        In place of that of all that are sampled, s.
     """
 
     controller: Controller
     filters: Sequence[Controller]
+    sample_time: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "controller", controller_of(self.controller))
-        object.__setattr__(self, "filters", tuple(map(controller_of, self.filters)))
+        parts: list[Any] = [controller_of(each) for each in (self.controller, *self.filters)]
+        if self.sample_time is not None:
+            sampled = [getattr(each, "sample_time", None) is not None for each in parts]
+            parts = [
+                replace(each, sample_time=self.sample_time) if own else each
+                for each, own in zip(parts, sampled, strict=True)
+            ]
+        object.__setattr__(self, "controller", parts[0])
+        object.__setattr__(self, "filters", tuple(parts[1:]))
         time = self.controller.state_space.sample_time
+        object.__setattr__(self, "sample_time", time)
         for each in self.filters:
             if (own := each.state_space.sample_time) not in (None, time):
                 allowed = "filters in continuous time" + (

@@ -54,7 +54,7 @@ def numbers_of(controller: object) -> dict[str, Number]:
             for name, (path, field) in numbers_of(controller.controller).items()
         }
         for place, each in enumerate(controller.filters):
-            own = numbers_of(each)
+            own = {name: number for name, number in numbers_of(each).items() if name != "sample_time"}
             words = f"of filter {place + 1}"
             found |= {
                 f"filter{place + 1}_{name}": Number(
@@ -62,6 +62,8 @@ def numbers_of(controller: object) -> dict[str, Number]:
                 )
                 for name, (path, field) in own.items()
             }
+        if "sample_time" in found:
+            found["sample_time"] = Number(("sample_time",), SAMPLE_TIME)
         return found
     fields: Mapping[str, Field] = getattr(controller, "fields", {})
     found = {name: Number((name,), field) for name, field in fields.items() if getattr(controller, name) is not None}
