@@ -110,10 +110,11 @@ class BaseMotion(Disturbance):
 
         forces = self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft))
         weight, constant, along = rotor.acting.weight, 0.0 + 0j, forces[0].accelerations
-        if forces[0].rates is not None and weight is not None and not rotor.system.levitates:
+        if forces[0].rates is not None and weight is not None and rotor.system.rest_radius == np.inf:
             constant = complex(np.vdot(along, weight) / np.vdot(along, along))
             if np.abs(weight - constant * along).max() > 1e-9 * np.abs(weight).max() or rotor.is_anisotropic:
-                raise InputError(self.kind, "mounts that are shaken", "a drop on touchdown bearings without mounts")
+                allowed = "isotropic bearings and supports, and touchdown bearings without mounts, in a drop; a shock may come to others"
+                raise InputError(self.kind, self.noun, allowed)
             rotor = rotor.unforced
         moved = ForcingModes.of(rotor, forces)
         stages, time = list[Stage](), begun

@@ -134,8 +134,8 @@ def stretches(
     )  # the rest counts as much as what has an end
     for stage in stages:
         longest = time_limit(stage.rotor, stage.trigger) if end is None else end - passed
-        shares = (min(1.0, time / whole) for time in (passed, passed + min(longest, stage.trigger.time)))
-        in_stage = following._replace(tell=following.tell.part(*shares))
+        until_then = min(1.0, (passed + min(longest, stage.trigger.time)) / whole)
+        in_stage = following._replace(tell=following.tell.part(min(1.0, passed / whole), until_then))
         if stage.slowed_to < np.inf:
             speed, angle = state.shaft or (1.0, 0.0)
             state = dataclasses.replace(state, shaft=(min(speed, stage.slowed_to), angle))
