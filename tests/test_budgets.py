@@ -18,7 +18,7 @@ LIMITS = {
     "parameters base": 3665,
     "models": 2371,
     "core": 6613,
-    "motions disturbances": 4716,
+    "motions disturbances": 4718,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2372,
     "studies": 3458,

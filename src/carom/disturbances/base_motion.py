@@ -98,24 +98,26 @@ class BaseMotion(Disturbance):
     def stages_of_base(self, rotor: Rotor, size: float, angle: float, begun: float) -> list[Stage]:
         """The rotor, which levitates or falls, in a stage for each section.
 
-        In free fall weight and a ramp drive the same velocity and displacement, so weight becomes part of the ramp.
+        In free fall weight and a ramp drive the same velocity and displacement, so weight becomes part of the ramp; what that does to mounts, which have no
+        weight, is taken back.
 
         Raises
         ------
         InputError
-            It falls, and weight acts in another way than the motion of the base, as where mounts are shaken too.
+            It falls, and supports are anisotropic.
         """
-        from carom.models import Stage, Trigger
+        from carom.models import Force, Stage, Trigger
         from carom.models.forcing_modes import ForcingModes
+        from carom.models.mode_arrays import STEADY
 
         forces = self.forces(rotor, cmath.rect(1.0, angle + begun * self.turns_with_shaft))
         weight, constant, along = rotor.acting.weight, 0.0 + 0j, forces[0].accelerations
         if forces[0].rates is not None and weight is not None and rotor.system.rest_radius == np.inf:
-            constant = complex(np.vdot(along, weight) / np.vdot(along, along))
-            if np.abs(weight - constant * along).max() > 1e-9 * np.abs(weight).max() or rotor.is_anisotropic:
-                allowed = "isotropic bearings and supports, and touchdown bearings without mounts, in a drop; a shock may come to others"
-                raise InputError(self.kind, self.noun, allowed)
-            rotor = rotor.unforced
+            if rotor.is_anisotropic:
+                raise InputError(self.kind, self.noun, "isotropic supports in a drop; a shock may come to others")
+            moves = rotor.system.translated
+            constant = complex(np.vdot(moves, weight) / np.vdot(moves, along))
+            rotor = rotor.unforced.under(Force(STEADY, weight - constant * along))
         moved = ForcingModes.of(rotor, forces)
         stages, time = list[Stage](), begun
         for section in self.sections(rotor):
