@@ -29,7 +29,7 @@ LIMITS = {
     "sweeps": 1399,
     "reproductions": 1299,
 }
-TESTS, ANY = 38_644, 291
+TESTS, ANY = 38_649, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry", "rigid_rotor"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""
