@@ -1,5 +1,6 @@
 """Loads of drops over all stages: against closed forms of a mass on a spring, momentum of the race, the ledger and rolling."""
 
+import dataclasses
 import math
 from pathlib import Path
 
@@ -91,6 +92,8 @@ def test_the_life_that_a_landing_uses(tmp_path, name):
         # Nodes at the ends of segments, where the force sets in, lose digits.
         assert plane.catalogue.life_share == pytest.approx(rolled / (2e6 * math.pi * 9e3**3), rel=1e-8)
         assert plane.landings == 1.0 / plane.catalogue.life_share
+        broken = dataclasses.replace(plane, catalogue=plane.catalogue._replace(static_share=1.01))
+        assert broken.landings == 0.0
         assert plane.catalogue.static_share == pytest.approx(plane.si()["force"] / 4e3, rel=1e-14)
         checks = {
             check.name: check for check in cm.studies.check_loads(plane, cm.parameters.LoadLimits(life_share=1e-14))

@@ -190,9 +190,11 @@ class TouchdownLoads(Result):
 
     @property
     def landings(self) -> float | None:
-        """Such landings in the life of the touchdown bearing; ``None`` where its share of the life is not known or zero."""
-        share = self.catalogue.life_share
-        return 1.0 / share if share else None
+        """Such landings in the life of the touchdown bearing, 0 above its static rating; ``None`` where its share of the life is not known or zero."""
+        share, static = self.catalogue.life_share, self.catalogue.static_share
+        if not share:
+            return None
+        return 0.0 if static and static > 1.0 else 1.0 / share
 
 
 @dataclass(frozen=True, repr=False)

@@ -69,6 +69,7 @@ RIGID = (
     *_IN_BOTH,
 )
 """Loads of a touchdown bearing as shown to people: labels, and attributes by name and kind; zero or unknown ones are left out."""
+NONE_LEFT = ("such landings left", "none: the static rating is exceeded")
 TURNING = "speed_ratio cage_speed:speed up_to_speed_at:time ball_traction heat:energy torque_si=torque neglected drag_si=drag starts_at_si=starts_at"
 _KEYS = {"ball_load": "ball_load_si", "pressure": "pressure_si"}
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
@@ -245,6 +246,7 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
     if bearing and (law := bearing.law_of_balls):
         beyond = "; the peak force lies above" if (plane.si() or {})["force"] > law.highest else ""
         rows.append(("stiffness of balls", law.words + beyond))
+    rows += [NONE_LEFT] if plane.landings == 0.0 else []
     rows += plane.temperatures.rows() if plane.temperatures else []
     return rows if plane.whirl is None else [*rows, ("whirl at the end", _whirl_words(plane.whirl, loads.outcome))]
 

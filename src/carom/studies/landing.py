@@ -7,7 +7,7 @@ from typing import NamedTuple
 from carom.models import rotor_of
 from carom.parameters import LIMIT_FIELDS, LoadLimits
 from carom.parameters.formats import number
-from carom.studies.drops import DropStudy, LoadCheck
+from carom.studies.drops import NONE_LEFT, DropStudy, LoadCheck
 from carom.studies.wording import Wording
 
 COLUMN = (
@@ -30,7 +30,10 @@ WARMEST = "highest temperature"
 
 def load_columns(found: DropStudy) -> list[tuple[str, list[str]]]:
     """Labels, and what each touchdown bearing has of that load; what none of them has is left out."""
-    columns = [dict(Wording(plane.scales).rows(COLUMN, plane)) for plane in found.loads.planes]
+    columns = [
+        dict(Wording(plane.scales).rows(COLUMN, plane) + ([NONE_LEFT] if plane.landings == 0.0 else []))
+        for plane in found.loads.planes
+    ]
     for column, plane in zip(columns, found.loads.planes, strict=True):
         if plane.temperatures is not None:
             column[WARMEST] = f"{number(plane.temperatures.highest, 3)} °C, {plane.temperatures.hottest}"
