@@ -145,7 +145,7 @@ def test_until_the_shaft_stands(carom, tmp_path):
     assert (code, "--until = standstill: a time beside --map" in err) == (2, True)
 
 
-def test_histories_beside_a_drop_and_a_motion(carom, refused, tmp_path):
+def test_histories_beside_a_drop_and_a_motion(carom, refused, tmp_path, monkeypatch):
     file = tmp_path / "drop.csv"
     for command in (SHORT, ("simulate", MACHINE, "--drop", "--until", "20 ms")):
         file.unlink(missing_ok=True)
@@ -154,6 +154,8 @@ def test_histories_beside_a_drop_and_a_motion(carom, refused, tmp_path):
         heading, *rows = file.read_text().splitlines()
         assert heading.startswith("time [s],touchdown_1_x [m],touchdown_1_y [m],touchdown_1_normal_force [N]")
         assert len(rows) == 201
+    monkeypatch.setattr("carom.cli.drop._DRAWN", 50)
+    assert "s: the first 50 impacts and steps of contact" in carom(*SHORT, "--history", str(file))[2]
     refused("carom: --every = 1 ms: allowed only with --history FILE", *SHORT, "--every", "1 ms")
     refused("carom: --nodes = a: must be numbers of nodes", *SHORT, "--history", str(file), "--nodes", "a")
     refused(

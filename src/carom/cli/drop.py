@@ -145,6 +145,11 @@ def _drop_once(
         found, motion = follow(case, begins, _DRAWN if drawn else 0, tell.part(0.0, 0.4) if drawn else tell)
         if motion is not None and record is not None:
             record(motion)
+            if (end := motion.begins + motion.time) < found.loads.time and not motion.outcome.settled:
+                seconds = end * (1.0 if motion.rotor.scales is None else motion.rotor.scales.time)
+                console(errors=True).print(
+                    f"History up to {seconds:.4g} s: the first {_DRAWN:,} impacts and steps of contact"
+                )
         if motion is not None and out is not None:
             from carom.report import write_drop_report
 
@@ -162,7 +167,7 @@ def _followed(
 
     loads = follow_loads(rotor, state, end, progress=tell)
     found = DropStudy(case, echo, loads, begins.reduction_error(case, loads))
-    return found, simulate(rotor, state, end, settle=True, max_events=drawn) if drawn else None
+    return found, simulate(rotor, state, end, max_events=drawn) if drawn else None
 
 
 def _slowed(
