@@ -1,7 +1,7 @@
 """The command line.
 
 A module for each command (``study``, ``simulate``, ``drop``, ``orbits``, ``attractors``, ``prove``, ``response``, ``bifurcations``,
-``regions``, ``basins``, ``sweep``, ``paper``, ``explore``, ``template``, ``import_rotor``), and what they share:
+``regions``, ``basins``, ``fit``, ``sweep``, ``paper``, ``explore``, ``template``, ``import_rotor``), and what they share:
 
 =================  ==================================================================================================================
 ``app``            all commands, and how errors are reported

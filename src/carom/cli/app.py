@@ -52,6 +52,7 @@ ON_A_MACHINE = (
     "bifurcations",
     "regions",
     "basins",
+    "fit",
 )
 OTHERS = "sweep", "paper", "explore", "template", "import_rotor"
 for name in ON_A_MACHINE + OTHERS:

@@ -9,7 +9,7 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the first contacts, the last turns of the shaft, the position once a turn.  Virtual orbits are not drawn.
 
 Motions and orbits are drawn by ``motions``, ``courses``, ``landings`` and ``overviews``; levitation over the speed by ``levitation``; along
-parameters ``diagrams`` and ``regions``; disturbances ``basins``, ``maps`` and ``sweeps``.  Shared are ``style`` (what colours mean),
+parameters ``diagrams`` and ``regions``; disturbances ``basins``, ``maps`` and ``sweeps``; measurements ``fits``.  Shared are ``style`` (what colours mean),
 ``figure`` (a figure that keeps the style sheet, and its files), ``plane`` (the clearance circle), ``cells`` (the looks of motions) and ``words``.
 """
 
@@ -19,6 +19,7 @@ from carom.plots.basins import attractors, basin, basin_pair, proven_kicks
 from carom.plots.courses import energies, radius, shock_response, touchdown
 from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, applied, figures_for, heading, save
+from carom.plots.fits import fit
 from carom.plots.landings import landing, standstill
 from carom.plots.levitation import campbell, mode_shapes, sensitivity, unbalance_response
 from carom.plots.maps import drop_map, gain_map
@@ -46,6 +47,7 @@ __all__ = [
     "equilibria",
     "equilibria_and_orbits",
     "figures_for",
+    "fit",
     "gain_map",
     "heading",
     "landing",
