@@ -353,17 +353,14 @@ class DropStudy(Result):
         """The drop as JSON."""
         case, loads = self.case, self.loads
         gravity, scales = case.gravity or ASSUMED, loads.scales
+        law = None if loads.planes[0].is_compliant else {"law": "rigid"}
         return {
             "name": case.name,
             "disturbance": self.echo.document(scales),
             **rotor_of(case).document(),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
             "gravity_assumed": self.assumed,
-            "touchdown": case.touchdown.document()
-            if case.touchdown
-            else None
-            if loads.planes[0].is_compliant
-            else {"law": "rigid"},
+            "touchdown": case.touchdown.document() if case.touchdown else law,
             **record(loads, DROP, scales),
             **record(self, "reduction"),
             "shaft": loads.shaft and record(loads.shaft, SHAFT, scales),
