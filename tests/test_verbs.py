@@ -61,6 +61,9 @@ CALLS = {
     "attractors.find_attractors": lambda m: cm.find_attractors(m, FEW, known=False),
     "attractors.follow_until_settled": lambda m: cm.attractors.follow_until_settled(m, settled(m), impacts=100),
     "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
+    "basins.compare_recoveries": lambda m: stated(
+        lambda: cm.basins.compare_recoveries(m, (cm.parameters.RecoveryAction("early", 0.1),), 2, until=5.0)
+    ),
     "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
     "basins.map_cells": lambda m: cm.basins.map_cells(m, KICKS),
     "basins.map_drops": lambda m: stated(lambda: cm.basins.map_drops(m, over={"phase": 2, "speed": 2})),

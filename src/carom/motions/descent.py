@@ -94,7 +94,7 @@ class Torques:
 
 
 @dataclass
-class Modes:
+class SteppedRotor:
     """A rotor in steps of speed, in each of which its matrices are those of the middle, and the critical speeds that are passed.
 
     Attributes
@@ -138,7 +138,7 @@ class Modes:
 
 
 def turning_at(rotor: Rotor, speed: float, shaft: Shaft, changes: Callable[[float], np.ndarray] | None) -> Rotor:
-    """The rotor with its shaft turning at about this speed, in ``Ω``, for which its matrices are; see :class:`Modes`."""
+    """The rotor with its shaft turning at about this speed, in ``Ω``, for which its matrices are; see :class:`SteppedRotor`."""
     equations = rotor.equations
     damping, stiffness = (0.0, 0.0) if changes is None else changes(speed)
     found = replace(
@@ -157,7 +157,7 @@ def turning_at(rotor: Rotor, speed: float, shaft: Shaft, changes: Callable[[floa
 class Descent:
     """A shaft on its way down: where it is, and what it has passed."""
 
-    modes: Modes
+    modes: SteppedRotor
     torques: Torques
     until: float
     following: Following

@@ -3,7 +3,7 @@
 Friction in contact changes the speed within the motion.  All other torques act in steps, half of a step ahead of the motion, and gyroscopic
 moments, and whatever else of the matrices depends on the speed, are those of the middle of each step of speed, so the error is of second order
 in the step; it is estimated from steps twice as large.
-Left out: the torque of the unbalance on the shaft, whose mean in each step is told; the torque ``I_p Ω̇`` about a tilted axis; and rolling
+Left out: the torque of the unbalance on the shaft, whose mean in each step is given; the torque ``I_p Ω̇`` about a tilted axis; and rolling
 resistance, without which a rotor that stands rocks for ever.
 """
 
@@ -25,7 +25,7 @@ from carom.models.planar import shaft_of
 from carom.models.stages import stages_of
 from carom.models.turning import Shaft
 from carom.motions.budget import present_question
-from carom.motions.descent import TINY, Descent, Modes, Torques
+from carom.motions.descent import TINY, Descent, SteppedRotor, Torques
 from carom.motions.load_sums import loads_of
 from carom.motions.loads import DropLoads
 from carom.motions.settling import PATIENCE
@@ -37,7 +37,7 @@ from carom.parameters import Case, Drive, Scales, own_time
 LONGEST = 2e7
 """Time in ``1/Ω`` after which a shaft that has not come to a stand is given up."""
 ERROR_FACTOR = 3.0
-"""Error that is told, in the largest change with steps twice as large: contacts magnify changes, so that two motions may agree by chance."""
+"""Estimated error, in the largest change with steps twice as large: contacts magnify changes, so that two motions may agree by chance."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -181,7 +181,7 @@ def spin_down(
         changes(0.5 / steps)  # refused at once where coefficients of a support are not known down to there
 
     def descent(steps: int, tell: Reporter) -> Descent:
-        modes, torques = Modes(falling, shaft, changes, steps), Torques(shaft, 1.0 / steps)
+        modes, torques = SteppedRotor(falling, shaft, changes, steps), Torques(shaft, 1.0 / steps)
         return Descent(modes, torques, limit, following, tell)
 
     kept = _Kept(keep)
