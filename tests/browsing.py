@@ -23,7 +23,6 @@ OPTIONS = (
 )
 PROGRAM = """
 import sys
-from types import SimpleNamespace
 from carom.__main__ import run
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.page import questions
@@ -31,11 +30,11 @@ from carom.models import rotor_of
 # A study takes seconds; it has tests of its own.  This is what it says of one of the examples.
 def judge(case, tell):
     rest_of(rotor_of(case))  # refused where there is no levitation, as a study is
-    return SimpleNamespace(
-        advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
-        lead="Came back in every trial from what it must survive, vibration in zone C: sampled, not proven.",
-        survived=("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
-    )
+    return {
+        "advice": "Change: damping 1,400 N s/m to at least 1,706 N s/m.",
+        "lead": "Came back in every trial from what it must survive, vibration in zone C: sampled, not proven.",
+        "survived": ("Kick: cannot touch up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
+    }
 questions.judge = judge
 sys.argv.insert(1, "explore")
 sys.exit(run())

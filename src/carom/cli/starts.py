@@ -42,15 +42,14 @@ def read_one(option: str, text: str, scales: Scales | None) -> Single:
     return Disturbance.of_kind(option.removeprefix("--")).single_of(text, scales, option)
 
 
-def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> float:
+def read_instant(text: str | None, rotor: Rotor) -> float:
     """Read the angle by which the shaft has turned at a disturbance, by default 0; refuse it where it says nothing."""
     if text is None:
         return 0.0
-
     if not rotor.depends_on_instant:
         allowed = "allowed only under weight, with limits of the magnetic bearings, or where bearings are anisotropic"
-        raise InputError(option, text, allowed)
-    return read_angle(option, text, rotor.scales)
+        raise InputError("--instant", text, allowed)
+    return read_angle("--instant", text, rotor.scales)
 
 
 def read_angle(option: str, text: str, scales: Scales | None) -> float:

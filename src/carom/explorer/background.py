@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -110,10 +111,10 @@ class Worker:
                     raise SupersededError
                 self._tell(kind, progress)
 
-            try:
-                self._finish(job, self._result(job, tell))
-            except SupersededError:
-                continue
+            with suppress(SupersededError):
+                result = self._result(job, tell)
+                if not self._stale.is_set():
+                    job.done(result)
 
     def _result(self, job: Job, tell: Callable[[Progress], None]) -> object:
         try:
@@ -122,7 +123,3 @@ class Worker:
             raise
         except Exception as problem:  # noqa: BLE001  (handed to the caller)
             return problem
-
-    def _finish(self, job: Job, result: object) -> None:
-        if not self._stale.is_set():
-            job.done(result)

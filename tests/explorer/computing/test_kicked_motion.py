@@ -23,24 +23,26 @@ SINGLE = 1e-6
 def test_it_is_the_motion(rotor, radial, tangential):
     rest = rest_of(rotor)
     kicked = follow_kick(rotor, KICKS, radial, tangential)
+    seen = kicked["planes"][0]
     motion = carom.simulate(rotor, rest.kicked(radial, tangential), settle=True)
-    assert kicked.outcome == motion.outcome.label
-    positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(kicked.times.astype(float))
+    assert kicked["outcome"] == motion.outcome.label
+    positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(kicked["times"].astype(float))
     # Times of single precision at speeds of the order of one.
-    np.testing.assert_allclose(kicked.planes[0].x + 1j * kicked.planes[0].y, positions, atol=LONGEST * SINGLE)
-    count = len(kicked.planes[0].impact_times)
+    np.testing.assert_allclose(seen["x"] + 1j * seen["y"], positions, atol=LONGEST * SINGLE)
+    count = len(seen["impact_times"])
     known = min(count, len(motion.contacts.time))
-    np.testing.assert_allclose(kicked.planes[0].impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
-    assert kicked.planes[0].hardest == motion.contacts.normal_impulse.max()
-    assert np.hypot(kicked.planes[0].x, kicked.planes[0].y).max() <= 1.0 + SINGLE
+    np.testing.assert_allclose(seen["impact_times"][:known], motion.contacts.time[:known], rtol=SINGLE)
+    assert seen["hardest"] == motion.contacts.normal_impulse.max()
+    assert np.hypot(seen["x"], seen["y"]).max() <= 1.0 + SINGLE
 
 
 def test_every_impact_is_on_the_wall_at_its_instant():
     kicked = follow_kick(BOUNCING, KICKS, 0.6, 0.1)
-    places = np.searchsorted(kicked.times, kicked.planes[0].impact_times)
-    np.testing.assert_allclose(np.hypot(kicked.planes[0].x, kicked.planes[0].y)[places], 1.0, atol=SINGLE)
-    angles = np.angle(kicked.planes[0].x + 1j * kicked.planes[0].y)[places]
-    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * kicked.planes[0].impact_angles), atol=LONGEST * SINGLE)
+    seen = kicked["planes"][0]
+    places = np.searchsorted(kicked["times"], seen["impact_times"])
+    np.testing.assert_allclose(np.hypot(seen["x"], seen["y"])[places], 1.0, atol=SINGLE)
+    angles = np.angle(seen["x"] + 1j * seen["y"])[places]
+    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * seen["impact_angles"]), atol=LONGEST * SINGLE)
 
 
 @pytest.mark.jit_only
@@ -51,10 +53,10 @@ def test_a_flexible_machine_is_followed_at_each_touchdown_bearing():
     size = kicks.own(0.3, rotor.scales)
     kicked = follow_kick(rotor, kicks, size, 0.0)
     motion = carom.simulate(rotor, rest_of(rotor).kicked(size, 0.0), settle=True)
-    assert kicked.outcome == motion.outcome.label
-    for place, found in enumerate(kicked.planes):
+    assert kicked["outcome"] == motion.outcome.label
+    for place, found in enumerate(kicked["planes"]):
         touches = motion.seen_at(place).contacts
-        assert found.hardest == touches.peak_force.max()
-        assert found.words.startswith(f"{len(touches)} contact")
-        assert 0.5 < found.force.max() / (found.hardest * motion.seen_at(place).scales.force) <= 1.0 + SINGLE
-    assert "touchdown bearings 1 and 2" in kicked.words
+        assert found["hardest"] == touches.peak_force.max()
+        assert found["words"].startswith(f"{len(touches)} contact")
+        assert 0.5 < found["force"].max() / (found["hardest"] * motion.seen_at(place).scales.force) <= 1.0 + SINGLE
+    assert "touchdown bearings 1 and 2" in kicked["words"]

@@ -23,10 +23,10 @@ def test_kicks_that_never_touch_are_proven(monkeypatch):
     found = proofs.find_proven(rotor, PLANES["kick"], largest)
     line = largest * ((np.arange(proofs.CELLS) + 0.5) * 2.0 / proofs.CELLS - 1.0)
     size = np.hypot(*np.meshgrid(line, line))
-    assert found.open.shape == size.shape
-    assert not found.open[size < 0.8 * contact_free_kick(rotor)].any()
-    assert found.open[size > largest].all()
-    assert found.words.endswith(("mm/s", "impact", "impacts"))
+    assert found["open"].shape == size.shape
+    assert not found["open"][size < 0.8 * contact_free_kick(rotor)].any()
+    assert found["open"][size > largest].all()
+    assert found["words"].endswith(("mm/s", "impact", "impacts"))
 
 
 def test_of_other_disturbances_nothing_is_proven():

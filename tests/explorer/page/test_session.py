@@ -2,13 +2,11 @@
 
 import queue
 import threading
-from types import SimpleNamespace
 
 import pytest
 
 import carom
 from carom.explorer.computing.exports import Origin
-from carom.explorer.computing.judgement import Loss
 from carom.explorer.page import questions
 from carom.explorer.page.session import Session
 
@@ -47,7 +45,7 @@ def page(monkeypatch):
     monkeypatch.setattr(
         questions,
         "judge",
-        lambda case, tell: SimpleNamespace(lead="It may not.", advice="Change: damping.", survived=("Kick: no.",)),
+        lambda case, tell: {"lead": "It may not.", "advice": "Change: damping.", "survived": ["Kick: no."]},
     )
     ready = threading.Event()
     ready.set()
@@ -122,7 +120,8 @@ def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     page.until("state", lambda state: state["kind"] == "working" and state["words"] == "still looking")
     page.session.cancel()
     page.until("state", lambda state: state["kind"] == "cancelled")
-    monkeypatch.setattr(questions, "find_loss", lambda rotor, plane, largest, tell: Loss(None, "none found", ""))
+    none = {"size": 0.0, "value": "none found", "remark": ""}
+    monkeypatch.setattr(questions, "find_loss", lambda rotor, plane, largest, tell: none)
     page.session.resume()
     assert page.numbered("loss", 1)["value"] == "none found"
     page.until("state", lambda state: state["kind"] == "idle")
@@ -157,7 +156,7 @@ def test_what_is_wished_is_done_only_then_and_for_the_machine_shown(page, monkey
 
     def find(rotor, plane, largest, tell):
         asked.append((plane.name, largest))
-        return SimpleNamespace(words="every kick comes back", share="100 %", open=[])
+        return {"words": "every kick comes back", "share": "100 %", "open": []}
 
     monkeypatch.setattr(questions, "find_proven", find)
     page.session.show(request(1))

@@ -18,8 +18,7 @@ BOUNDARY = PAPER.replace(gamma=float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**
 def test_four_fixed_points_a_pair(gamma):
     found = fixed_points(PAPER.replace(gamma=gamma))
     assert found.total == 4 * found.pairs
-    assert found.levitates == (gamma > 0.0724686787)
-    assert found.outward == (4 if found.levitates else 2) * found.pairs
+    assert found.outward == (4 if gamma > 0.0724686787 else 2) * found.pairs
     assert found.admissible <= found.outward
     assert (found.pairs == 0) == (gamma > 0.1780277257)
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress
+from carom.base.results import record
 from carom.basins import smallest_unrecovered
 from carom.explorer.computing.kicked_motion import MOST_EVENTS
 from carom.explorer.computing.kicks import is_slow
 from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import contact_peaks, wall_at
+from carom.explorer.computing.walls import hardest_load, wall_at
 from carom.models import Rotor
 from carom.motions import simulate
 from carom.parameters import Case, LoadLimits
@@ -27,61 +27,32 @@ FEW = 2, 12
 NO_LIMITS = LoadLimits()
 
 
-@dataclass(frozen=True)
-class Judgement:
-    """What a study says first: its verdict, what to change, and what is survived of each kind of disturbance."""
-
-    lead: str
-    advice: str
-    survived: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Loss:
-    """The smallest disturbance found that does not come back, in words, and what was searched."""
-
-    size: float | None
-    """In units of the equations; ``None`` where none was found."""
-    value: str
-    remark: str
-
-
-@dataclass(frozen=True)
-class Hardest:
-    """The hardest impact among a set of disturbances, in words, and what was tried."""
-
-    peak_load: float
-    """An impulse in ``m c_r Ω``, or a force in ``m c_r Ω²``."""
-    value: str
-    remark: str
-
-
-def find_loss(rotor: Rotor, plane: DisturbancePlane, largest: float, progress: ShowProgress = None) -> Loss:
-    """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
+def find_loss(
+    rotor: Rotor, plane: DisturbancePlane, largest: float, progress: ShowProgress = None
+) -> dict[str, object]:
+    """Search for the smallest disturbance up to a size, in units of the equations, that is lost: its ``size`` in the unit that people see, 0 where none was found."""
     scales = rotor.scales
     try:
         few = dict(zip(("sizes", "directions"), FEW, strict=True)) if is_slow(rotor) else {}
         found = smallest_unrecovered(rotor, plane.by_size(rotor, largest), progress=progress, **few)
     except InputError:
-        return Loss(None, "none comes back", "there is no stable levitation to come back to")
+        return {"size": 0.0, "value": "none comes back", "remark": "there is no stable levitation to come back to"}
+    tried = f"{found.tried:,} {plane.nouns[1]} tried"
     if found.size is None:
-        return Loss(
-            None,
-            "none found",
-            f"up to {format_quantity(largest, plane.scale, scales)}, {found.tried:,} {plane.nouns[1]} tried",
-        )
+        remark = f"up to {format_quantity(largest, plane.scale, scales)}, {tried}"
+        return {"size": 0.0, "value": "none found", "remark": remark}
     below = f"; {found.fresh:,} fresh {plane.nouns[1]} below it came back" if found.fresh else ""
-    return Loss(
-        found.size,
-        format_quantity(found.size, plane.scale, scales),
-        f"smallest of {found.tried:,} {plane.nouns[1]} tried{below}",
-    )
+    size, value = plane.shown(scales)[0] * found.size, format_quantity(found.size, plane.scale, scales)
+    return {"size": size, "value": value, "remark": f"smallest of {tried}{below}"}
 
 
 def find_hardest(
     rotor: Rotor, plane: DisturbancePlane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
-) -> Hardest:
-    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest impact."""
+) -> dict[str, object]:
+    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest impact.
+
+    ``peak_load`` is an impulse in ``m c_r Ω``, or a force in ``m c_r Ω²``.
+    """
     rest, wall = rest_of(rotor), wall_at(rotor, 0)
     sizes, directions = FEW if is_slow(rotor) else (SIZES, DIRECTIONS)
     tell = Reporter.of(progress, wall.searching)
@@ -92,16 +63,17 @@ def find_hardest(
         after, start, _ = plane.start(rotor, rest, size * math.cos(angle), size * math.sin(angle))
         motion = simulate(after, start, settle=True, max_events=MOST_EVENTS)
         for seen in map(motion.seen_at, range(len(after.system.planes))):
-            if (peak_load := contact_peaks(seen).hardest) > hardest:
+            if (peak_load := hardest_load(seen.contacts)) > hardest:
                 hardest, scales = peak_load, seen.scales
         tell((place + 1) / count)
     tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}{wall.beside(hardest, limits, scales)}"
-    return Hardest(hardest, wall.load(hardest, scales) if hardest else f"no {wall.noun}", tried)
+    value = wall.load(hardest, scales) if hardest else f"no {wall.noun}"
+    return {"peak_load": hardest, "value": value, "remark": tried}
 
 
-def judge(case: Case, progress: ShowProgress = None) -> Judgement:
-    """Verdict and advice of a full study."""
+def judge(case: Case, progress: ShowProgress = None) -> dict[str, object]:
+    """Verdict of a full study, what to change, and what is survived of each kind of disturbance."""
     found = study(case, progress=progress)
     first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in CHANGES), None)
     advice = f"{first.label}: {first.text}." if first else ""
-    return Judgement(found.verdict.lead, advice, found.verdict.survived)
+    return record(found.verdict, "lead survived") | {"advice": advice}

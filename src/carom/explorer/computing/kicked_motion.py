@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from carom.attractors.naming import name_motions
 from carom.base.outcome import Outcome
 from carom.base.progress import ShowProgress
+from carom.base.results import record
 from carom.explorer.computing.planes import DisturbancePlane
 from carom.explorer.computing.rest import rest_of
-from carom.explorer.computing.walls import ContactPeaks, contact_peaks, wall_at
+from carom.explorer.computing.walls import hardest_load, peak_loads, wall_at
 from carom.models import Rotor
-from carom.motions import LastingContact, State, Trajectory, settle, simulate
+from carom.motions import ContactLog, LastingContact, State, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.parameters.formats import shown_in
-from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.studies.wording import counted, listed
 
@@ -35,81 +34,14 @@ CALM, LONGEST_CALM = 4.0, 120.0
 """Time constants, and the longest time, that are drawn after the last contact of a motion that comes back."""
 
 
-@dataclass(frozen=True)
-class ContactSpan:
-    """A stretch of lasting contact: its times in ``1/Ω``, words and colour."""
-
-    start: float
-    end: float
-    words: str
-    colour: str
-
-
-@dataclass(frozen=True, eq=False)
-class PathAtBearing:
-    """A motion at one touchdown bearing; lengths in its clearances.
-
-    Attributes
-    ----------
-    x, y : ndarray of float32, shape (n,)
-        Position in the co-rotating frame; the instants of impacts are among them.
-    force : ndarray of float32, shape (n,)
-        Normal force of a compliant bearing, in N or in ``m c_r Ω²``; zero in a rigid one.
-    force_unit : str
-    impact_times, impact_angles, impact_speeds, peak_loads : ndarray of float32, shape (m,)
-        Impacts that are drawn, or impacts at a compliant bearing: time in ``1/Ω``, angle in rad, radial speed before in ``c_r Ω``, and how hard
-        each is: normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
-    forward : ndarray of bool, shape (m,)
-        Whether the rotor whirls forward in the fixed frame just before the impact.
-    spans : tuple of ContactSpan
-        Lasting contact.
-    hardest : float
-        The hardest of all impacts, also of those that are not drawn; 0 without one.
-    words : str
-        What the bearing bears.
-    """
-
-    x: np.ndarray
-    y: np.ndarray
-    force: np.ndarray
-    force_unit: str
-    impact_times: np.ndarray
-    impact_angles: np.ndarray
-    impact_speeds: np.ndarray
-    peak_loads: np.ndarray
-    forward: np.ndarray
-    spans: tuple[ContactSpan, ...]
-    hardest: float
-    words: str
-
-
-@dataclass(frozen=True, eq=False)
-class KickedMotion:
-    """A motion after a kick.
-
-    Attributes
-    ----------
-    times : ndarray of float32, shape (n,)
-        In ``1/Ω``.
-    planes : tuple of PathAtBearing
-    whole : bool
-        Whether the motion is drawn up to where it is settled.
-    outcome, colour, words : str
-        Label of the outcome, its colour, and what is seen, as one sentence.
-    """
-
-    times: np.ndarray
-    planes: tuple[PathAtBearing, ...]
-    whole: bool
-    outcome: str
-    colour: str
-    words: str
-
-
 def follow_kick(
     rotor: Rotor, plane: DisturbancePlane, first: float, second: float, progress: ShowProgress = None
-) -> KickedMotion:
-    """Follow one disturbance, by its components in units of the equations, to where it ends; refuse one that is not possible."""
+) -> dict[str, object]:
+    """Follow one disturbance, by its components in units of the equations, to where it ends; refuse one that is not possible.
+
+    ``times``, float32 of shape (n,), are in ``1/Ω``; ``planes`` hold what is drawn at each touchdown bearing.  The motion is drawn ``whole`` if up to where it
+    is settled; ``outcome``, ``colour`` and ``words`` are the label of the outcome, its colour, and what is seen, as one sentence.
+    """
     rotor, start, begin = plane.start(rotor, rest_of(rotor), first, second)
     motion = simulate(rotor, start, settle=True, progress=progress)
     # A motion is settled once its end is known, which may be long before it has arrived there.
@@ -118,39 +50,50 @@ def follow_kick(
     times = times[:: math.ceil(len(times) / (2 * MOST_SAMPLES))]
     _, (name,) = name_motions(rotor, settle(rotor, State(np.array([start.position]), np.array([start.velocity]))))
     look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
-    every = [contact_peaks(motion.seen_at(place)) for place in range(len(rotor.system.planes))]
-    return KickedMotion(
-        times=times.astype(np.float32),
-        planes=tuple(_at_bearing(shown.seen_at(place), times, peaks) for place, peaks in enumerate(every)),
-        whole=shown.time >= motion.time,
-        outcome=motion.outcome.label,
-        colour=look.colour,
-        words=_words(motion, begin, every, MotionLook(0, name, look, look.colour, 1.0).words),
-    )
+    logs = [motion.seen_at(place).contacts for place in range(len(rotor.system.planes))]
+    return {
+        "times": times.astype(np.float32),
+        "planes": [_at_bearing(shown.seen_at(place), times, log) for place, log in enumerate(logs)],
+        "whole": shown.time >= motion.time,
+        "outcome": motion.outcome.label,
+        "colour": look.colour,
+        "words": _words(motion, begin, logs, name.words),
+    }
 
 
-def _at_bearing(shown: Trajectory, times: np.ndarray, every: ContactPeaks) -> PathAtBearing:
-    """What is drawn of a motion at the touchdown bearing at which it is seen."""
+def _at_bearing(shown: Trajectory, times: np.ndarray, every: ContactLog) -> dict[str, object]:
+    """What is drawn of a motion at the touchdown bearing at which it is seen; lengths in its clearances.
+
+    Arrays of shape (n,) are the position ``x`` and ``y`` in the co-rotating frame, the instants of impacts among them, and the normal ``force`` of a compliant
+    bearing, in N or in ``m c_r Ω²``.  Those of shape (m,) are impacts that are drawn, or the beginnings of contact with a compliant bearing: time in ``1/Ω``,
+    angle in rad, radial speed before in ``c_r Ω``, how hard each is, and whether the rotor whirls ``forward`` in the fixed frame just before.
+    ``spans`` are the stretches of lasting contact, and ``hardest`` is the hardest of all impacts, also of those that are not drawn.
+    """
     position, _ = shown.at_plane(times)
-    wall, log = wall_at(shown.rotor, shown.plane), contact_peaks(shown)
+    wall, log = wall_at(shown.rotor, shown.plane), shown.contacts.some(shown.contacts.entered)
     factor, unit = shown_in("force", shown.scales)
-    force = factor * shown.forces(times)[0] if wall.compliant else np.zeros(len(times))
-    return PathAtBearing(
-        x=position.real.astype(np.float32),
-        y=position.imag.astype(np.float32),
-        force=force.astype(np.float32),
-        force_unit=unit,
-        impact_times=log.time.astype(np.float32),
-        impact_angles=np.angle(np.exp(1j * log.angle)).astype(np.float32),
-        impact_speeds=log.radial_speed.astype(np.float32),
-        peak_loads=log.peak_load.astype(np.float32),
-        forward=log.angular_speed > -1.0,
-        spans=tuple(map(span_of, shown.lasting_contacts)),
-        hardest=every.hardest,
-        words=f"{counted(every.count, wall.noun)}; {wall.stated(every, shown.scales)}"
-        if every.count
-        else f"no {wall.noun}",
-    )
+    drawn = {
+        "x": position.real,
+        "y": position.imag,
+        "force": factor * shown.forces(times)[0] if wall.compliant else np.zeros(len(times)),
+        "impact_times": log.time,
+        "impact_angles": np.angle(np.exp(1j * log.angle)),
+        "impact_speeds": log.radial_speed,
+        "peak_loads": peak_loads(log),
+    }
+    return {
+        **{name: values.astype(np.float32) for name, values in drawn.items()},
+        "force_unit": unit,
+        "forward": (log.angular_speed > -1.0).astype(np.uint8),
+        "spans": [_span(each) for each in shown.lasting_contacts],
+        "hardest": hardest_load(every),
+        "words": f"{counted(len(every), wall.noun)}; {wall.stated(every)}" if len(every) else f"no {wall.noun}",
+    }
+
+
+def _span(stretch: LastingContact) -> dict[str, object]:
+    """A stretch of lasting contact as it is drawn."""
+    return {**record(stretch, "start end"), **record(REGIMES[stretch.phase], "words colour")}
 
 
 def _shown_until(rotor: Rotor, motion: Trajectory) -> float:
@@ -164,19 +107,12 @@ def _shown_until(rotor: Rotor, motion: Trajectory) -> float:
     return min(end, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
 
 
-def span_of(stretch: LastingContact) -> ContactSpan:
-    """A stretch of lasting contact as it is drawn."""
-    look = REGIMES[stretch.phase]
-    return ContactSpan(stretch.start, stretch.end, look.words, look.colour)
-
-
-def _words(motion: Trajectory, begin: str, peaks: list[ContactPeaks], ending: str) -> str:
+def _words(motion: Trajectory, begin: str, logs: list[ContactLog], ending: str) -> str:
     """What is seen, with the load of the bearing that bears most."""
-    worst = max(range(len(peaks)), key=lambda place: peaks[place].hardest)
-    wall, seen = wall_at(motion.rotor, worst), motion.seen_at(worst)
-    met = [str(place) for place, every in enumerate(peaks, start=1) if every.count]
-    where = f" at touchdown bearing{'s' if len(met) > 1 else ''} {listed(met)}" if len(peaks) > 1 and met else ""
-    load, count = wall.stated(peaks[worst], seen.scales), sum(every.count for every in peaks)
+    worst = max(range(len(logs)), key=lambda place: hardest_load(logs[place]))
+    wall, met = wall_at(motion.rotor, worst), [str(place) for place, log in enumerate(logs, start=1) if len(log)]
+    where = f" at touchdown bearing{'s' if len(met) > 1 else ''} {listed(met)}" if len(logs) > 1 and met else ""
+    load, count = wall.stated(logs[worst]), sum(map(len, logs))
     if motion.outcome in REPEATING:
         return f"{begin} ends in {ending}; {load}."
     impacts = f"without {wall.one}" if count == 0 else f"after {counted(count, wall.noun)}{where}; {load}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict
 
 from carom.closed_forms import find_equilibria
 from carom.closed_forms.exact_results import exact_results
@@ -10,7 +10,7 @@ from carom.models import Rotor
 from carom.orbits import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.studies import Wording
-from carom.studies.summaries import MotionRow, simple_motion_rows, steady_rows
+from carom.studies.summaries import simple_motion_rows, steady_rows
 
 NO_ORBITS = (
     "Orbits are not searched on this page: only those on a rigid wall that stands still, of a rotor with one mass, have closed forms. "
@@ -19,32 +19,19 @@ NO_ORBITS = (
 """What is said in place of orbits that are not known in closed form."""
 
 
-@dataclass(frozen=True, eq=False)
-class MotionTable:
-    """Steady motions and single-impact orbits.
-
-    Attributes
-    ----------
-    argument : str
-        Why no orbit is missing, or which were not searched.
-    """
-
-    rows: tuple[MotionRow, ...]
-    argument: str
-
-
-def table_of(rotor: Rotor) -> MotionTable:
-    """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions.
+def table_of(rotor: Rotor) -> dict[str, object]:
+    """Compute the ``rows`` of the table, and the ``argument`` why no orbit is missing; of a rotor whose orbits are not known in closed form it has the steady motions.
 
     Refuse one that never is at rest in the co-rotating frame.
     """
     if not exact_results(rotor).orbits:
         steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
-        return MotionTable(tuple(steady), NO_ORBITS)
+        return {"rows": [asdict(row) for row in steady], "argument": NO_ORBITS}
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
     rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))
-    return MotionTable(tuple(replace(row, multipliers=texts.get(row.name, "")) for row in rows), orbits.argument)
+    listed = [asdict(row) | {"multipliers": texts.get(row.name, "")} for row in rows]
+    return {"rows": listed, "argument": orbits.argument}
 
 
 def _multipliers(orbit: Orbit) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from carom.base.outcome import InputError
@@ -18,26 +16,14 @@ CELLS = 240
 """Cells along each side of the picture of what is proven."""
 
 
-@dataclass(frozen=True, eq=False)
-class ProvenPicture:
-    """What is proven of the kicks of a picture.
+def find_proven(
+    rotor: Rotor, plane: DisturbancePlane, largest: float, progress: ShowProgress = None
+) -> dict[str, object]:
+    """Prove kicks up to a size, in units of the equations; of other disturbances nothing is proven.
 
-    Attributes
-    ----------
-    words : str
-    share : str
-        Share of the area that is proven.
-    open : ndarray of uint8, shape (n, n)
-        1 where nothing is proven, by second (rows) and first component, both ascending.
+    ``share`` is that of the area that is proven, and ``open``, uint8 of shape (n, n), is 1 where nothing is proven, by second (rows) and first component,
+    both ascending.
     """
-
-    words: str
-    share: str
-    open: np.ndarray
-
-
-def find_proven(rotor: Rotor, plane: DisturbancePlane, largest: float, progress: ShowProgress = None) -> ProvenPicture:
-    """Prove kicks up to a size, in units of the equations; of other disturbances nothing is proven."""
     if plane.name != "kick":
         raise InputError("what disturbs the rotor", plane.nouns[1], "kicks: of other disturbances nothing is proven")
     from carom.proofs import ProvenKicks, prove_kicks  # only here: they need an extra
@@ -48,4 +34,4 @@ def find_proven(rotor: Rotor, plane: DisturbancePlane, largest: float, progress:
     places = kicks.at(*np.meshgrid(middles, middles))
     left = np.array([*(part.open for part in kicks.parts), True])[places]
     share = number(rounded_down(100.0 * kicks.share)) if kicks.share else "0"
-    return ProvenPicture(kicks.words, f"{share} %", left.astype(np.uint8))
+    return {"words": kicks.words, "share": f"{share} %", "open": left.astype(np.uint8)}

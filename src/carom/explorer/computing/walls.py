@@ -7,59 +7,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.models import Rotor
-from carom.motions import Trajectory
+from carom.motions import ContactLog
 from carom.motions.kinematics import is_compliant
 from carom.parameters import LoadLimits, Scales
 from carom.parameters.formats import number
 from carom.studies import Wording
 
 
-@dataclass(frozen=True, eq=False)
-class ContactPeaks:
-    """Impacts of a motion, or beginnings of contact with a compliant wall, in chronological order.
-
-    Attributes
-    ----------
-    time, angle, angular_speed, radial_speed : ndarray of float, shape (n,)
-        As in :class:`~carom.motions.ContactLog`.
-    peak_load : ndarray of float, shape (n,)
-        Normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
-    count : int
-        Number of impacts or contacts; a contact in which the motion begins counts too.
-    hardest : float
-        The hardest impact, also that of such a contact; 0 without any.
-    deepest : float
-        Largest depth in the wall, in clearances.
-    """
-
-    time: np.ndarray
-    angle: np.ndarray
-    angular_speed: np.ndarray
-    radial_speed: np.ndarray
-    peak_load: np.ndarray
-    count: int
-    hardest: float
-    deepest: float = 0.0
+def peak_loads(log: ContactLog) -> np.ndarray:
+    """How hard each contact is: normal impulse of an impact in ``m c_r Ω``, or peak force in ``m c_r Ω²``."""
+    return np.where(log.is_impact, log.normal_impulse, log.peak_force)
 
 
-def contact_peaks(motion: Trajectory) -> ContactPeaks:
-    """Impacts of a motion, or beginnings of contact with a compliant wall."""
-    log, came = motion.contacts, motion.contacts.entered
-    peak_load = log.peak_force if motion.is_compliant else log.normal_impulse
-    return ContactPeaks(
-        log.time[came],
-        log.angle[came],
-        log.angular_speed[came],
-        log.radial_speed[came],
-        peak_load[came],
-        len(log),
-        _most(peak_load),
-        _most(log.deepest),
-    )
-
-
-def _most(values: np.ndarray) -> float:
-    return float(values.max(initial=0.0))
+def hardest_load(log: ContactLog) -> float:
+    """The hardest of them, a contact in which the motion begins among them; 0 without any."""
+    return float(peak_loads(log).max(initial=0.0))
 
 
 @dataclass(frozen=True)
@@ -91,12 +53,13 @@ class ContactWords:
         """Write a load with its unit."""
         return Wording(scales).force(hardest) if self.compliant else Wording(scales).impulse(hardest)
 
-    def stated(self, peaks: ContactPeaks, scales: Scales | None) -> str:
+    def stated(self, log: ContactLog) -> str:
         """The load of a motion in words."""
-        load = self.load(peaks.hardest, scales)
+        load = self.load(hardest_load(log), log.scales)
         if not self.compliant:
             return f"hardest impulse {load}"
-        depth = f"{Wording(scales).length(peaks.deepest)}, {number(100.0 * peaks.deepest, 2)} % of the clearance"
+        deepest = float(log.deepest.max(initial=0.0))
+        depth = f"{Wording(log.scales).length(deepest)}, {number(100.0 * deepest, 2)} % of the clearance"
         return f"largest force {load}, largest depth {depth}"
 
     def beside(self, hardest: float, limits: LoadLimits, scales: Scales | None) -> str:

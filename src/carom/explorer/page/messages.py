@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from typing import Any
 
-from carom.base.results import record
 from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
 from carom.explorer.computing.controls import Control
-from carom.explorer.computing.diagrams import DiagramPicture, DiagramPoint
-from carom.explorer.computing.judgement import Loss
-from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.levitation import levitation_of
-from carom.explorer.computing.motions import MotionTable
 from carom.explorer.computing.planes import DisturbancePlane
 from carom.models import Rotor
 from carom.parameters import Case, Scales
@@ -142,18 +137,6 @@ def shown_share(share: Share, coarse: bool) -> str:
     return percent(share.fraction)
 
 
-def motion_message(motion: KickedMotion, rotor: Rotor) -> Message:
-    """A motion at each touchdown bearing, with the factors of the axes."""
-    return {
-        **vars(motion),
-        "planes": [
-            {**vars(each), "forward": each.forward.astype("uint8"), "spans": [asdict(span) for span in each.spans]}
-            for each in motion.planes
-        ],
-        **units_message(rotor.scales),
-    }
-
-
 def levitation_message(case: Case) -> Message:
     """How a machine levitates; speeds in rpm."""
     scales = case.parameters.scales
@@ -174,26 +157,4 @@ def response_message(found: SynchronousResponse, words: dict[str, tuple[str, ...
         "speed": rotor.scales.speed / RPM if rotor.scales else 0.0,
         "top": top,
         "stated": words,
-    }
-
-
-def table_message(table: MotionTable) -> Message:
-    """Rows of the table, and the argument that they are all."""
-    return {"rows": [asdict(row) for row in table.rows], "argument": table.argument}
-
-
-def loss_message(found: Loss, plane: DisturbancePlane, scales: Scales | None) -> Message:
-    """The smallest loss, with its size in the unit that people see."""
-    size = 0.0 if found.size is None else plane.shown(scales)[0] * found.size
-    return {"size": size, "value": found.value, "remark": found.remark}
-
-
-def diagram_message(picture: DiagramPicture) -> Message:
-    """Lines, bars and points of a diagram, by column."""
-    return {
-        **record(picture.control, "name words unit low high"),
-        **record(picture, "speed_unit top"),
-        "lines": [asdict(line) for line in picture.lines],
-        "bars": [asdict(bar) for bar in picture.bars],
-        "points": {one.name: [getattr(point, one.name) for point in picture.points] for one in fields(DiagramPoint)},
     }

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 from carom.base.outcome import CaromError
 from carom.base.progress import ShowProgress
-from carom.base.results import record
 from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
-from carom.explorer.computing.diagrams import picture_along
+from carom.explorer.computing.diagrams import diagram_along
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, mark_of
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
@@ -127,7 +126,7 @@ class Questions:
             "levitating": lambda shown, tell: messages.levitation_message(shown.subject.case),
             "basin": self._coarse,
             **{slot: self._motion(place) for place, slot in enumerate(SLOTS)},
-            "table": lambda shown, tell: messages.table_message(table_of(shown.subject.rotor)),
+            "table": lambda shown, tell: table_of(shown.subject.rotor),
         }
         response = PageTask("computing the response to unbalance", self._response, "response")
         diagram = PageTask("following orbits along the slider", self._diagram, "diagram")
@@ -231,7 +230,7 @@ class Questions:
             factor = plane.shown(rotor.scales)[0]
             first, second = self.kicks(shown)[place]
             motion = follow_kick(rotor, plane, first / factor, second / factor, tell)
-            return {**messages.motion_message(motion, rotor), "kick": {"first": first, "second": second}}
+            return {**motion, **messages.units_message(rotor.scales), "kick": {"first": first, "second": second}}
 
         return follow
 
@@ -268,22 +267,22 @@ class Questions:
     def _loss(self, shown: Shown, tell: ShowProgress) -> Message:
         rotor, plane = shown.subject.rotor, self._plane(shown)
         largest = max(plane.own(self._largest(shown), rotor.scales), self._judged(shown))
-        return messages.loss_message(find_loss(rotor, plane, largest, tell), plane, rotor.scales)
+        return find_loss(rotor, plane, largest, tell)
 
     def _proven(self, shown: Shown, tell: ShowProgress) -> Message:
         rotor, plane = shown.subject.rotor, self._plane(shown)
-        return vars(find_proven(rotor, plane, plane.own(self._largest(shown), rotor.scales), tell))
+        return find_proven(rotor, plane, plane.own(self._largest(shown), rotor.scales), tell)
 
     def _hardest(self, shown: Shown, tell: ShowProgress) -> Message:
         case, rotor = shown.subject.case, shown.subject.rotor
-        return vars(find_hardest(rotor, self._plane(shown), self._judged(shown), case.limits, tell))
+        return find_hardest(rotor, self._plane(shown), self._judged(shown), case.limits, tell)
 
     def _verdict(self, shown: Shown, tell: ShowProgress) -> Message:
-        return record(judge(shown.subject.case, tell), "lead advice survived")
+        return judge(shown.subject.case, tell)
 
     def _diagram(self, shown: Shown, tell: ShowProgress) -> Message:
         others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))
         if (shown.along, others) not in self._diagrams:
-            found = messages.diagram_message(picture_along(shown.subject.rotor, self.controls[shown.along], tell))
+            found = diagram_along(shown.subject.rotor, self.controls[shown.along], tell)
             self._diagrams = {(shown.along, others): found}
         return {**self._diagrams[shown.along, others]}

@@ -29,7 +29,7 @@ def text_of(name: str) -> str:
     return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")
 
 
-def joined(names: tuple[str, ...], *, exporting: bool = False) -> str:
-    """Modules as a single one: they lie in one text, so that nothing is imported, and nothing exported unless asked for."""
+def joined(names: tuple[str, ...]) -> str:
+    """Modules as a single one: they lie in one text, so that nothing is imported, and nothing exported."""
     text = re.sub(r'^import [^;]+ from "\./[\w.]+";\n', "", "\n".join(map(text_of, names)), flags=re.MULTILINE)
-    return text if exporting else re.sub(r"^export (?=const )", "", text, flags=re.MULTILINE)
+    return re.sub(r"^export (?=const )", "", text, flags=re.MULTILINE)

@@ -87,8 +87,6 @@ class TextTable:
     rows: tuple[tuple[str, ...], ...]
     agrees: tuple[bool, ...]
     """For each row, whether the source agrees with what was computed."""
-    numbers: tuple[str, ...] = ()
-    """Headings of the columns that hold numbers."""
 
 
 def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> dict[str, object]:
@@ -141,7 +139,6 @@ def tables(found: Reproduction) -> tuple[TextTable, ...]:
                 for row in compared
             ),
             tuple(row.agrees for row in compared),
-            ("printed", "computed", "difference"),
         ),
         TextTable(
             "Misprints of the source, evaluated",
@@ -151,7 +148,6 @@ def tables(found: Reproduction) -> tuple[TextTable, ...]:
                 for row in found.misprints
             ),
             (True,) * len(found.misprints),
-            ("printed form", "right form"),
         ),
         TextTable(
             "Regions of figure 6b, with the rub that the source leaves out",

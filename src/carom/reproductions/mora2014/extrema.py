@@ -34,13 +34,10 @@ class Extremum:
         Since the impact, in ``1/Ω``.
     radius : float
         In clearances.
-    highest : bool
-        Whether it is a maximum.
     """
 
     time: float
     radius: float
-    highest: bool
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -52,14 +49,11 @@ class ExtremumLine(Result):
     places : ndarray, shape (m,)
         Position on the branch: index of the previous orbit plus the fraction of the step.
     gammas, radii : ndarray, shape (m,)
-    highest : ndarray of bool, shape (m,)
-        Where the extremum is a maximum.
     """
 
     places: np.ndarray
     gammas: np.ndarray
     radii: np.ndarray
-    highest: np.ndarray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -104,7 +98,7 @@ def radius_extrema(numbers: Numbers, period: float, speed: float) -> list[Extrem
     found = []
     for i in np.flatnonzero(rates[:-1] * rates[1:] < 0.0):
         time = bracketed_root(outward, float(times[i]), float(times[i + 1]))
-        found.append(Extremum(time, _radius(numbers, period, speed, time), bool(rates[i] > 0.0)))
+        found.append(Extremum(time, _radius(numbers, period, speed, time)))
     return found
 
 
@@ -131,7 +125,6 @@ def extremum_lines(branch: OrbitBranch) -> tuple[ExtremumLine, ...]:
                 places=np.array([place for place, _, _ in rows]),
                 gammas=np.array([gamma for _, gamma, _ in rows]),
                 radii=np.array([found[which].radius for _, _, found in rows]),
-                highest=np.array([found[which].highest for _, _, found in rows]),
             )
             for which in range(counts[start])
         ]
@@ -152,7 +145,7 @@ def flattest(point: Bifurcation) -> Extremum:
     before, here, after = rates[place - 1 : place + 2]
     # Vertex of the parabola through three rates.
     time = times[place] + 0.5 * (before - after) / (before - 2.0 * here + after) * (times[1] - times[0])
-    return Extremum(float(time), _radius(*at, float(time)), highest=False)
+    return Extremum(float(time), _radius(*at, float(time)))
 
 
 def _joined(turn: Bifurcation, count: int) -> list[Extremum]:

@@ -27,8 +27,6 @@ class ShownMotion(Result):
         Description of the motion.
     orbit : Orbit or None
         ``None`` for levitation, which is a point of the co-rotating frame.
-    highest : float
-        Largest radius away from impacts, in clearances.
     """
 
     panel: str
@@ -36,7 +34,6 @@ class ShownMotion(Result):
     words: str
     rotor: Rotor
     orbit: Orbit | None
-    highest: float
 
     @property
     def span(self) -> float:
@@ -47,19 +44,11 @@ class ShownMotion(Result):
 def shown_motions() -> tuple[ShownMotion, ...]:
     """Compute levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1: panels a to c."""
     levitating = jeffcott(machine_at(0.3))
-    shown = [ShownMotion("a", 0.3, "levitation", levitating, None, abs(levitating.equilibrium))]
+    shown = [ShownMotion("a", 0.3, "levitation", levitating, None)]
     for panel, gamma, name, words in (
         ("b", 0.065, "B1,d", "impacting orbit near grazing"),
         ("c", 0.1, "B1,a", "impacting orbit near the non-smooth Hopf bifurcation"),
     ):
         rotor = jeffcott(machine_at(gamma))
-        orbit = find_orbits(rotor)[name]
-        shown.append(ShownMotion(panel, gamma, words, rotor, orbit, _highest(orbit)))
+        shown.append(ShownMotion(panel, gamma, words, rotor, find_orbits(rotor)[name]))
     return tuple(shown)
-
-
-def _highest(orbit: Orbit) -> float:
-    """Return the largest local maximum of the radius between the impacts, on a grid; 1 if there is none."""
-    radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 2001)[:-1]))
-    tops = (radius[1:-1] > radius[:-2]) & (radius[1:-1] > radius[2:])
-    return float(radius[1:-1][tops].max(initial=0.0)) or 1.0

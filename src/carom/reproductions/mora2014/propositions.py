@@ -34,15 +34,12 @@ class FixedPoints:
     admissible : int
         Those that are motions of the machine.  The text takes all outward ones as admissible, but some pass beyond the
         wall.
-    levitates : bool
-        Whether the contact-free equilibrium is admissible.
     """
 
     pairs: int
     total: int
     outward: int
     admissible: int
-    levitates: bool
 
 
 @dataclass(frozen=True)
@@ -84,15 +81,13 @@ class HopfSide:
 
 def fixed_points(parameters: Parameters) -> FixedPoints:
     """Count the fixed points of the impact map with forward slip, and the admissible ones among them."""
-    rotor = jeffcott(parameters)
-    found = find_orbits(rotor)
+    found = find_orbits(jeffcott(parameters))
     orbits = [orbit for orbit in found if orbit.slip > 0]
     return FixedPoints(
         pairs=(len(found.periods) + 1) // 2,
         total=len(orbits),
         outward=sum(orbit.radial_speed > 0.0 for orbit in orbits),
         admissible=sum(orbit.admissible for orbit in orbits),
-        levitates=abs(rotor.equilibrium) < 1.0,
     )
 
 
