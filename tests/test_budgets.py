@@ -25,10 +25,10 @@ LIMITS = {
     "cli plots report": 5809,
     "rotors": 4472,
     "proofs": 5907,
-    "explorer": 2300,
+    "explorer": 2129,
     "fitting": 951,
     "sweeps": 1399,
-    "reproductions": 1299,
+    "reproductions": 1284,
 }
 TESTS, ANY = 38_857, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
