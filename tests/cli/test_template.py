@@ -123,6 +123,7 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
             "sensor_gain",
             "amplifier_gain",
             "sample_time",
+            "sampling",
             "zeros",
             "poles",
             "gain =",

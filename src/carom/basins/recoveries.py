@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from carom.attractors import MotionName
 from carom.base.arguments import Count, Seed, checked
 from carom.base.outcome import InputError, Outcome
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.base.results import Column, Result, record, table_of
+from carom.base.results import Column, Result, keys_of, record, table_of
 from carom.basins.drops import MOST_STEPS, in_threads
 from carom.basins.shares import Share
 from carom.core.processors import available_cores
@@ -29,17 +29,8 @@ from carom.parameters.formats import format_quantity
 
 DROPS, LONGEST = 100, 10.0
 """Number of drops by default, and seconds after which one that has not settled is given up."""
-BACK, ELSEWHERE, UNSETTLED, NEVER = range(4)
-"""Where a drop ends: levitated, settled in another motion, neither in time, or before levitation is regained."""
-
-
-class DropEnding(NamedTuple):
-    """Where one drop ends, by one recovery; times in ``1/Ω``."""
-
-    how: int
-    motion: MotionName
-    regained_at: float
-    time: float
+BACK, NOT_REGAINED = MotionName(Outcome.LEVITATED).words, "levitation not regained"
+"""How drops end that come back, and those in which levitation is not regained in time."""
 
 
 @dataclass(frozen=True)
@@ -51,71 +42,44 @@ class RecoveryShare:
     recovery : RecoveryAction
     share : Share
         Of the drops that settle to levitation within the time that is given.
-    elsewhere : int
-        Drops that settle in another motion with levitation regained.
-    not_settled : int
-        Drops that have not settled within that time.
-    not_regained : int
-        Drops in which levitation was not regained within that time.
-    regained_at : float or None
-        Median time of the regain in ``1/Ω``; ``None`` without any.
-    settled_after : float or None
-        Median time from the regain to where levitation was certain, in ``1/Ω``; ``None`` without any.
-    motions : mapping of str to int
-        How many drops end in each motion, by its name.
+    ends : mapping of str to int
+        How many drops end in each motion with levitation regained, by its name, have not settled within that time, or never regain levitation.
     with_it_alone, without_it_alone : int
         Drops that come back with the action and not without, and the other way round; 0 of one that is no action.
     """
 
     recovery: RecoveryAction
     share: Share
-    elsewhere: int
-    not_settled: int
-    not_regained: int
-    regained_at: float | None
-    settled_after: float | None
-    motions: dict[str, int]
+    ends: dict[str, int]
     with_it_alone: int = 0
     without_it_alone: int = 0
 
     @classmethod
-    def of(cls, recovery: RecoveryAction, found: Sequence[DropEnding], without: Sequence[DropEnding]) -> RecoveryShare:
+    def of(cls, recovery: RecoveryAction, found: Sequence[str], without: Sequence[str]) -> RecoveryShare:
         """Count the ends of drops, and compare them with those of the same drops without the action."""
-        count = Counter(each.how for each in found)
-        back, other = (np.array([each.how == BACK for each in ends]) for ends in (found, without))
-        after = [each.time - each.regained_at for each in found if each.how == BACK]
-        regained = [each.regained_at for each in found if each.how != NEVER]
+        back, other = (np.array([each == BACK for each in ends]) for ends in (found, without))
         return cls(
             recovery,
-            Share.of(count[BACK], len(found), drawn=True),
-            count[ELSEWHERE],
-            count[UNSETTLED],
-            count[NEVER],
-            float(np.median(regained)) if regained else None,
-            float(np.median(after)) if after else None,
-            dict(Counter(each.motion.words for each in found).most_common()),
+            Share.of(int(back.sum()), len(found), drawn=True),
+            dict(Counter(found).most_common()),
             int((back & ~other).sum()),
             int((other & ~back).sum()),
         )
 
 
-def _interval(row: RecoveryShare, _: object) -> str:
-    return f"{100.0 * row.share.low:.3g} to {100.0 * row.share.high:.3g} %"
-
-
 TABLE = (
-    Column("", "recovery", lambda row, _: row.recovery.name),
+    Column("name=recovery.name", "recovery"),
+    Column("words=recovery.words acts=recovery.acts"),
     Column("", "come back", lambda row, _: f"{row.share.count}"),
-    Column("", "share, 95 %", _interval),
-    Column("", "in contact", lambda row, _: str(row.elsewhere)),
-    Column("", "not settled", lambda row, _: str(row.not_settled)),
-    Column("", "not regained", lambda row, _: str(row.not_regained)),
+    Column("", "share, 95 %", lambda row, _: f"{100.0 * row.share.low:.3g} to {100.0 * row.share.high:.3g} %"),
+    Column("ends", "ends", lambda row, _: ", ".join(f"{count} {name}" for name, count in row.ends.items())),
     Column(
-        "", "by the action", lambda row, _: f"+{row.with_it_alone} −{row.without_it_alone}" if row.recovery.acts else ""
+        "with_it_alone without_it_alone",
+        "by the action",
+        lambda row, _: f"+{row.with_it_alone} −{row.without_it_alone}" if row.recovery.acts else "",
     ),
 )
-"""Of each way what people see."""
-_ENTRY = "name=recovery.name words=recovery.words acts=recovery.acts elsewhere not_settled not_regained regained_at:time settled_after:time motions with_it_alone without_it_alone"
+"""Of each way what people see, and its keys in JSON."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -168,9 +132,10 @@ class Recoveries(Result):
 
     def document(self) -> dict[str, object]:
         """As plain data for JSON."""
-        scales = self.rotor.scales
-        shares = [record(row.share, "fraction count low high") for row in self.each]
-        rows = [record(row, _ENTRY, scales) | {"share": share} for row, share in zip(self.each, shares, strict=True)]
+        scales, keys = self.rotor.scales, keys_of(TABLE)
+        rows = [
+            record(row, keys, scales) | {"share": record(row.share, "fraction count low high")} for row in self.each
+        ]
         return record(self, "drops seed kicks_up_to:velocity until:time", scales) | {
             "method": "Clopper-Pearson, 95 %",
             "recoveries": rows,
@@ -223,7 +188,7 @@ def compare_recoveries(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/dropped-rotor.toml")
-    >>> soft = cm.parameters.RecoveryAction("soft", regain_after="50 ms", lasts="0.1 s", gain_factors={"damping": 2})
+    >>> soft = cm.parameters.RecoveryAction("soft", regain_after="50 ms", lasts="0.1 s", gains={"damping": 1800})
     >>> [row.share.count for row in cm.basins.compare_recoveries(machine, (soft,), 5).each]
     [5, 5]
     """
@@ -243,42 +208,25 @@ def compare_recoveries(
         Drop(kick(speed, angle) if fastest else None, phase)
         for speed, angle, phase in zip(speeds.tolist(), angles.tolist(), phases.tolist(), strict=True)
     ]
-    ways = _with_plain(given)
-    for way, _ in ways:
+    plain = {each.without_action: each.without_action for each in given}
+    plain |= {each.without_action: each for each in given if not each.acts}
+    ways = [*plain.values(), *(each for each in given if each.acts)]
+    for way in ways:
         replace(starts[0], recovery=way).apply(rotor)  # refuses what the machine has not
     following = Following(True, False, PATIENCE, MOST_STEPS, Reporter())
     tell = Reporter.of(progress, "following drops")
-    begun = [(rotor, replace(start, recovery=way)) for way, _ in ways for start in starts]
-    ends: list[DropEnding] = []
+    begun = [(rotor, replace(start, recovery=way)) for way in ways for start in starts]
+    ends: list[str] = []
     for end in in_threads(partial(_end, longest, following), begun, threads or available_cores()):
         ends.append(end)
         tell(len(ends) / len(begun))
-    found = [ends[place * drops : (place + 1) * drops] for place in range(len(ways))]
-    each = [RecoveryShare.of(way, own, found[plain]) for (way, plain), own in zip(ways, found, strict=True)]
-    return Recoveries(rotor, tuple(each), drops, seed, fastest, longest)
+    of_way = {way: ends[place * drops : (place + 1) * drops] for place, way in enumerate(ways)}
+    each = tuple(RecoveryShare.of(way, own, of_way[plain[way.without_action]]) for way, own in of_way.items())
+    return Recoveries(rotor, each, drops, seed, fastest, longest)
 
 
-def _with_plain(recoveries: Sequence[RecoveryAction]) -> list[tuple[RecoveryAction, int]]:
-    """Each recovery, before them those without action for which some stands; beside each the place of the one without."""
-    plain: dict[RecoveryAction, RecoveryAction] = {}
-    for each in sorted(recoveries, key=lambda one: one.acts):
-        plain.setdefault(each.without_action, each.without_action if each.acts else each)
-    places = list(plain)
-    acting = [(each, places.index(each.without_action)) for each in recoveries if each.acts]
-    return [(each, place) for place, each in enumerate(plain.values())] + acting
-
-
-def _end(longest: float, following: Following, rotor: Rotor, dropped: Drop) -> DropEnding:
-    """Follow one drop."""
-    regained, passed = math.nan, 0.0
-    for piece in stretches(rotor, dropped, longest, following):
-        if piece.outcome is Outcome.TRIGGERED:
-            passed += piece.time
-            regained = passed if math.isnan(regained) else regained
-    if piece.outcome is Outcome.LEVITATED:
-        how = BACK
-    elif math.isnan(regained):
-        how = NEVER
-    else:
-        how = ELSEWHERE if piece.outcome.settled else UNSETTLED
-    return DropEnding(how, MotionName(piece.outcome, piece.multiplicity), regained, passed + piece.time)
+def _end(longest: float, following: Following, rotor: Rotor, dropped: Drop) -> str:
+    """Follow one drop, and say how it ends."""
+    outcomes = [(piece.outcome, piece.multiplicity) for piece in stretches(rotor, dropped, longest, following)]
+    is_regained = any(outcome is Outcome.TRIGGERED for outcome, _ in outcomes)
+    return MotionName(*outcomes[-1]).words if is_regained else NOT_REGAINED

@@ -23,6 +23,8 @@ from carom.motions.descent import turning_at
 from carom.motions.standstill import shaft_and_changes
 from carom.parameters import RecoveryAction, Scales, own_time
 
+UP = 0.5 * math.pi
+"""Where a set point is by default: up the y axis, as an angle from the x axis."""
 STEPS = 20
 """In which the speed of a shaft changes."""
 HELD = 1e9
@@ -120,18 +122,22 @@ def _trigger(recovery: RecoveryAction, scales: Scales) -> Trigger:
     """When levitation is regained, at whatever speed."""
     if recovery.regain_after is not None:
         return Trigger(time=own_time("regain_after", recovery.regain_after / scales.time, scales))
-    slow = 0.0 if recovery.quiet_speed is None else recovery.quiet_speed / scales.velocity
-    return Trigger(quiet_time=(recovery.regain_quiet or math.inf) / scales.time, quiet_speed=slow)
+    if recovery.regain_quiet is not None and recovery.quiet_speed is not None:
+        return Trigger(
+            quiet_time=recovery.regain_quiet / scales.time, quiet_speed=recovery.quiet_speed / scales.velocity
+        )
+    return Trigger()
 
 
 def _acting(rotor: Rotor, falling: Rotor, recovery: RecoveryAction, scales: Scales) -> Rotor:
     """The levitated rotor while the action lasts, from that with its gains."""
     forces = []
     if recovery.set_point:
-        at = cmath.rect(recovery.set_point / scales.length, recovery.set_point_angle)
+        angle = UP if recovery.set_point_angle is None else recovery.set_point_angle
+        at = cmath.rect(recovery.set_point / scales.length, angle)
         forces.append(Force(STEADY, _held_at(rotor, falling, at)))
     if pushed := recovery.force or recovery.current:
-        ahead = cmath.rect(pushed, rotor.unbalance_phase + recovery.phase)
+        ahead = cmath.rect(pushed, rotor.unbalance_phase + (recovery.phase or 0.0))
         forces.append(Force(0.0, _pushed(rotor, recovery, ahead, scales)))
     if forces and rotor.limits:
         raise InputError(
@@ -147,18 +153,20 @@ def _acting(rotor: Rotor, falling: Rotor, recovery: RecoveryAction, scales: Scal
 
 def _with_gains(rotor: Rotor, recovery: RecoveryAction) -> Rotor:
     """The levitated rotor with other gains; what is no part of its levitation is refused."""
-    factors = {name: rotor.value(name) * factor for name, factor in recovery.gain_factors.items()}
-    if not (changes := {**recovery.gains, **factors}):
+    if not recovery.gains:
         return rotor
-    helped = rotor.replace(**changes)
-    before, after = rotor.system.arrays, helped.system.arrays
-    bodies = [(each.equations.mass, each.equations.forcing, each.equations.planes) for each in (rotor, helped)]
-    pairs = [*zip(*bodies, strict=True), *((before[name], after[name]) for name in Wall._fields)]
-    if rotor.scales != helped.scales or not all(np.array_equal(*pair) for pair in pairs):
-        raise InputError(
-            "gains", shown(", ".join(changes)), "parameters of the levitation alone, such as damping or proportional"
-        )
+    helped = rotor.replace(**recovery.gains)
+    kept = all(map(np.array_equal, _besides_levitation(rotor), _besides_levitation(helped)))
+    if rotor.scales != helped.scales or not kept:
+        allowed = "parameters of the levitation alone, such as damping or proportional"
+        raise InputError("gains", shown(", ".join(recovery.gains)), allowed)
     return helped
+
+
+def _besides_levitation(rotor: Rotor) -> list[np.ndarray]:
+    """Arrays of a rotor and its touchdown bearings that gains do not change."""
+    body, walls = rotor.equations, rotor.system.arrays
+    return [body.mass, body.forcing, body.planes, *(walls[name] for name in Wall._fields)]
 
 
 def _held_at(rotor: Rotor, falling: Rotor, at: complex) -> np.ndarray:

@@ -31,8 +31,8 @@ class Trigger:
     shaft_speed : float
         Speed of a shaft that slows down, in ``Ω``, seen at an impact or after a step of contact.
     quiet_time : float
-        Time for which it has been quiet: no touchdown bearing has touched, or with a ``quiet_speed`` the rotor was not faster than that, in the
-        fixed frame, at any of them.  The speed is looked at at events, and when the time is over.
+        Time for which the rotor was not faster than ``quiet_speed``, in the fixed frame, at any touchdown bearing.  The speed is looked at at events,
+        and when the time is over.
     quiet_speed : float
     """
 

@@ -1,4 +1,4 @@
-"""When a motion has become quiet: no contact, or none of a fast rotor, for a time."""
+"""When a motion has become quiet: no fast rotor for a time."""
 
 from __future__ import annotations
 
@@ -9,27 +9,12 @@ from carom.models import System, Trigger
 from carom.motions.kinematics import presses
 
 
-def last_unrest(
-    system: System, log: EventLog, phases: np.ndarray, amplitudes: np.ndarray, reached: float, trigger: Trigger
-) -> float:
-    """Time of the last instant that was not quiet, of the events of a log and where the motion now is; minus infinity if all were.
-
-    Parameters
-    ----------
-    phases : ndarray of int, shape (L + 1, P)
-        Of each bearing, before the first event and after each of them.
-    amplitudes : ndarray of complex, shape (N,)
-        Where the motion is now, at the time ``reached``.
-    """
-    if trigger.quiet_speed:
-        before, after = (_fastest(system, each) for each in (log.before, log.after))
-        restless = np.maximum(before, after) > trigger.quiet_speed
-        now = bool(_fastest(system, amplitudes[None])[0] > trigger.quiet_speed)
-    else:
-        touching = np.any(presses(phases), axis=1)
-        restless = touching[1:] | touching[:-1] | log.impacts(phases[0])
-        now = bool(touching[-1])
-    return reached if now else float(log.times[restless].max(initial=-np.inf))
+def last_unrest(system: System, log: EventLog, amplitudes: np.ndarray, reached: float, trigger: Trigger) -> float:
+    """Time of the last instant that was not quiet, of the events of a log and where the motion now is, with these amplitudes (N,); minus infinity if all were."""
+    if _fastest(system, amplitudes[None])[0] > trigger.quiet_speed:
+        return reached
+    fastest = np.maximum(_fastest(system, log.before), _fastest(system, log.after))
+    return float(log.times[fastest > trigger.quiet_speed].max(initial=-np.inf))
 
 
 def _fastest(system: System, amplitudes: np.ndarray) -> np.ndarray:

@@ -172,12 +172,12 @@ def follow_stage(
         reached, events = reached + time, events + count
         if trigger.quiet_time < np.inf:
             reached = asked if outcome is Outcome.TIME_REACHED else reached
-            now = np.where(contact == AWAY, FLIGHT, contact)
-            phases = np.concatenate([first[0][None], log.phases])
-            restless = max(restless, last_unrest(rotor.system, log, phases, amplitudes, reached, trigger))
+            restless = max(restless, last_unrest(rotor.system, log, amplitudes, reached, trigger))
             if outcome is Outcome.TIME_REACHED and asked < until and reached < restless + trigger.quiet_time:
                 outcome, count, events = Outcome.EVENT_LIMIT, count + 1, events + 1
-                log = with_pause(log, now, amplitudes, reached, recollection.limited)
+                log = with_pause(
+                    log, np.where(contact == AWAY, FLIGHT, contact), amplitudes, reached, recollection.limited
+                )
         impact_times = np.append(impact_times, log.times)[-LOW_FOR:]
         tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)

@@ -102,7 +102,10 @@ def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
 
 
 def toml_line(name: str, value: object, remark: str = "") -> str:
-    """An entry of a table as TOML states it, bit for bit: a number or a list of numbers, in the SI unit that the remark states, or text."""
+    """An entry of a table as TOML states it, bit for bit: a number or a list of numbers, in the SI unit that the remark states, text, or a table of these."""
+    if isinstance(value, Mapping):
+        inner = [toml_line(json.dumps(key), each) for key, each in value.items()]
+        return f"{name} = {{ {', '.join(inner)} }}"
     return f"{name} = {json.dumps(value, ensure_ascii=False)}" + (f"  # {remark}" if remark else "")
 
 
@@ -148,7 +151,7 @@ class Table:
 
     def to_toml(self) -> str:
         """Return the text of a table that is read as this value; nothing if nothing is stated."""
-        lines = [toml_line(name, getattr(self, name)) for name in self.texts]
+        lines = [toml_line(name, given) for name in self.texts if (given := getattr(self, name))]
         lines += [toml_line(name, value, self.unit(name)) for name, value in self.given.items()]
         return "\n".join([f"[{self.heading}]", *lines]) + "\n" if lines else ""
 
@@ -174,7 +177,7 @@ class Table:
     def without_scales(cls, given: object) -> InputError:
         """The error of the table beside dimensionless parameters."""
         allowed = "not allowed beside [dimensionless]: it is in SI units, which need a [machine] table with mass, clearance and speed"
-        return InputError(cls.heading, shown(given), allowed)
+        return InputError(cls.heading.strip("[]"), shown(given), allowed)
 
 
 @dataclasses.dataclass(frozen=True)
