@@ -15,12 +15,12 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3665,
+    "parameters base": 3627,
     "models": 2371,
     "core": 6613,
-    "motions disturbances": 4720,
+    "motions disturbances": 4717,
     "orbits bifurcations closed_forms continuation": 6450,
-    "basins attractors": 2372,
+    "basins attractors": 2338,
     "studies": 3460,
     "cli plots report": 5809,
     "rotors": 4472,
