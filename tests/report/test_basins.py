@@ -15,7 +15,7 @@ pytestmark = pytest.mark.jit_only
 def drawn(monkeypatch, result):
     """The panels and the size with which the pair is drawn."""
     kept = []
-    monkeypatch.setattr(figures, "CELLS", {"kick": (12, 12), "shock": (2, 8), "blade_loss": (12,)})
+    monkeypatch.setattr(figures, "CELLS", {"kick": [(12, 12)] * 2, "shock": [(2, 8)] * 2, "blade_loss": [(12,)] * 2})
     monkeypatch.setattr(figures, "map_cells", map_basins)
     monkeypatch.setattr("carom.plots.basin_pair", lambda *arguments: kept.append(arguments))
     figures.draw_basins(result)

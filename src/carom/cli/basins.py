@@ -66,18 +66,14 @@ def basins(
     """
     case = read_machine(machine, settings)
     with progress("loading") as tell:
-        from carom.cli.starts import read_cells, read_plane, refuse_without
+        from carom.cli.starts import by_option, read_cells, read_plane, refuse
 
-        ways = {
-            "--kick": kick,
-            "--shock": shock,
-            "--blade-loss": blade_loss,
-            "--base-record": base_record,
-            "--disturbance": disturbance,
-        }
+        ways = by_option(
+            kick=kick, shock=shock, blade_loss=blade_loss, base_record=base_record, disturbance=disturbance
+        )
         plan = _plan(case, _model(case, ways), grid, starts, seed, instant)
         if gains is None:
-            refuse_without("--gains NxM", {"--plane": plane, "--x": x, "--y": y})
+            refuse("allowed only with --gains NxM", plane=plane, x=x, y=y)
         from carom.basins import map_basins, map_gains, smallest_unrecovered
         from carom.basins.document import basin_document
         from carom.basins.maps import usual_gains
@@ -153,24 +149,21 @@ def _plan(
     case: Case, model: Disturbance, grid: str | None, starts: int | None, seed: int | None, instant: str | None
 ) -> Plan:
     """Which of these disturbances are followed: on a grid, or a sample of them."""
-    from carom.cli.starts import read_cells, read_instant
+    from carom.cli.starts import read_cells, read_instant, refuse
     from carom.disturbances import Grid, Sample
     from carom.models import rotor_of
 
     drawn, dimensions = starts is not None or model.kind == "state", len(model.coordinates)
-    if grid is not None and starts is not None:
-        raise InputError("--starts", starts, "not allowed with --grid")
-    if seed is not None and not drawn:
-        raise InputError("--seed", seed, "allowed only for a sample: give --starts too")
-    if instant is not None and drawn:
-        raise InputError("--instant", instant, "allowed only with a grid: a sample has random instants")
-    if grid is not None and drawn:
-        raise InputError("--grid", grid, "not allowed for states, which have four coordinates: give --starts")
+    if grid is not None:
+        refuse("not allowed with --grid", starts=starts)
     if drawn:
+        refuse("allowed only with a grid: a sample has random instants", instant=instant)
+        refuse("not allowed for states, which have four coordinates: give --starts", grid=grid)
         count = STARTS if starts is None else starts
         if not 1 <= count <= MOST_STARTS:
             raise InputError("--starts", count, f"must be a whole number from 1 to {MOST_STARTS}")
         return Sample(model, count, seed or 0)
+    refuse("allowed only for a sample: give --starts too", seed=seed)
     cells: tuple[int, ...] = (RELEASES,) if dimensions == 1 else (CELLS, CELLS)
     if grid is not None:
         cells = read_cells("--grid", grid, dimensions, least=1, most=MOST_STARTS)

@@ -91,34 +91,28 @@ def drop(
     """
     from carom.basins.drops import RELEASED, USUAL
     from carom.cli.logs import history_writer
-    from carom.cli.starts import read_cells, read_plane, read_time, refuse_without, released
+    from carom.cli.starts import by_option, read_cells, read_plane, read_time, refuse, released
 
     case = read_machine(machine, settings)
     check_output(out)
-    ways = {"--start": start, "--kick": kick, "--whirl": whirl}
-    sampled = {"--drops": drops, "--kicks-up-to": kicks_up_to, "--seed": seed}
+    begun = {"start": start, "kick": kick, "whirl": whirl}
+    moved = {"shock": shock, "base_record": base_record}
     if compare:
-        others = {
-            **ways,
-            "--shock": shock,
-            "--base-record": base_record,
-            "--phase": phase,
-            "--race-speed": race_speed,
-            "--map": plane,
-        }
-        others |= {"--regained-after": regained_after, "--regained-by": regained_by}
-        return compare_recoveries(case, drops, kicks_up_to, seed, others, until, out, as_json)
-    refuse_without("--recovery", sampled)
-    bases = {"--shock": shock, "--base-record": base_record}
+        said = {"phase": phase, "race_speed": race_speed, "regained_after": regained_after, "regained_by": regained_by}
+        allowed = "not allowed with --recovery: its drops and recoveries are those of the file"
+        refuse(allowed, **begun, **moved, **said, map=plane)
+        return compare_recoveries(case, drops, kicks_up_to, seed, until, out, as_json)
+    refuse("allowed only with --recovery", drops=drops, kicks_up_to=kicks_up_to, seed=seed)
+    ways, bases = by_option(**begun), by_option(**moved)
     begins = released(
         case, ways, regained_after, phase, race_speed, called="the release", regained_by=regained_by, bases=bases
     )
     if plane is None:
-        refuse_without("--map NAME,NAME", {"--grid": grid, "--x": x, "--y": y})
+        refuse("allowed only with --map NAME,NAME", grid=grid, x=x, y=y)
+    else:
+        refuse("allowed without --map", history=history)
     asked = plane and read_plane(case, "--map", plane, x, y, RELEASED)
     record = history_writer(case, history, every, nodes)
-    if record is not None and plane is not None:
-        raise InputError("--history", history, "allowed without --map")
     if until == STANDSTILL:
         if plane is not None:
             raise InputError("--until", until, "a time beside --map, such as '0.5 s'")

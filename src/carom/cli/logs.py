@@ -45,11 +45,11 @@ def history_writer(
     case: Case, file: str | None, every: str | None, nodes: str | None
 ) -> Callable[[Trajectory], None] | None:
     """Read ``--history`` with its options, and return what writes the histories of a motion; ``None`` without it."""
-    from carom.cli.starts import read_positive, refuse_without
+    from carom.cli.starts import read_positive, refuse
     from carom.motions.channels import FORMATS
 
     if file is None:
-        refuse_without("--history FILE", {"--every": every, "--nodes": nodes})
+        refuse("allowed only with --history FILE", every=every, nodes=nodes)
         return None
     check_file("--history", file)
     if Path(file).suffix.lower() not in FORMATS:

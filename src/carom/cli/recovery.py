@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from carom.base.outcome import InputError
 from carom.cli.options import flag, option
 from carom.cli.terminal import console, hand_over, progress, write_output
 
@@ -31,17 +29,13 @@ def compare_recoveries(
     drops: int | None,
     kicks: str | None,
     seed: int | None,
-    others: Mapping[str, object],
     until: str | None,
     out: str | None,
     as_json: bool,
 ) -> None:
-    """Follow the drops by each recovery, and tell how many come back; ``others`` are options of one drop, which are refused."""
+    """Follow the drops by each recovery, and tell how many come back."""
     from carom.cli.starts import read_positive, read_time
 
-    for name, value in others.items():
-        if value is not None:
-            raise InputError(name, value, "not allowed with --recovery: its drops and recoveries are those of the file")
     scales = case.parameters.scales
     fastest = 0.0 if kicks is None else read_positive("--kicks-up-to", kicks, "velocity", scales)
     end = read_time(until, scales)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
-from carom.base.outcome import InputError
 from carom.cli import options
 from carom.cli.options import flag, option
 from carom.cli.terminal import check_output, console, hand_over, progress, read_machine, write_output
@@ -55,7 +54,7 @@ def simulate(
     Flights, impacts and lasting contact are computed to rounding accuracy.
     """
     from carom.cli import logs
-    from carom.cli.starts import one_of, read_time, released
+    from carom.cli.starts import by_option, one_of, read_time, refuse, released
 
     case = read_machine(machine, settings)
     check_output(out)
@@ -63,20 +62,13 @@ def simulate(
         if path is not None:
             logs.check_file(name, path)
     record = logs.history_writer(case, history, every, nodes)
-    if regained_after is not None and not drop:
-        raise InputError("--regained-after", regained_after, "allowed only with --drop")
-    if instant is not None and drop:
-        allowed = "not allowed with --drop; carom drop --phase sets where the unbalance is"
-        raise InputError("--instant", instant, allowed)
-    if srs is not None and shock is None and base_record is None:
-        raise InputError("--srs", srs, "allowed only with --shock or --base-record")
-    ways = {
-        "--start": start,
-        "--kick": kick,
-        "--shock": shock,
-        "--blade-loss": blade_loss,
-        "--base-record": base_record,
-    }
+    if drop:
+        refuse("not allowed with --drop; carom drop --phase sets where the unbalance is", instant=instant)
+    else:
+        refuse("allowed only with --drop", regained_after=regained_after)
+    if shock is None and base_record is None:
+        refuse("allowed only with --shock or --base-record", srs=srs)
+    ways = by_option(start=start, kick=kick, shock=shock, blade_loss=blade_loss, base_record=base_record)
     begins = released(case, ways, regained_after) if drop else one_of(ways, instant)
     with progress("simulating (the kernels are compiled on first use)") as tell:
         end = read_time(until, case.parameters.scales)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
 
 from carom.base.outcome import InputError, together
 from carom.disturbances.single import Single, split_text
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
     from carom.rotors.reduction_errors import ReductionError
+
+Given = TypeVar("Given")
 
 
 def read_one(option: str, text: str, scales: Scales | None) -> Single:
@@ -150,11 +152,16 @@ def _ascending(option: str, text: str, allowed: str, ends: list[float]) -> tuple
     return min(ends), max(ends)
 
 
-def refuse_without(needed: str, given: Mapping[str, object]) -> None:
-    """Refuse options that belong to one that is not given."""
-    for option, value in given.items():
+def by_option(**given: Given) -> dict[str, Given]:
+    """Arguments of a command by the options that gave them: ``--blade-loss`` for ``blade_loss``."""
+    return {f"--{name.replace('_', '-')}": value for name, value in given.items()}
+
+
+def refuse(allowed: str, **given: object) -> None:
+    """Refuse the first of these arguments that is given."""
+    for option, value in by_option(**given).items():
         if value is not None:
-            raise InputError(option, value, f"allowed only with {needed}")
+            raise InputError(option, value, allowed)
 
 
 def read_cells(option: str, text: str, dimensions: int, least: int, most: int) -> tuple[int, ...]:

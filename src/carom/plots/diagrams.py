@@ -225,7 +225,7 @@ Interval = tuple[float, float]
 
 LEVITATION, RUB, ROLLING = STEADY_WORDS.values()
 BOUNCING = Outcome.BOUNCING.words
-_COLOURS = {
+COLOURS = {
     LEVITATION: OUTCOMES["levitated"].colour,
     RUB: OUTCOMES["forward-rub"].colour,
     BOUNCING: OUTCOMES["bouncing"].colour,
@@ -236,7 +236,7 @@ _THICK = 4.5
 
 def rows_of(diagram: Diagram) -> list[str]:
     """Return the rows that are not empty."""
-    return [row for row, ranges in _ranges(diagram).items() if any(ranges)]
+    return [row for row, ranges in ranges_of(diagram).items() if any(ranges)]
 
 
 def row_of_point(point: Bifurcation) -> str | None:
@@ -251,10 +251,10 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
     """
     rows = rows_of(diagram)
     heights = {row: float(len(rows) - place) for place, row in enumerate(rows)}
-    for row, (stable, unstable) in _ranges(diagram).items():
-        bar = {"color": _COLOURS[row], "lw": _THICK, "solid_capstyle": "butt"}
+    for row, (stable, unstable) in ranges_of(diagram).items():
+        bar = {"color": COLOURS[row], "lw": _THICK, "solid_capstyle": "butt"}
         for intervals, look in ((unstable, LOOKS["unstable"].stroke | {"zorder": 1.5}), (stable, bar)):
-            for low, high in _joined(intervals):
+            for low, high in intervals:
                 axes.plot([low / unit, high / unit], [heights[row]] * 2, **look)
     axes.set_yticks([heights[row] for row in rows], rows)
     axes.tick_params(axis="y", length=0, which="both")
@@ -262,17 +262,18 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
     axes.set_ylim(0.4, len(rows) + 0.6)
 
 
-def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]]:
-    """Return the ranges of the stable and of the unstable motions of each row, from top to bottom."""
+def ranges_of(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]]:
+    """Return the ranges of the stable and of the unstable motions of each row, from top to bottom, without gaps or overlaps."""
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     marks = [point.value for point in diagram.points if np.isnan(point.radial_speed)]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
-    return {
+    found = {
         LEVITATION: (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
         RUB: (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
         BOUNCING: _on_orbits(diagram.branches),
         ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
     }
+    return {row: (_joined(holds), _joined(fails)) for row, (holds, fails) in found.items()}
 
 
 def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[Interval]:

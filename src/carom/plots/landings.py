@@ -14,7 +14,7 @@ from carom.parameters.fields import RPM
 from carom.plots.courses import draw_force, mark_stages, sampled
 from carom.plots.figure import TWO_COLUMNS, StyledFigure
 from carom.plots.plane import key
-from carom.plots.style import LOOKS, styled
+from carom.plots.style import LOOKS, Drawn, styled
 from carom.plots.words import axis_time, display_unit
 
 if TYPE_CHECKING:
@@ -23,12 +23,15 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Scales
 
-RACES = (("#009e73", "--"), ("#d55e00", "-."), ("#0072b2", ":"), ("#a52f74", (0, (5, 1, 1, 1, 1, 1))))
-"""Colour and line of the race of each touchdown bearing; of more than four the first ones again."""
+SHAFT: Drawn = LOOKS["path"].stroke | {"lw": 1.1}
+_RACES = (("#009e73", "--"), ("#d55e00", "-."), ("#0072b2", ":"), ("#a52f74", (0, (5, 1, 1, 1, 1, 1))))
+RACES: list[Drawn] = [{"color": colour, "ls": line, "lw": 1.1} for colour, line in _RACES]
+"""Look of the race of each touchdown bearing; of more than four the first ones again."""
 PARTS_DRAWN = (RACES[1], RACES[0], RACES[2], RACES[3])
 """The same of sleeve, race, balls and outer ring, whose temperatures are drawn."""
-BEARINGS = (("#0072b2", "-"), ("#d55e00", "--"), ("#009e73", "-."), ("#a52f74", ":"))
-"""Colour and line of each touchdown bearing."""
+_BEARINGS = (("#0072b2", "-"), ("#d55e00", "--"), ("#009e73", "-."), ("#a52f74", ":"))
+BEARINGS: list[Drawn] = [{"color": colour, "ls": line, "lw": 1.1} for colour, line in _BEARINGS]
+"""Look of each touchdown bearing."""
 _PANEL = 0.22
 """Height of a panel over the width of the figure."""
 
@@ -85,8 +88,8 @@ def _warming(axes: Axes, loads: TouchdownLoads) -> None:
     if found is None or loads.scales is None:
         return
     times = found.times / loads.scales.time * display_unit("time", loads.scales)[0]
-    for name, values, (colour, line) in zip(PARTS, found.values.T, PARTS_DRAWN, strict=True):
-        axes.plot(times, values, color=colour, ls=line, lw=1.1, label=name, gid=name)
+    for name, values, look in zip(PARTS, found.values.T, PARTS_DRAWN, strict=True):
+        axes.plot(times, values, **look, label=name, gid=name)
     axes.set_ylabel("temperature (°C)")
 
 
@@ -100,43 +103,38 @@ def standstill(slowed: SpinDown, title: str | None = None) -> Figure:
     slowed : carom.motions.SpinDown
     """
     scales, course = slowed.scales, slowed.course
-    unit = 1.0 if scales is None else scales.speed / RPM
+    unit, label = _rotation(scales)
     figure = StyledFigure(figsize=(TWO_COLUMNS, 2 * _PANEL * TWO_COLUMNS))
     speeds, radii = figure.subplots(2, 1, sharex=True)
     factor = display_unit("time", scales)[0]
     times, end = factor * course[:, 0], factor * slowed.time
-    whole = [0.0, *times, end], unit * np.array([1.0, *course[:, 1], slowed.speed_at_end])
-    speeds.plot(*whole, **LOOKS["path"].stroke | {"lw": 1.1}, label="shaft", gid="shaft")
+    turns = unit * np.array([1.0, *course[:, 1], slowed.speed_at_end])
+    speeds.plot([0.0, *times, end], turns, **SHAFT, label="shaft", gid="shaft")
     for critical in slowed.criticals:
         speeds.axhline(unit * critical, color="#7d6a4f", lw=0.8, ls=":", label="critical speed", gid="critical")
-    for place, (values, (colour, line)) in enumerate(zip(course[:, 2:-1].T, cycle(BEARINGS)), start=1):
-        radii.plot(
-            times, values, color=colour, ls=line, lw=1.1, label=f"touchdown bearing {place}", gid=f"radius {place}"
-        )
+    for place, (values, look) in enumerate(zip(course[:, 2:-1].T, cycle(BEARINGS)), start=1):
+        radii.plot(times, values, **look, label=f"touchdown bearing {place}", gid=f"radius {place}")
     radii.axhline(1.0, **LOOKS["wall"].stroke, label="wall", gid="wall")
-    speeds.set(ylim=(0.0, None), ylabel=_speed_label(scales))
+    speeds.set(ylim=(0.0, None), ylabel=label)
     radii.set(ylim=(0.0, None), xlim=(0.0, end), xlabel=axis_time(scales), ylabel="whirl (clearances)")
     return key(figure, (speeds, radii), columns=4, title=title)
 
 
-def _speed_label(scales: Scales | None) -> str:
-    return "speed ($\\Omega$)" if scales is None else "speed (rpm)"
+def _rotation(scales: Scales | None) -> tuple[float, str]:
+    """By what speeds of rotation are multiplied, and their label: in rpm, or in those of the shaft at the beginning."""
+    return (1.0, r"speed ($\Omega$)") if scales is None else (scales.speed / RPM, "speed (rpm)")
 
 
 def _turning(axes: Axes, motion: Trajectory, courses: list[Course]) -> None:
-    """Draw speeds of rotation, in rpm or in those of the shaft at the beginning."""
-    scales = motion.rotor.scales
-    unit = 1.0 if scales is None else scales.speed / RPM
-    axes.plot(
-        courses[0].times, unit * courses[0].turns, **LOOKS["path"].stroke | {"lw": 1.1}, label="shaft", gid="shaft"
-    )
+    """Draw speeds of rotation."""
+    unit, label = _rotation(motion.rotor.scales)
+    axes.plot(courses[0].times, unit * courses[0].turns, **SHAFT, label="shaft", gid="shaft")
     lowest = 0.0
     for place, (course, race) in enumerate(zip(courses, motion.rotor.races, strict=True)):
         if course.race is not None and race is not None:
             # The speed of its surface, at its radius in clearances.
             own = course.race / race.radius / (1.0 if course.scales is None else course.scales.velocity)
             lowest = min(lowest, 1.05 * unit * float(own.min()))
-            colour, line = RACES[place % len(RACES)]
             words = f"race {place + 1}" if len(courses) > 1 else "race"
-            axes.plot(course.times, unit * own, color=colour, ls=line, lw=1.1, label=words, gid=words)
-    axes.set(ylim=(lowest, None), ylabel=_speed_label(scales))
+            axes.plot(course.times, unit * own, **RACES[place % len(RACES)], label=words, gid=words)
+    axes.set(ylim=(lowest, None), ylabel=label)

@@ -173,20 +173,14 @@ def until_decayed(rotor: Rotor, time: float) -> float:
     return min(time + tail, LONGEST_SHOWN)
 
 
-CELLS: dict[Kind, tuple[int, ...]] = {
-    "kick": (120, 120),
-    "shock": (24, 60),
-    "base_record": (12, 24),
-    "blade_loss": (120,),
+CELLS: dict[Kind, tuple[tuple[int, ...], tuple[int, ...]]] = {
+    "kick": ((120, 120), (20, 20)),
+    "shock": ((24, 60), (6, 24)),
+    "base_record": ((12, 24), (4, 12)),
+    "blade_loss": ((120,), (36,)),
 }
-"""Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the change of the unbalance by the loss of a blade."""
-CELLS_OF_MANY_MODES: dict[Kind, tuple[int, ...]] = {
-    "kick": (20, 20),
-    "shock": (6, 24),
-    "base_record": (4, 12),
-    "blade_loss": (36,),
-}
-"""The same of rotors of many modes, whose motions take milliseconds each."""
+"""Cells of a basin, and of one of rotors of many modes, whose motions take milliseconds each: both parts of a kick, peak and direction of a shock, phase of the
+change of the unbalance by the loss of a blade."""
 BEYOND = 1.5
 """Largest disturbance of a basin relative to the smallest that does not come back, where all that must be survived came back."""
 
@@ -235,7 +229,7 @@ def draw_basins(study: Study) -> Figure:
         panels = [(f"{title}\n{entry} {value}", cells) for title, cells in panels]
         panels.append((f"after the change\n{entry} {change.terms.text}", there))
     with plots.heading(study.case.name):  # the panels say the values
-        return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind))
+        return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind)[0])
 
 
 def drawable(study: Study) -> bool:
@@ -244,18 +238,17 @@ def drawable(study: Study) -> bool:
 
 
 def _basin(rotor: Rotor, model: Disturbance, kind: Kind) -> Cells:
-    cells = CELLS_OF_MANY_MODES if rotor.system.modes > MANY_MODES else CELLS
-    return map_cells(rotor, Grid(model, cells[kind]))
+    return map_cells(rotor, Grid(model, CELLS[kind][rotor.system.modes > MANY_MODES]))
 
 
-def _required(study: Study, kind: Kind) -> float:
-    """Size of a kind that must be survived."""
-    return next(size for each, size, _ in required_kinds(study.required) if each == kind)
+def _required(study: Study, kind: Kind) -> tuple[float, Disturbance]:
+    """What must be survived of a kind: its size and the disturbances up to it."""
+    return next((size, model) for each, size, model in required_kinds(study.required) if each == kind)
 
 
 def _disturbances(study: Study, kind: Kind) -> Disturbance:
     """Disturbances up to what must be survived, or beyond the smallest that does not come back if that is larger."""
-    size, model = next((size, model) for each, size, model in required_kinds(study.required) if each == kind)
+    size, model = _required(study, kind)
     if kind == "blade_loss":
         return model
     found = getattr(study.survives, kind, None)

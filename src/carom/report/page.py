@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -117,24 +117,16 @@ def _mark(study: Study) -> str:
     return plots.OUTCOMES["levitated"].colour if good else "var(--warn)"
 
 
-@dataclass(frozen=True)
-class Advice:
-    """A line of the recommendation with its details."""
-
-    fact: Fact
-    details: tuple[Fact, ...]
-
-
-def _advice(study: Study) -> tuple[list[Advice], dict[str, str]]:
-    """The lines that say what to change, and what is said of all of them, by label."""
-    lines: list[Advice] = []
+def _advice(study: Study) -> tuple[list[tuple[Fact, list[Fact]]], dict[str, str]]:
+    """The lines that say what to change with their details, and what is said of all of them, by label."""
+    lines: list[tuple[Fact, list[Fact]]] = []
     for fact in about(study.facts, "Recommendation"):
         if fact.detail:
-            lines[-1] = Advice(lines[-1].fact, (*lines[-1].details, fact))
+            lines[-1][1].append(fact)
         else:
-            lines.append(Advice(fact, ()))
-    changes = [line for line in lines if line.fact.label in CHANGES]
-    return changes, {line.fact.label: line.fact.sentence for line in lines if line not in changes}
+            lines.append((fact, []))
+    changes = [line for line in lines if line[0].label in CHANGES]
+    return changes, {fact.label: fact.sentence for fact, _ in lines if fact.label not in CHANGES}
 
 
 DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"

@@ -34,7 +34,7 @@ def test_the_picture_is_the_basin(found):
                 assert found.cells[tangential, radial] == NOWHERE
                 continue
             ending = found.endings[found.cells[tangential, radial]]
-            assert ending.words == basin.motions[basin.dataset["motion"].values[radial, tangential]].words
+            assert ending["words"] == basin.motions[basin.dataset["motion"].values[radial, tangential]].words
 
 
 def test_the_smallest_lost_kick_is_lost_and_none_of_the_picture_is_smaller(found):

@@ -104,6 +104,6 @@ def test_the_scripts_use_only_what_the_page_and_the_answers_have(page, kind):
     shown = set(re.findall(r'carom\.on\("(\w+)"', scripts)) | set(SLOTS)
     assert shown == answered | {"diagram"}  # which a flexible machine has not
     assert shown <= set(Answers.properties())
-    parts = make_figures(tuple(FIGURES)).parts
+    parts = make_figures(tuple(FIGURES))[1]
     for name in re.findall(r"\bparts\.(\w+)", scripts):
         assert name in parts or name in ("push",), name

@@ -6,20 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from carom.base.outcome import STEADY_WORDS
 from carom.base.progress import ShowProgress
 from carom.base.results import record
-from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
+from carom.bifurcations import Diagram, OrbitBranch, find_bifurcations
 from carom.explorer.computing.controls import Control, unit_of
 from carom.models import Rotor
-from carom.plots.diagrams import BOUNDARIES, POINTS
-from carom.plots.style import LOOKS, OUTCOMES
+from carom.plots.diagrams import BOUNDARIES, COLOURS, LEVITATION, POINTS, RUB, ranges_of
+from carom.plots.style import LOOKS
 
-_STEADY = {
-    "contact-free": ("levitated", STEADY_WORDS["contact-free"]),
-    "stable rub": ("forward-rub", f"stable {STEADY_WORDS['rub']}"),
-}
-"""Branches shown as bars: the outcome whose colour they have, and words."""
+_STEADY = {LEVITATION: LEVITATION, RUB: f"stable {RUB}"}
+"""Motions shown as bars, and their words."""
 
 
 def diagram_along(rotor: Rotor, control: Control, progress: ShowProgress = None) -> dict[str, object]:
@@ -36,7 +32,11 @@ def diagram_along(rotor: Rotor, control: Control, progress: ShowProgress = None)
         "speed_unit": diagram.speed_unit,
         "top": 1.15 * float(np.concatenate([*heights, [0.0]]).max() or 1.0),
         "lines": [line for branch in diagram.orbits for line in _lines(branch, unit, _speeds(diagram, branch))],
-        "bars": [bar for branch in diagram.equilibria for bar in _bars(branch, unit)],
+        "bars": [
+            {"low": low / unit, "high": high / unit, "words": words, "colour": COLOURS[row]}
+            for row, words in _STEADY.items()
+            for low, high in ranges_of(diagram)[row][0]
+        ],
         "points": _points(diagram, unit),
     }
 
@@ -54,17 +54,6 @@ def _lines(branch: OrbitBranch, unit: float, speeds: np.ndarray) -> Iterator[dic
         if shown.any():
             y = np.where(shown, speeds, np.nan)
             yield {"x": branch.values / unit, "y": y, "kind": kind, "colour": LOOKS[kind].colour}
-
-
-def _bars(branch: EquilibriumBranch, unit: float) -> Iterator[dict[str, object]]:
-    if branch.kind not in _STEADY:
-        return
-    look, words = _STEADY[branch.kind]
-    holds = np.concatenate([[False], branch.admissible & branch.stable, [False]])
-    edges = np.flatnonzero(holds[1:] != holds[:-1])
-    values = (branch.values / unit).tolist()
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
-        yield {"low": values[first], "high": values[last - 1], "words": words, "colour": OUTCOMES[look].colour}
 
 
 def _points(diagram: Diagram, unit: float) -> dict[str, list[object]]:

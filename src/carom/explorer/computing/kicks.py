@@ -17,8 +17,8 @@ from carom.disturbances.machine_changes import levitating_before
 from carom.explorer.computing.planes import DisturbancePlane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Rotor
-from carom.plots.cells import MotionLook, motion_looks
-from carom.plots.style import OUTCOMES
+from carom.plots.cells import motion_looks
+from carom.plots.style import OUTCOMES, Look
 
 NOWHERE = 255
 """Cell without a start."""
@@ -32,27 +32,6 @@ MACHINES = 32
 """Number of machines whose first range is kept: it takes seconds to find where motions in the wall have to be followed."""
 WANTED = 0.2
 """Share of a picture that should come back: then both what returns and what is lost are seen, and where they meet."""
-
-
-@dataclass(frozen=True, eq=False)
-class CellEnding:
-    """One motion on which disturbances end, with the look that figures give it.
-
-    Attributes
-    ----------
-    share : float
-        Share of all disturbances up to the largest, 0 to 1.
-    hatch : str
-        Texture for print without colour; empty for none.
-    back : bool
-        Whether it is the levitation to which they should come back.
-    """
-
-    words: str
-    colour: str
-    hatch: str
-    share: float
-    back: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,8 +49,9 @@ class KickMap:
     touched : ndarray of bool, shape (n, n)
         Whether the rotor met the wall.
     cells : ndarray of uint8, shape (n, n)
-        Index of the ending by second (rows) and first component, both ascending; ``NOWHERE`` without one.
-    endings : tuple of CellEnding
+        Place of the ending by second (rows) and first component, both ascending; ``NOWHERE`` without one.
+    endings : list of dict
+        Motions on which disturbances end, with the looks that figures give them and their shares of all.
     """
 
     rest: Rest
@@ -80,7 +60,7 @@ class KickMap:
     outcomes: np.ndarray
     touched: np.ndarray
     cells: np.ndarray
-    endings: tuple[CellEnding, ...]
+    endings: list[dict[str, object]]
 
     @property
     def middles(self) -> np.ndarray:
@@ -128,16 +108,18 @@ def map_kicks(
         return _map_losses(rotor, rest, plane, cells, own)
     model = rest.kicks(own) if plane.name == "kick" else ShockPlane(own, plane.lasting(rotor))
     basin = map_basins(rotor, Grid(model, (cells, cells), 0.0), progress=progress)
-    looks = motion_looks(basin)
-    places = np.full(len(basin.motions) + 1, NOWHERE, np.uint8)
-    for place, look in enumerate(looks):
-        places[look.index] = place
-    cells_ = np.ascontiguousarray(places[basin.dataset["motion"].values].T)
-    return KickMap(rest, plane, own, basin.outcomes, basin.touched, cells_, tuple(map(_ending, looks)))
+    looks, places = motion_looks(basin), np.full(len(basin.motions) + 1, NOWHERE, np.uint8)
+    for place, each in enumerate(looks):
+        places[each.index] = place
+    found = np.ascontiguousarray(places[basin.dataset["motion"].values].T)
+    endings = [_ending(each.words, each.colour, each.look, each.share, each.name.outcome) for each in looks]
+    return KickMap(rest, plane, own, basin.outcomes, basin.touched, found, endings)
 
 
-def _ending(look: MotionLook) -> CellEnding:
-    return CellEnding(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
+def _ending(words: str, colour: str, look: Look, share: float, outcome: int) -> dict[str, object]:
+    """A motion on which disturbances end; ``back`` says whether it is the levitation to which they should come back."""
+    back = outcome == Outcome.LEVITATED
+    return {"words": words, "colour": colour, "hatch": look.hatch[:1], "share": share, "back": back}
 
 
 def _map_losses(rotor: Rotor, rest: Rest, plane: DisturbancePlane, cells: int, largest: float) -> KickMap:
@@ -164,13 +146,12 @@ def _map_losses(rotor: Rotor, rest: Rest, plane: DisturbancePlane, cells: int, l
             f"|U*| = {rotor.system.rest_radius:.6g}",
             "one of a machine that levitates inside the wall before it",
         )
-    places = np.full(outcomes.shape, NOWHERE, np.uint8)
-    endings = []
-    for place, code in enumerate(np.unique(outcomes[exists])):
-        places[outcomes == code] = place
-        look, share = OUTCOMES[Outcome(code).label], float((outcomes == code).sum() / exists.sum())
-        endings.append(CellEnding(look.words, look.colour, look.hatch[:1], share, code == Outcome.LEVITATED))
-    return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
+    codes, counts = np.unique(outcomes[exists], return_counts=True)
+    places = np.where(exists, np.searchsorted(codes, outcomes), NOWHERE).astype(np.uint8)
+    looks, shares = [OUTCOMES[Outcome(code).label] for code in codes], (counts / counts.sum()).tolist()
+    each = zip(looks, shares, codes.tolist(), strict=True)
+    endings = [_ending(look.words, look.colour, look, share, code) for look, share, code in each]
+    return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), endings)
 
 
 def is_slow(rotor: Rotor) -> bool:

@@ -44,7 +44,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
             raise SupersededError from None
 
     session = Session(origin, hand_over, ready)
-    figures = make_figures(session.questions.figures)
+    plots, parts = make_figures(session.questions.figures)
     asked: dict[str, Callable[[Any], None]] = {
         "machine": session.show,
         "kick": session.kick,
@@ -54,14 +54,12 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     }
     for name, act in asked.items():
         requests.on_change(name, partial(_act, act))
-    for plot in figures.plots.values():
+    for plot in plots.values():
         document.add_root(plot)
     # What no plot refers to is not part of the document.
-    next(iter(figures.plots.values())).tags = [requests, answers, *figures.parts.values()]
+    next(iter(plots.values())).tags = [requests, answers, *parts.values()]
     document.title = _title(origin)
-    begin = CustomJS(
-        args={"requests": requests, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
-    )
+    begin = CustomJS(args={"requests": requests, "answers": answers, "parts": parts, "plots": plots}, code=_BEGIN)
     document.js_on_event(DocumentReady, begin)
     # Bokeh's client would reconnect with half of the message in which the connection broke still in its buffer, and fail
     # to read anything after it.  So the page is loaded again instead.
@@ -75,7 +73,7 @@ def write_page(origin: Origin, resources: Resources) -> str:
     """The page of a machine as text, the same for all who ask: :data:`TOKEN` stands for the key of a session in it."""
     questions = Questions(origin)
     # The figures of every session have these names, so that the page need not know its document.
-    places = {plot: ID(f"place-{name}") for name, plot in make_figures(questions.figures).plots.items()}
+    places = {plot: ID(f"place-{name}") for name, plot in make_figures(questions.figures)[0].items()}
     return html_page_for_render_items(
         bundle_for_objs_and_resources(None, resources),
         {},

@@ -7,7 +7,6 @@ and the diagram along a slider.  A machine has those of its questions.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from bokeh.core.types import ID
@@ -23,31 +22,15 @@ Parts: TypeAlias = dict[str, Any]
 """Sources, marks and ranges of figures, by their names."""
 
 
-@dataclass(frozen=True)
-class Figures:
-    """Figures, and what the browser changes in them.
-
-    Attributes
-    ----------
-    plots : dict
-        By name.
-    parts : dict
-        Sources, marks and ranges by name; none of them is sent back to the server when the browser changes it.
-    """
-
-    plots: dict[str, Model]
-    parts: Parts
-
-
-def make_figures(names: Sequence[str]) -> Figures:
-    """Make figures by their names, empty."""
+def make_figures(names: Sequence[str]) -> tuple[dict[str, Model], Parts]:
+    """Make figures by their names, empty, and what the browser changes in them: nothing of it is sent back to the server."""
     parts: Parts = {}
     plots: dict[str, Model] = {name: FIGURES[name](parts) for name in names}
     for name, plot in plots.items():
         plot._id = ID(name)  # type: ignore[attr-defined]  # Bokeh has no public way to name an object; the text of the page refers to these
         for model in plot.references():
-            model.syncable = False  # what the browser draws is not sent back
-    return Figures(plots, parts)
+            model.syncable = False
+    return plots, parts
 
 
 def _source(parts: Parts, name: str, *columns: str) -> ColumnDataSource:

@@ -81,7 +81,7 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
         "required": 0.0 if required is None else factor * required,
         "rest": found.rest.words,
         "levitates": found.rest.levitates,
-        "endings": [asdict(ending) for ending in found.endings],
+        "endings": found.endings,
         "share": shown_share(share, coarse),
         "share_remark": f"of {words}, by area: {share.count:,} of {share.total:,} cells of {'a coarse' if coarse else 'this'} picture",
         "sentence": sentence(share, words, coarse)
