@@ -1,5 +1,7 @@
 """Histories of a motion: displacements, forces, speeds and currents as sensors would see them."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray
@@ -56,6 +58,26 @@ def test_currents_and_places_obey_newton():
     acceleration = np.convolve(centre, four, "valid")
     # Differences of the fourth order leave (2e-6 s / 1e-4 s)^4/90 of what the filter of the derivative does.
     assert 12.0 * acceleration == pytest.approx(force[2:-2], abs=1e-6 * np.abs(force).max())
+
+
+def test_currents_keep_their_limit(tmp_path):
+    """The centre of mass is accelerated by weight, unbalance and magnets whose currents, with the bias currents, are cut off at 0.8 A along each axis."""
+    path, step = tmp_path / "limited.toml", 2e-6
+    path.write_text(Path(TILTING).read_text().replace("ki =", 'current_limit = "0.8 A"\nki ='))
+    found = cm.simulate(cm.load(path), cm.kick("40 mm/s", "220 deg"), "1 ms").channels(f"{step} s", (2, 5))
+    places = {name: found[f"{name}_x"].values + 1j * found[f"{name}_y"].values for name in ("node_2", "node_5")}
+    # Bias currents carry 12 kg by levers of 0.15 m and 0.12 m.
+    whole = [
+        found[f"magnetic_bearing_{n}_current_x"].values
+        + 1j * (found[f"magnetic_bearing_{n}_current_y"].values - 12.0 * 9.81 * lever / 0.27 / 100.0)
+        for n, lever in ((1, 0.15), (2, 0.12))
+    ]
+    assert max(np.abs(each.view(float)).max() for each in whole) == pytest.approx(0.8, rel=1e-12)
+    centre = (0.15 * places["node_2"] + 0.12 * places["node_5"]) / 0.27
+    force = 1e5 * (places["node_2"] + places["node_5"]) - 100.0 * sum(whole) - 12.0j * 9.81
+    force += 30e-6 * 2000.0**2 * np.exp(2000j * found.time.values)
+    acceleration = 12.0 * np.convolve(centre, [1.0, -2.0, 1.0], "valid") / step**2
+    assert acceleration == pytest.approx(force[1:-1], abs=1e-3 * np.abs(force).max())
 
 
 def test_currents_are_unknown_while_levitation_is_lost():

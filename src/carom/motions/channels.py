@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,8 +42,8 @@ def channels_of(
     """Sample a motion over all its stages, as sensors would.
 
     Displacements at a touchdown bearing are relative to it (and to its mount), others are those of the shaft; ``x`` and ``y`` are those of the fixed
-    frame.  The normal force on the shaft is positive inward, friction in the sense of rotation.  Control currents are those in which bias currents that carry
-    the weight have no part; while levitation is lost they are ``nan``.
+    frame.  The normal force on the shaft is positive inward, friction in the sense of rotation.  Control currents are those that their limits leave, without the bias currents that
+    carry the weight; while levitation is lost they are ``nan``.
 
     Parameters
     ----------
@@ -76,7 +77,8 @@ def channels_of(
     places = {} if rotor.finite_elements is None else rotor.finite_elements.places(nodes)
     if rotor.planar is not None and len(motion.rotor.system.rest) > 1:  # on a mount
         places = {"rotor": np.array([1.0, 0.0])}
-    currents = None if rotor.finite_elements is None else rotor.finite_elements.currents
+    weight = rotor.acting.whole_weight if rotor.carried_by_bias else None
+    currents = None if rotor.finite_elements is None else partial(rotor.finite_elements.currents, weight=weight)
     times, found = step * np.arange(count), list[dict[str, Column]]()
     which = np.searchsorted([part.begins for part in motion.parts], times, side="right") - 1
     for number, part in enumerate(motion.parts):

@@ -109,6 +109,19 @@ def asked_by_currents(
     return np.array(asked, complex)
 
 
+def limited_currents(bearings: Sequence[MagneticBearing], currents: np.ndarray, constant: np.ndarray) -> np.ndarray:
+    """What limits leave of control currents (n, B), A, beside constant ones (B,); the current of an amplifier is a state, which its limits keep."""
+    found = currents.copy()
+    for number, bearing in enumerate(bearings):
+        bounds = [np.inf if each.amplifier_bandwidth else each.current_limit or np.inf for each in bearing.axes]
+        if min(bounds) < np.inf:
+            turn = np.exp(1j * bearing.axis_angle)
+            whole = (currents[:, number] + constant[number]) / turn
+            kept = [np.clip(each, -bound, bound) for each, bound in zip((whole.real, whole.imag), bounds, strict=True)]
+            found[:, number] = turn * (kept[0] + 1j * kept[1]) - constant[number]
+    return found
+
+
 def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterator[Limit]:
     """Limits of a bearing after so many of others, for coordinates in m √kg."""
     none = np.zeros(len(place.current))

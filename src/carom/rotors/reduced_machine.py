@@ -20,7 +20,7 @@ from carom.parameters.fields import RPM
 from carom.parameters.restitution import damping_ratio_of
 from carom.parameters.touchdown_bearing import OF_CATALOGUE
 from carom.rotors.attachments import TouchdownPlane
-from carom.rotors.bearing_limits import limits_of_bearings
+from carom.rotors.bearing_limits import limited_currents, limits_of_bearings
 from carom.rotors.controllers import PID
 from carom.rotors.equations import Loops, RotorEquations, equations_of
 from carom.rotors.flexible_model import FlexibleDefinition
@@ -358,14 +358,17 @@ class ReducedMachine(Result):
             named[f"housing_{number + 1}"] = size / math.sqrt(housing.mass) * np.eye(n)[seats + number]
         return named
 
-    def currents(self, coordinates: np.ndarray, rates: np.ndarray) -> np.ndarray:
-        """Control currents (n, B), A, of coordinates and their rates (n, N) in the fixed frame, in units of the equations."""
+    def currents(self, coordinates: np.ndarray, rates: np.ndarray, weight: np.ndarray | None) -> np.ndarray:
+        """Control currents (n, B), A, as their limits leave them, of coordinates and their rates (n, N) in the fixed frame, in units of the equations.
+
+        Where bias currents carry a ``weight`` (N,), they count in the limits.
+        """
         given, unit = self.equations, self.scales.length * math.sqrt(self.scales.mass)
         rates = rates * self.scales.speed
         alike = coordinates @ given.currents.T + rates @ given.current_rates.T
         across = coordinates.conj() @ given.currents_across[0].T + rates.conj() @ given.currents_across[1].T
-        found: np.ndarray = unit * (alike + across)
-        return found
+        pull = np.zeros(coordinates.shape[1]) if weight is None else weight * (unit * self.scales.speed**2)
+        return limited_currents(self.machine.bearings, unit * (alike + across), self.held_by_bias(pull)[1])
 
     def _touchdown(self, plane: TouchdownPlane, clearance: float, row: np.ndarray) -> Touchdown:
         """A touchdown bearing, in units in which its own clearance is the length and energies are those of the rotor."""
