@@ -20,7 +20,7 @@ from numpy.polynomial import Polynomial
 
 from carom.base.arguments import Positive, checked
 from carom.base.progress import Reporter, ShowProgress, shows_progress
-from carom.base.results import Result, in_si
+from carom.base.results import Result, record
 from carom.parameters import Scales
 from carom.parameters.formats import format_quantity, number
 
@@ -97,13 +97,7 @@ class ShockResponse(Result):
 
     def document(self) -> dict[str, object]:
         """As plain data for JSON."""
-        values = {
-            "frequencies": self.frequencies.tolist(),
-            "base": self.base.tolist(),
-            "bearings": self.bearings.tolist(),
-        }
-        kinds = {"frequencies": "speed", "base": "acceleration", "bearings": "acceleration"}
-        return {"quality": self.quality, **values, **in_si(values, self.scales, **kinds)}
+        return record(self, "quality frequencies:speed base:acceleration bearings:acceleration", self.scales)
 
 
 @checked

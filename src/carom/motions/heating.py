@@ -36,7 +36,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 import numpy as np
 
 from carom.base.arguments import Reals, checked
-from carom.base.results import Result
+from carom.base.results import Result, record
 from carom.core.wall_work import HEAT, NORMAL
 from carom.motions.kinematics import race_speed, shaft_speed
 from carom.parameters import TouchdownBearing
@@ -52,6 +52,10 @@ PARTS = ("sleeve", "race", "balls", "outer ring")
 """Bodies of one temperature each."""
 SPECIFIC_HEAT, EXPANSION, DENSITY = 460.0, 11.5e-6, 7800.0
 """Of bearing steel: J/(kg K), 1/K and kg/m³."""
+DOCUMENT = (
+    "at_end highest hottest growth_si=growth clearance_left_si=clearance_left load_by_growth_si=load_by_growth "
+    "preload_at_most_si=preload_at_most"
+)
 NEGLECTED = 0.05
 """Share of the work on a race from which it is said that the motion leaves out that of a torque."""
 ROOM = 20.0
@@ -367,12 +371,4 @@ class Temperatures(Result):
 
     def document(self) -> dict[str, object]:
         """As plain data for JSON."""
-        return {
-            "at_end": self.at_end,
-            "highest": self.highest,
-            "hottest": self.hottest,
-            "growth_si": self.growth,
-            "clearance_left_si": self.clearance_left,
-            "load_by_growth_si": self.load_by_growth,
-            "preload_at_most_si": self.preload_at_most,
-        }
+        return record(self, DOCUMENT)

@@ -32,7 +32,7 @@ from carom.motions.settling import (
     time_limit,
 )
 from carom.motions.starts import Beginning, State, Until, amplitudes_of, state_at
-from carom.motions.trajectories import Trajectory, joined
+from carom.motions.trajectories import Trajectory, assembled
 from carom.parameters import own_time
 
 CHUNK = 4096
@@ -93,17 +93,12 @@ def simulate(
     >>> len(motion.contacts)
     257
     """
-    stages: list[list[Trajectory]] = []
     question = present_question()
     longest = min(max_events, question.longest)
     following = Following(settle, stop_at_chatter, patience, longest, Reporter.of(progress, "simulating"))
-    for piece in stretches(machine, start, until, following):
-        if not stages or stages[-1][-1].outcome is Outcome.TRIGGERED:
-            stages.append([])
-        stages[-1].append(piece)
-    question.follow(sum(len(piece.segment_starts) for stage in stages for piece in stage))
-    *earlier, last = map(joined, stages)
-    return dataclasses.replace(last, earlier=tuple(earlier)) if earlier else last
+    pieces = list(stretches(machine, start, until, following))
+    question.follow(sum(len(piece.segment_starts) for piece in pieces))
+    return assembled(pieces)
 
 
 class Following(NamedTuple):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -31,7 +31,7 @@ from carom.motions.loads import DropLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import Following
 from carom.motions.starts import Beginning, Until
-from carom.motions.trajectories import Trajectory, joined
+from carom.motions.trajectories import Trajectory, assembled
 from carom.parameters import Case, Drive, Scales, own_time
 
 LONGEST = 2e7
@@ -95,6 +95,11 @@ class SpinDown(Result):
         """For each plane the largest distance from the centre of its bearing (0-to-peak, fixed frame), in its clearance, and the speed of the shaft then, in ``Ω``."""
         places = self.course[:, 2:-1]
         return tuple((float(radii.max()), float(self.course[radii.argmax(), 1])) for radii in places.T)
+
+    @property
+    def energy_into_bearings(self) -> tuple[float, ...]:
+        """What each touchdown bearing takes, by friction and along the normal, in ``m c_r² Ω²``."""
+        return tuple(each.heat + each.restitution_loss for each in self.loads.planes)
 
     @property
     def unbalance_torque(self) -> tuple[float, float, float]:
@@ -184,9 +189,9 @@ def spin_down(
         modes, torques = SteppedRotor(falling, shaft, changes, steps), Torques(shaft, 1.0 / steps)
         return Descent(modes, torques, limit, following, tell)
 
-    kept = _Kept(keep)
+    kept: list[Trajectory] = []
     fine = descent(steps, tell.part(0.0, 0.5 if in_steps else 1.0))
-    loads, error = replace(loads_of(kept.passing(fine.follow(state))), shaft=None), None
+    loads, error = replace(loads_of(_keeping(fine.follow(state), kept, keep)), shaft=None), None
     if in_steps:
         coarse = descent(max(steps // 2, 1), tell.part(0.5, 1.0))
         for _ in coarse.follow(state):
@@ -205,34 +210,17 @@ def spin_down(
         course=np.array(fine.course),
         criticals=tuple(fine.modes.criticals),
         scales=before.scales,
-        motion=kept.motion,
+        motion=replace(assembled(kept), outcome=Outcome.TIME_REACHED) if kept else None,
     )
 
 
-@dataclass
-class _Kept:
-    """The first pieces of a motion, by stages, up to so many events."""
-
-    most: int
-    stages: list[list[Trajectory]] = field(default_factory=list)
-
-    def passing(self, pieces: Iterable[Trajectory]) -> Iterator[Trajectory]:
-        """Keep pieces as they pass."""
-        for piece in pieces:
-            if self.most > 0:
-                if not self.stages or self.stages[-1][-1].begins != piece.begins:
-                    self.stages.append([])
-                self.stages[-1].append(piece)
-                self.most -= len(piece.segment_starts)
-            yield piece
-
-    @property
-    def motion(self) -> Trajectory | None:
-        """All that was kept."""
-        if not self.stages:
-            return None
-        *earlier, last = map(joined, self.stages)
-        return replace(last, outcome=Outcome.TIME_REACHED, earlier=tuple(earlier))
+def _keeping(pieces: Iterable[Trajectory], kept: list[Trajectory], most: int) -> Iterator[Trajectory]:
+    """Pieces of a motion as they pass, of which the first are kept, up to so many events."""
+    for piece in pieces:
+        if most > 0:
+            kept.append(piece)
+            most -= len(piece.segment_starts)
+        yield piece
 
 
 def shaft_and_changes(

@@ -16,6 +16,9 @@ from carom.studies.wording import Wording
 
 STEPS = 50
 """Steps of speed of a spin-down in a study."""
+SPIN_DOWN = (
+    "stands time: turns speed_at_end:speed braked:energy steps error energy_into_bearings:energy criticals:speed"
+)
 
 
 def spin_down_of(case: Case) -> SpinDown | None:
@@ -57,8 +60,8 @@ def spin_down_rows(slowed: SpinDown) -> list[tuple[str, str]]:
     say, planes = Wording(slowed.scales), slowed.loads.planes
     names = [f" {each.plane + 1}" if len(planes) > 1 else "" for each in planes]
     rows = [
-        (f"energy into bearing{name}", say.write(each.heat + each.restitution_loss, "energy"))
-        for name, each in zip(names, planes, strict=True)
+        (f"energy into bearing{name}", say.write(energy, "energy"))
+        for name, energy in zip(names, slowed.energy_into_bearings, strict=True)
     ]
     rows.append(("windage, drag, drive", f"{say.write(slowed.braked, 'energy')} taken from the shaft"))
     for name, plane, (radius, speed) in zip(names, planes, slowed.largest, strict=True):
@@ -82,18 +85,13 @@ def spin_down_rows(slowed: SpinDown) -> list[tuple[str, str]]:
 
 def spin_down_entries(slowed: SpinDown) -> dict[str, object]:
     """A spin-down as JSON."""
-    scales = slowed.scales
     radii = (f"largest_radius_{place + 1}" for place in range(len(slowed.loads.planes)))
     course = ("time", "speed", *radii, "unbalance_torque")
     return {
-        **record(slowed, "stands time: turns speed_at_end:speed braked:energy steps error", slowed.scales),
-        "energy_into_bearings": (energies := [each.heat + each.restitution_loss for each in slowed.loads.planes]),
-        "energy_into_bearings_si": scales and [each * scales.energy for each in energies],
+        **record(slowed, SPIN_DOWN, slowed.scales),
         "largest_whirl": [
             {"radius": radius, "radius_si": plane.scales and radius * plane.scales.length, "speed": speed}
             for plane, (radius, speed) in zip(slowed.loads.planes, slowed.largest, strict=True)
         ],
-        "criticals": list(slowed.criticals),
-        "criticals_si": scales and [each * scales.speed for each in slowed.criticals],
         "course": {name: values.tolist() for name, values in zip(course, slowed.course.T, strict=True)},
     }
