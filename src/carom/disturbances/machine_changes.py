@@ -282,21 +282,18 @@ class Drop(Disturbance):
             where, sizes = f"rotor centre {begun.words}", dict(begun.sizes)
         else:  # in several bearings coordinates are no places
             amplitudes, _ = amplitudes_of(falling, state)
-            each = (falling.system.at_plane(amplitudes, plane) for plane in range(len(widths)))
-            places = [
-                moving(width * complex(place), width * complex(rate), scales)
-                for width, (place, rate) in zip(widths, each, strict=True)
-            ]
-            where = "; ".join(f"at touchdown bearing {count} {one.words}" for count, one in enumerate(places, 1))
-            sizes = {f"{name}_{count}": size for count, one in enumerate(places, 1) for name, size in one.sizes.items()}
+            where, sizes = "", {}
+            for plane, width in enumerate(widths):
+                place, rate = (width * complex(each) for each in falling.system.at_plane(amplitudes, plane))
+                begun = moving(place, rate, scales)
+                where += f"{'; ' if plane else ''}at touchdown bearing {plane + 1} {begun.words}"
+                sizes |= {f"{name}_{plane + 1}": size for name, size in begun.sizes.items()}
         sizes["unbalance_angle"] = phase, ""
         back = ""
         if self.regained_after is not None:
             regained = own_time("regained_after", self.regained_after, scales)
-            sizes["regained_after"], back = (
-                (regained, "time"),
-                f"; levitation returns after {format_quantity(regained, 'time', scales)}",
-            )
+            sizes["regained_after"] = regained, "time"
+            back = f"; levitation returns after {format_quantity(regained, 'time', scales)}"
         if self.race_speed is not None and scales is not None:
             turning, shown = own_size("race_speed", self.race_speed, "speed", scales), MACHINE_FIELDS["speed"]
             sizes["race_speed"] = turning, "speed"

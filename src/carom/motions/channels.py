@@ -112,13 +112,14 @@ def _sampled(
     def add(name: str, values: np.ndarray, kind: str, words: str, scales: Scales | None = whole) -> None:
         columns[name] = in_units("time", values, kind, words, scales)
 
-    def displaced(name: str, place: np.ndarray, words: str, scales: Scales | None = whole) -> None:
-        for axis, values in (("x", place.real), ("y", place.imag)):
-            add(f"{name}_{axis}", values, "length", f"{words}, along {axis}", scales)
+    def along_axes(name: str, both: np.ndarray, kind: str, words: str, scales: Scales | None = whole) -> None:
+        for axis, values in (("x", both.real), ("y", both.imag)):
+            add(f"{name}_{axis}", values, kind, f"{words}, along {axis}", scales)
 
     for seen in part.at_each:
         name, words = f"touchdown_{seen.plane + 1}", f"touchdown bearing {seen.plane + 1}"
-        displaced(name, turn * system.at_plane(amplitudes, seen.plane)[0], f"displacement in {words}", seen.scales)
+        place = turn * system.at_plane(amplitudes, seen.plane)[0]
+        along_axes(name, place, "length", f"displacement in {words}", seen.scales)
         for kind, force in zip(("normal", "friction"), seen.forces_of(amplitudes, phases, times), strict=True):
             add(f"{name}_{kind}_force", force, "force", f"{kind} force in {words}", seen.scales)
         if (race := part.rotor.races[seen.plane]) is not None:
@@ -127,19 +128,14 @@ def _sampled(
     add("shaft_speed", shaft_speed(system, amplitudes), "speed", "speed of the shaft")
     position, rate = (np.reshape(each, (len(times), -1)) * turn[:, None] for each in system.state(amplitudes))
     for name, row in places.items():
-        displaced(name, position @ row, f"displacement at {name.replace('_', ' ')}")
+        along_axes(name, position @ row, "length", f"displacement at {name.replace('_', ' ')}")
     if currents is not None:
         known = currents(position, rate + 1j * position)
         if part.rotor.finite_elements is None:  # levitation is lost
             known = np.full_like(known, complex(np.nan, np.nan))
         for number, current in enumerate(known.T, start=1):
-            for axis, values in (("x", current.real), ("y", current.imag)):
-                words = f"control current of magnetic bearing {number}, along {axis}"
-                columns[f"magnetic_bearing_{number}_current_{axis}"] = (
-                    "time",
-                    values,
-                    {"units": "A", "long_name": words},
-                )
+            words = f"control current of magnetic bearing {number}"
+            along_axes(f"magnetic_bearing_{number}_current", current, "A", words)
     return columns
 
 

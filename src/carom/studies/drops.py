@@ -71,7 +71,7 @@ RIGID = (
 """Loads of a touchdown bearing as shown to people: labels, and attributes by name and kind; zero or unknown ones are left out."""
 NONE_LEFT = ("such landings left", "none: the static rating is exceeded")
 TURNING = "speed_ratio cage_speed:speed up_to_speed_at:time ball_traction heat:energy torque_si=torque neglected drag_si=drag starts_at_si=starts_at"
-_KEYS = {"ball_load": "ball_load_si", "pressure": "pressure_si"}
+CATALOGUE = "ball_load_si=catalogue.ball_load pressure_si=catalogue.pressure static_share=catalogue.static_share life_share=catalogue.life_share landings"
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
 FALLING = "0.2 s"
 """Time for which the drop of a study is followed, if it does not settle before."""
@@ -253,10 +253,7 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
 
 def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, object]:
     whirl, loads = plane.whirl, record(plane, LOADS, plane.scales)
-    found = plane.catalogue._asdict().items()
-    loads |= {_KEYS.get(name, name): value for name, value in found if value is not None}
-    if plane.landings is not None:
-        loads["landings"] = plane.landings
+    loads |= {name: value for name, value in record(plane, CATALOGUE).items() if value is not None}
     if not plane.is_compliant:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
         loads["force_is_of_lasting_contact"] = True
@@ -272,10 +269,6 @@ def _entry(plane: TouchdownLoads, limits: LoadLimits) -> dict[str, object]:
     }
 
 
-def _by_shaft(times: str) -> str:
-    return "synchronous with the shaft" if times == "1" else f"{times.lstrip('-')} times the shaft speed"
-
-
 def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
     """Sense and frequency, and whether it goes on."""
     turns = number(whirl.lasted / (2.0 * math.pi), 3)
@@ -283,7 +276,9 @@ def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
         return "none"
     rate = f"{number(abs(whirl.angular_speed), 4)} Ω"
     if whirl.frequency_si is not None:
-        rate = f"{number(whirl.frequency_si, 4)} Hz ({_by_shaft(number(whirl.angular_speed, 3))})"
+        times = number(whirl.angular_speed, 3)
+        by_shaft = "synchronous with the shaft" if times == "1" else f"{times.lstrip('-')} times the shaft speed"
+        rate = f"{number(whirl.frequency_si, 4)} Hz ({by_shaft})"
     if whirl.goes_on:
         return f"{whirl.direction}, {rate}; it persists"
     seen = "; it may not persist" if not outcome.settled else ""
