@@ -183,6 +183,10 @@ class InputError(CaromError, ValueError):
         """All errors that it reports: only itself."""
         return (self,)
 
+    def under(self, where: str) -> InputError:
+        """All of these with what is put before the names of their fields."""
+        return together([InputError(where + each.field, each.value, each.allowed) for each in self.errors])
+
 
 class MultipleInputError(InputError):
     """Several inputs that cannot be used, reported together: one line each; of very many, only the first ones.

@@ -134,6 +134,5 @@ def read_recoveries(
                 raise InputError("name", one.name, "a name of its own for each")
             found[one.name] = one
         except InputError as problem:
-            where = f"[[recovery]] {number}: "
-            problems.errors += [InputError(where + each.field, each.value, each.allowed) for each in problem.errors]
+            problems.errors += problem.under(f"[[recovery]] {number}: ").errors
     return tuple(found.values())

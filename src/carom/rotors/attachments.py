@@ -100,11 +100,6 @@ class Housing:
             found.append(tuple(range(count)) if everything else tuple(number - 1 for number in listed))
         return tuple(found)
 
-    def seated(self, machine: object) -> tuple[tuple[int, ...], ...]:
-        """The same of magnets, sensors, touchdown bearings and supports."""
-        bearings, *others = self.parts(machine)
-        return bearings, bearings, *others
-
 
 SEATED = ("bearings", "touchdowns", "supports")
 """Parts that may stand on a housing."""

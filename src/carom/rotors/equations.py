@@ -184,7 +184,8 @@ def _seated(at: FlexibleMachine, basis: Basis, first: int, size: int) -> Loops:
     """The same by the coordinates of the equations (n,), relative to the housings, whose coordinates begin at the first."""
     found = [np.pad(rows @ basis.shapes, ((0, 0), (0, size - len(basis.frequencies)))) for rows in loops_of(at)]
     for place, housing in enumerate(at.housings, first):
-        for rows, seated in zip(found[:-1], housing.seated(at), strict=True):
+        bearings, *others = housing.parts(at)
+        for rows, seated in zip(found[:-1], (bearings, bearings, *others), strict=True):
             rows[list(seated), place] = -1.0 / np.sqrt(housing.mass)
     return Loops(*found)
 
@@ -202,12 +203,12 @@ def equations_of(at: FlexibleMachine, basis: Basis) -> RotorEquations:
     gyroscopic = np.zeros((size, size))
     gyroscopic[free, free] = _gyroscopic(rotor, basis)
     held = _held(rotor, basis, supports, rows.supports)
-    alike, across = _sum(held, at.speed, size)
-    damping, stiffness = damping + alike[0], stiffness + alike[1]
     states = slice(first, size)
     damping[states, states] = np.eye(size - first)
     # By coordinates and by their conjugates: damping and stiffness; then currents by places and by rates.
-    levitated = np.array([[damping, stiffness], across], complex)
+    levitated = np.zeros((2, 2, size, size), complex)
+    levitated[0] = damping, stiffness
+    levitated += sum(each.at(at.speed) for each in held)
     left, regained = levitated.copy(), np.ones(size)
     currents = np.zeros((2, 2, len(bearings), size), complex)
     amplifiers = np.full(len(bearings), -1)
@@ -313,14 +314,6 @@ def _held(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], rows: np.
         own = damping_by(basis, rotor.by_modes(rotor.internal_rates), rotor.internal_rates)
         found.append(SpeedLaw(padded(own), turning))
     return tuple(found)
-
-
-def _sum(held: Sequence[SpeedLaw], speed: float, size: int) -> tuple[np.ndarray, np.ndarray]:
-    """Damping and stiffness, both of shape (2, n, n): by velocities and displacements, real without cross-coupling, and by their conjugates."""
-    both = np.zeros((2, 2, size, size), complex)
-    for each in held:
-        both += each.at(speed)
-    return _real(both[0]), both[1]
 
 
 def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:

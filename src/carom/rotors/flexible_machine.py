@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -27,6 +27,7 @@ from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
 from carom.rotors.rigid_body import RigidRotor
+from carom.rotors.shaft_parts import read_parts
 from carom.rotors.shared_controller import SharedController, loops_in
 from carom.rotors.support import SUPPORT_FIELDS, Support
 
@@ -94,12 +95,7 @@ class FlexibleMachine(NamedParameters):
         if not isinstance(self.gravity, Gravity | None):
             raise InputError("gravity", shown(self.gravity), "carom.parameters.Gravity, or None")
         for name, kind in _KINDS.items():
-            given: object = getattr(self, name)
-            listed = tuple(given) if isinstance(given, Iterable) else (None,)
-            if not all(isinstance(each, kind) for each in listed) or (name == "touchdowns" and not listed):
-                least = ", one or more" if name == "touchdowns" else ""
-                raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}{least}")
-            object.__setattr__(self, name, listed)
+            read_parts(self, name, kind, needed=name == "touchdowns")
         read_entries(self, WHOLE)
         for each in self.bearings:
             self.rotor.check_node("bearing node", each.node)
@@ -216,16 +212,9 @@ def rigid_rotor(
     polar_inertia: Any,
     diametral_inertia: Any,
     stations: Sequence[Any],
-    speed: Any,
-    clearance: Any,
-    touchdowns: Sequence[TouchdownPlane],
-    bearings: Sequence[MagneticBearing] = (),
-    supports: Sequence[Support] = (),
-    unbalances: Sequence[Unbalance] = (),
-    gravity: Gravity | None = None,
     pivot: Any = None,
-    shared_controllers: Sequence[SharedController] = (),
-    housings: Sequence[Housing] = (),
+    bearings: Sequence[MagneticBearing] = (),
+    **others: Any,
 ) -> FlexibleMachine:
     """Return the machine of a rigid rotor with two complex degrees of freedom, displacement and tilt.
 
@@ -233,8 +222,8 @@ def rigid_rotor(
     ----------
     mass, polar_inertia, diametral_inertia, stations, pivot
         See :class:`RigidRotor`.
-    speed, clearance, touchdowns, bearings, supports, unbalances, gravity, shared_controllers, housings
-        See :class:`FlexibleMachine`; the ``node`` of a part is the number of its station, from 0 on.
+    bearings, **others
+        Attributes of :class:`FlexibleMachine`: speed, clearance, touchdowns and so on; the ``node`` of a part is the number of its station, from 0 on.
 
     Raises
     ------
@@ -261,19 +250,14 @@ def rigid_rotor(
     ['42.1 Hz, backward', '44.6 Hz, forward']
     """
     rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
-    return FlexibleMachine(
-        rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports, shared_controllers, housings
-    )
-
-
-_MILLIMETRES = 1e3
+    return FlexibleMachine(rotor, bearings=bearings, **others)
 
 
 def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     """The rotor and what stands around it, part by part; places along the shaft are from its beginning."""
     from carom.rotors.loop_sensitivity import sampling_error  # which is about machines
 
-    places = _MILLIMETRES * machine.rotor.node_places
+    places = 1e3 * machine.rotor.node_places
 
     def at(*nodes: int) -> str:
         return f"{' and '.join(number(float(places[node])) for node in nodes)} mm"
@@ -282,10 +266,8 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     yield "speed", f"{number(machine.speed / RPM)} rpm"
     for place, bearing in enumerate(machine.bearings, start=1):
         seen = "" if bearing.sensor_nodes == (bearing.node,) else f", sensors at {at(*bearing.sensor_nodes)}"
-        yield (
-            f"magnetic bearing {place}",
-            f"at {at(bearing.node)}{seen}: {_entries(bearing, BEARING_FIELDS)}; {_law(bearing.controller)}",
-        )
+        own = f"{_entries(bearing, BEARING_FIELDS)}; {_law(bearing.controller)}"
+        yield f"magnetic bearing {place}", f"at {at(bearing.node)}{seen}: {own}"
         if bearing.y is not None:
             other = f"{_entries(bearing.y, BEARING_FIELDS)}; {_law(bearing.y.controller)}"
             yield f"magnetic bearing {place}, second axis", other
@@ -304,15 +286,12 @@ def part_rows(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
         under = "; ".join(f"{name} {', '.join(str(each + 1) for each in listed)}" for name, listed in parts if listed)
         yield f"housing {place}", f"{_entries(housing, HOUSING_FIELDS)}; under {under}"
     for place, (plane, clearance) in enumerate(zip(machine.touchdowns, machine.clearances, strict=True), start=1):
-        room = format_entry(PLANE_FIELDS["clearance"], clearance)
-        others = {name: field for name, field in PLANE_FIELDS.items() if name != "clearance"}
-        shown = f"clearance {room}, {_entries(plane, others)}; {plane.bearing.words}"
+        fields = {name: PLANE_FIELDS[name] for name in ("clearance", *PLANE_FIELDS)}
+        shown = f"{_entries(replace(plane, clearance=clearance), fields)}; {plane.bearing.words}"
         yield f"touchdown bearing {place}", f"at {at(plane.node)}: {shown}"
     for place, unbalance in enumerate(machine.unbalances, start=1):
-        yield (
-            f"unbalance {place}",
-            f"at {at(unbalance.node)}: {number(1e6 * unbalance.size)} g mm, at {format_angle(unbalance.angle)}",
-        )
+        shown = f"{number(1e6 * unbalance.size)} g mm, at {format_angle(unbalance.angle)}"
+        yield f"unbalance {place}", f"at {at(unbalance.node)}: {shown}"
 
 
 def _law(controller: Controller | None) -> str:

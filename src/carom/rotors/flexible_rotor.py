@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -14,7 +14,7 @@ from carom.base.outcome import InputError, shown
 from carom.parameters import read_quantity
 from carom.parameters.fields import length_field
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices
-from carom.rotors.shaft_parts import Damping, Disc, ShaftSection, beam_element
+from carom.rotors.shaft_parts import Damping, Disc, ShaftSection, beam_element, read_parts
 
 ELEMENTS = 32
 """Elements of a shaft of equal sections, unless a length is stated."""
@@ -54,12 +54,8 @@ class FlexibleRotor(BendingRotor):
     internal: Damping | None = None
 
     def __post_init__(self) -> None:
-        for name, kind in (("sections", ShaftSection), ("discs", Disc)):
-            given: object = getattr(self, name)
-            listed = tuple(given) if isinstance(given, Iterable) else (None,)
-            if not all(isinstance(each, kind) for each in listed) or (kind is ShaftSection and not listed):
-                raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}")
-            object.__setattr__(self, name, listed)
+        read_parts(self, "sections", ShaftSection, needed=True)
+        read_parts(self, "discs", Disc)
         if len(self.sections) > MOST_ELEMENTS:
             allowed = f"at most {MOST_ELEMENTS}; neighbouring sections of one diameter are one section"
             raise InputError("sections", len(self.sections), allowed)

@@ -181,8 +181,7 @@ class BendingRotor(FreeRotor):
     @cached_property
     def damping_rates(self) -> np.ndarray | None:  # type: ignore[override]
         """Damping over mass of each free mode, 1/s; ``None`` where damping couples modes."""
-        own = self.own_damping
-        return None if own is None else np.array([own.rate(each) for each in self.free_modes.frequencies.tolist()])
+        return self._rates(self.own_damping)
 
     @cached_property
     def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
@@ -194,7 +193,9 @@ class BendingRotor(FreeRotor):
     @cached_property
     def internal_rates(self) -> np.ndarray | None:  # type: ignore[override]
         """Damping over mass of each free mode that turns with the shaft, 1/s."""
-        own = self.internal
+        return self._rates(self.internal)
+
+    def _rates(self, own: Damping | None) -> np.ndarray | None:
         return None if own is None else np.array([own.rate(each) for each in self.free_modes.frequencies.tolist()])
 
     def _check_internal(self) -> None:

@@ -217,10 +217,7 @@ def _at_stations(tables: MachineTables, problems: Problems) -> tuple[MachineTabl
             try:
                 read[kind, number] = _placed(entry) if "node" in PARTS[kind].needed else {}
             except InputError as problem:
-                problems.errors += [
-                    InputError(f"[[{kind}]] {number}: {each.field}", each.value, each.allowed)
-                    for each in problem.errors
-                ]
+                problems.errors += problem.under(f"[[{kind}]] {number}: ").errors
     stations = sorted({at for places in read.values() for given in places.values() for at in np.atleast_1d(given)})
     parts: dict[str, list[Mapping[str, Any]]] = {kind: [] for kind in tables.parts}
     for (kind, number), places in read.items():
@@ -269,21 +266,17 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
     rotor, rooms = machine.rotor, machine.clearances
     sections = rotor.sections if isinstance(rotor, FlexibleRotor) else ()
     length = float(np.ptp(rotor.places))
-    stated = [
-        f"[[section]] {number}: outer_diameter = {each.outer_diameter:g} m: thicker than the shaft is long, {length:.4g} m"
-        for number, each in enumerate(sections, start=1)
-        if each.outer_diameter > length
-    ]
-    stated += [
-        f"[[section]] {number}: length = {each.length:g} m: more than {SLENDEREST:g} times its diameter"
-        for number, each in enumerate(sections, start=1)
-        if each.length > SLENDEREST * each.outer_diameter
-    ]
-    stated += [
-        f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {room:g} m"
-        for number, (each, room) in enumerate(zip(machine.touchdowns, rooms, strict=True), start=1)
-        if each.rotor_radius < LEAST_RADIUS * room
-    ]
+    stated = []
+    for number, each in enumerate(sections, start=1):
+        wide, where = each.outer_diameter, f"[[section]] {number}: "
+        if wide > length:
+            stated.append(f"{where}outer_diameter = {wide:g} m: thicker than the shaft is long, {length:.4g} m")
+        if each.length > SLENDEREST * wide:
+            stated.append(f"{where}length = {each.length:g} m: more than {SLENDEREST:g} times its diameter")
+    for number, (plane, room) in enumerate(zip(machine.touchdowns, rooms, strict=True), start=1):
+        if plane.rotor_radius < LEAST_RADIUS * room:
+            few = f"less than {LEAST_RADIUS:g} clearances of {room:g} m"
+            stated.append(f"[[touchdown]] {number}: rotor_radius = {plane.rotor_radius:g} m: {few}")
     if stated:
         text = f"{'; '.join(stated)}: check the units (a number without a unit is in m)"
         warnings.warn(text, CaromWarning, stacklevel=5)
@@ -303,25 +296,21 @@ def _each(
         allowed = f"at most {MOST_ELEMENTS} tables{advice}"
         problems.errors.append(InputError(f"[[{kind}]]", f"{len(listed)} tables", allowed))
         return found
+
+    def made(entry: Mapping[str, Any]) -> Any:
+        whole = completed(entries_in(entry, table.entries))
+        require(whole, table.needed)
+        part = table.make(whole)
+        if rotor is not None and "node" in table.needed:
+            rotor.check_node("node", part.node)
+            for node in getattr(part, "sensor_nodes", ()):
+                rotor.check_node("sensor_nodes", node)
+        return part
+
     for number, entry in enumerate(listed, start=1):
-        errors = [
-            unknown_name(name, given, table.entries, f"[[{kind}]]")
-            for name, given in entry.items()
-            if name not in table.entries
-        ]
-        try:
-            whole = completed(entries_in(entry, table.entries))
-            require(whole, table.needed)
-            part = table.make(whole)
-            if rotor is not None and "node" in table.needed:
-                rotor.check_node("node", part.node)
-                for node in getattr(part, "sensor_nodes", ()):
-                    rotor.check_node("sensor_nodes", node)
-        except InputError as problem:
-            errors += problem.errors
-        else:
-            found.append(part)
-        problems.errors += [
-            InputError(f"[[{kind}]] {number}: {each.field}", each.value, each.allowed) for each in errors
-        ]
-    return found
+        own, where = Problems(), f"[[{kind}]] {number}: "
+        for name in [name for name in entry if name not in table.entries]:
+            own.errors.append(unknown_name(name, entry[name], table.entries, f"[[{kind}]]"))
+        found.append(own.attempt(made, entry))
+        problems.errors += [each.under(where) for each in own.errors]
+    return [each for each in found if each is not None]

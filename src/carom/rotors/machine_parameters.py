@@ -39,39 +39,30 @@ _Paths = dict[str, tuple[_Path, Field]]
 _COEFFICIENT = Field("", "", "", "a number", "", -1e60, 1e60, "1", True)
 
 
-class Number(NamedTuple):
-    """A number of a controller that can be varied: the attributes and places that lead to it, and its field."""
+def _inside(found: _Paths, *attributes: str | int, prefix: str = "", words: str = "") -> _Paths:
+    """Numbers of a part to which these attributes and places lead from the whole."""
+    return {
+        prefix + name: ((*attributes, *path), replace(field, words=field.words + words))
+        for name, (path, field) in found.items()
+    }
 
-    path: tuple[str | int, ...]
-    field: Field
 
-
-def numbers_of(controller: object) -> dict[str, Number]:
+def numbers_of(controller: object) -> _Paths:
     """Numbers of a controller by their names, those that are stated."""
     if isinstance(controller, Series):
-        found = {
-            name: Number(("controller", *path), field)
-            for name, (path, field) in numbers_of(controller.controller).items()
-        }
+        found = _inside(numbers_of(controller.controller), "controller")
         for place, each in enumerate(controller.filters):
             own = {name: number for name, number in numbers_of(each).items() if name != "sample_time"}
-            words = f"of filter {place + 1}"
-            found |= {
-                f"filter{place + 1}_{name}": Number(
-                    ("filters", place, *path), replace(field, words=f"{field.words}, {words}")
-                )
-                for name, (path, field) in own.items()
-            }
-        if "sample_time" in found:
-            found["sample_time"] = Number(("sample_time",), SAMPLE_TIME)
-        return found
-    fields: Mapping[str, Field] = getattr(controller, "fields", {})
-    found = {name: Number((name,), field) for name, field in fields.items() if getattr(controller, name) is not None}
-    for name, path, words in getattr(controller, "coefficients", ()):
-        found[name] = Number(path, replace(_COEFFICIENT, name=name, words=words))
-    if getattr(controller, "sample_time", None) is not None:
-        found["sample_time"] = Number(("sample_time",), SAMPLE_TIME)
-    return found
+            number = place + 1
+            found |= _inside(own, "filters", place, prefix=f"filter{number}_", words=f", of filter {number}")
+        has_samples = "sample_time" in found
+    else:
+        fields: Mapping[str, Field] = getattr(controller, "fields", {})
+        found = _own({name: field for name, field in fields.items() if getattr(controller, name) is not None})
+        for name, path, words in getattr(controller, "coefficients", ()):
+            found[name] = path, replace(_COEFFICIENT, name=name, words=words)
+        has_samples = getattr(controller, "sample_time", None) is not None
+    return found | (_own({"sample_time": SAMPLE_TIME}) if has_samples else {})
 
 
 def _own(fields: Mapping[str, Field]) -> _Paths:
@@ -113,15 +104,11 @@ def _entries_of(attribute: str, part: object) -> _Paths:
     found = {name: own for name, own in paths.items() if _read(part, own[0]) is not None}
     for controller in ("controller", "translation", "tilt", "matrices"):
         prefix = "" if controller in ("controller", "matrices") else f"{controller}_"
-        for name, (path, field) in numbers_of(getattr(part, controller, None)).items():
-            found[prefix + name] = (controller, *path), field
+        found |= _inside(numbers_of(getattr(part, controller, None)), controller, prefix=prefix)
     if getattr(part, "y", None) is not None:
         others = _entries_of(attribute, part.y)  # type: ignore[attr-defined]
-        found |= {
-            f"y_{name}": (("y", *path), replace(field, words=f"{field.words}, along its second axis"))
-            for name, (path, field) in others.items()
-            if name != "ki"
-        }
+        others.pop("ki")
+        found |= _inside(others, "y", prefix="y_", words=", along its second axis")
     return found
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.base.outcome import InputError, shown
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices
-from carom.rotors.shaft_parts import Damping, Disc
+from carom.rotors.shaft_parts import Damping, Disc, read_parts
 from carom.rotors.state_spaces import real_numbers
 
 ROUNDED = 1e-6
@@ -185,11 +185,7 @@ class MatrixRotor(BendingRotor):
             check_damping(self.damping)
         self._check_internal()
         object.__setattr__(self, "names", _names(self.names, len(self.nodes)))
-        given: Any = self.discs
-        listed = tuple(given) if isinstance(given, Iterable) else (None,)
-        if not all(isinstance(each, Disc) for each in listed):
-            raise InputError("discs", shown(given), "a sequence of carom.rotors.Disc")
-        object.__setattr__(self, "discs", listed)
+        read_parts(self, "discs", Disc)
         for disc in self.discs:
             self.check_node("disc node", disc.node)
 

@@ -35,7 +35,7 @@ class RigidRotor(FreeRotor):
 
         m z̈ = Σ f_j,      I_t θ̈ − iΩ I_p θ̇ = Σ l_j f_j.
 
-    SpeedLaw at a point ``p`` it only tilts, ``z = −p θ``, and its inertia is that about this point, ``I_t + m p²``.
+    Held at a point ``p`` it only tilts, ``z = −p θ``, and its inertia is that about this point, ``I_t + m p²``.
 
     Parameters
     ----------

@@ -67,8 +67,7 @@ def import_rotor(source: str | os.PathLike[str], name: str | None = None, python
     """
     path = Path(source)
     if path.suffix.lower() not in SOURCES:
-        found = _of_matrices(path)
-        return ImportedRotor(*found)
+        return ImportedRotor(*_of_matrices(path))
     if not path.is_file():
         raise InputError("source", shown(str(path)), "there is no such file")
     with TemporaryDirectory() as folder:

@@ -78,7 +78,7 @@ def read_rotor(
         object.__setattr__(found, "source", str(Path(name).absolute()))
         return found
     except InputError as problem:
-        raise InputError(f"{name}: {problem.field}", problem.value, problem.allowed) from None
+        raise problem.under(f"{name}: ") from None
 
 
 @checked

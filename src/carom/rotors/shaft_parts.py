@@ -13,7 +13,7 @@ Rotating Machines*, 2010, sections 5.4 and 5.5).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -31,6 +31,16 @@ def read_node(name: str, given: object) -> int:
     if isinstance(given, bool) or not hasattr(given, "__index__") or given.__index__() < 0:
         raise InputError(name, shown(given), "the number of a node: a whole number of at least 0")
     return int(given.__index__())
+
+
+def read_parts(whole: object, name: str, kind: type, needed: bool = False) -> None:
+    """Make an attribute a tuple of parts of a kind; refuse others, and none where one is needed."""
+    given: object = getattr(whole, name)
+    listed = tuple(given) if isinstance(given, Iterable) else (None,)
+    if not all(isinstance(each, kind) for each in listed) or (needed and not listed):
+        least = ", one or more" if needed else ""
+        raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}{least}")
+    object.__setattr__(whole, name, listed)
 
 
 def inertia_field(name: str, symbol: str, words: str, example: str, zero: bool = True) -> Field:

@@ -17,22 +17,11 @@ from carom.rotors.shaft_parts import read_node
 
 Coefficient = Any
 """A number; of a support with a table a tuple of one for each speed."""
-_AXES = ("xx", "xy", "yx", "yy")
 _ALONG = {"xx": "along x by a displacement along x", "xy": "along x by one along y", "yx": "along y by one along x", "yy": "along y by one along y"}  # fmt: skip
 
-
-def _stiffness(axes: str) -> Field:
-    return Field(f"k{axes}", f"k_{{{axes}}}", f"stiffness of a support, {_ALONG[axes]}", "a stiffness", "N/m", -1e15, 1e15, '"2e6 N/m"', True)  # fmt: skip
-
-
-def _damping(axes: str) -> Field:
-    words = f"damping of a support, {_ALONG[axes].replace('displacement', 'velocity')}"
-    return Field(f"c{axes}", f"c_{{{axes}}}", words, "a damping", "N s/m", -1e12, 1e12, '"500 N s/m"', True)
-
-
 SUPPORT_FIELDS: Mapping[str, Field] = by_name(
-    *map(_stiffness, _AXES),
-    *map(_damping, _AXES),
+    *(Field(f"k{axes}", f"k_{{{axes}}}", f"stiffness of a support, {along}", "a stiffness", "N/m", -1e15, 1e15, '"2e6 N/m"', True) for axes, along in _ALONG.items()),
+    *(Field(f"c{axes}", f"c_{{{axes}}}", f"damping of a support, {along.replace('displacement', 'velocity')}", "a damping", "N s/m", -1e12, 1e12, '"500 N s/m"', True) for axes, along in _ALONG.items()),
     Field("rotating_damping", "c_r", "damping of a support that turns with the shaft", "a damping", "N s/m", 1e-30, 1e12, '"100 N s/m"', True),
     Field("tilt_stiffness", "", "moment of a support per tilt, alike in both directions", "a tilt stiffness", "N m/rad", -1e15, 1e15, '"2e4 N m/rad"', True),
     Field("tilt_damping", "", "moment of a support per rate of tilt", "a tilt damping", "N m s/rad", -1e12, 1e12, '"5 N m s/rad"', True),

@@ -122,7 +122,8 @@ class WhirlMode(Result):
         """
         if not turns(np.array(self.exponent)):
             return "none"
-        if roundness(self.shape, self.opposite) <= STRAIGHT:
+        ahead, behind = np.sum(np.abs(self.shape) ** 2), np.sum(np.abs(self.opposite) ** 2)
+        if abs(ahead - behind) <= STRAIGHT * (ahead + behind):
             return "straight"
         return "forward" if self.exponent.imag > 0.0 else "backward"
 
@@ -164,25 +165,15 @@ def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count:
     found = motions_at(whole.equations, at)
     shown_at = flexible.rotor.displacements(whole.basis.shapes)
     shapes, opposite = (shown_at @ each[: whole.vectors] for each in (found.ahead, found.behind))
+    sizes = (np.abs(shapes) + np.abs(opposite)).max(axis=0)
+    shapes, opposite = (each / np.where(sizes, sizes, 1.0) for each in (shapes, opposite))
     grow = growing(found.exponents)
     order = [place for place in np.argsort(np.abs(found.exponents.imag)) if turns(found.exponents[place])]
     return tuple(
-        WhirlMode(complex(found.exponents[place]), shapes[:, place] / size, opposite[:, place] / size)
+        WhirlMode(complex(found.exponents[place]), shapes[:, place], opposite[:, place])
         for rank, place in enumerate(order)
         if rank < count or grow[place]
-        for size in [_largest(np.abs(shapes[:, place]) + np.abs(opposite[:, place]))]
     )
-
-
-def _largest(sizes: np.ndarray) -> float:
-    return float(sizes.max()) or 1.0
-
-
-def roundness(shape: np.ndarray, opposite: np.ndarray) -> float:
-    """1 of circles, 0 of lines: areas of ellipses over those of circles that are as large, in the sum over all places."""
-    ahead, behind = np.sum(np.abs(shape) ** 2), np.sum(np.abs(opposite) ** 2)
-    total = ahead + behind
-    return float(abs(ahead - behind) / total) if total else 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -276,7 +276,7 @@ def _disturbance(table: Mapping[str, object], scales: Scales | None) -> tuple[Di
     try:
         made = model(**own)
     except InputError as problem:
-        raise InputError(f"{where}.{problem.field}", problem.value, problem.allowed) from None
+        raise problem.under(f"{where}.") from None
     return made, tuple(name for name, size in sizes.items() if isinstance(size, Size) and size.in_si)
 
 
