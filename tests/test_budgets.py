@@ -23,14 +23,14 @@ LIMITS = {
     "basins attractors": 2338,
     "studies": 3455,
     "cli plots report": 5772,
-    "rotors": 4419,
+    "rotors": 4455,
     "proofs": 5907,
     "explorer": 2106,
     "fitting": 951,
     "sweeps": 1399,
     "reproductions": 1284,
 }
-TESTS, ANY = 38_864, 291
+TESTS, ANY = 38_893, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
 DECLARATIONS = {"entry"}
 """Functions whose parameters are what a field or a machine is declared by, each by its name."""

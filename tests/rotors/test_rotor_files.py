@@ -174,3 +174,34 @@ def _huge(path):
 def test_a_file_that_harms_its_reader_is_refused_in_one_line(tmp_path, name, make, says):
     make(tmp_path / name)
     assert_refused(lambda: read_rotor(tmp_path / name), says)
+
+
+def test_a_controller_comes_from_a_file(folder):
+    """As matrices, as a quotient under MATLAB's names, sampled, and as a filter: the same machine as with its numbers."""
+    begins = "A = [[-10000.0]]\nB = [[1.0]]\nC = [[-1.2e9]]\nD = [[132000.0]]"
+    savemat(folder / "c.mat", {"A": -1e4, "B": 1.0, "C": -1.2e9, "D": 132000.0, "Ts": 0.0, "sys": "other"})
+    savemat(folder / "tf.mat", {"num": [13.2, 12000.0], "den": [1e-4, 1.0], "Ts": 1e-4})
+    savemat(folder / "none.mat", {"sys": 1.0})
+    number = {
+        "numerator = [13.2, 12000]\ndenominator = [1e-4, 1]\nsample_time = 1e-4": 'source = "tf.mat"',
+        begins: 'source = "c.mat"',
+    }
+    template = Path("src/carom/cli/templates/flexible.toml").read_text(encoding="utf-8")
+    plain = "numerator = [13.2, 12000]\ndenominator = [1e-4, 1]\n"
+
+    def read(controller):
+        (folder / "m.toml").write_text(template.replace(plain, f"{controller}\n"), encoding="utf-8")
+        return load_machine(folder / "m.toml")
+
+    below = "\n[[magnetic_bearing.filter]]\n"
+    number[f"proportional = 1\n{below}{begins}"] = f'proportional = 1\n{below}source = "c.mat"'
+    for stated, source in number.items():
+        assert repr(read(source).bearings[1].controller) == repr(read(stated).bearings[1].controller), source
+    for source, words in {
+        'source = "none.mat"': "ssdata",
+        'source = "no.mat"': "no such file",
+        "source = 3": "the path of",
+        'source = "c.mat"\nA = [[1]]': "not allowed beside A",
+    }.items():
+        with pytest.raises(InputError, match=words):
+            read(source)

@@ -6,6 +6,7 @@ import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ from carom.rotors.part_tables import (
     require,
 )
 from carom.rotors.rigid_body import POSITION, RIGID_FIELDS, RigidRotor
-from carom.rotors.rotor_files import read_rotor
+from carom.rotors.rotor_files import read_controller, read_rotor
 from carom.rotors.shaft_parts import MATERIAL_FIELDS, Disc, Material
 
 OF_RIGID = ("speed", "clearance", *RIGID_FIELDS)
@@ -282,6 +283,26 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
         warnings.warn(text, CaromWarning, stacklevel=5)
 
 
+def _with_controllers(entry: Mapping[str, object], folder: Path) -> dict[str, object]:
+    """A table, with all below it, in which the controllers of files stand in place of the entries ``source``."""
+    found: dict[str, object] = {}
+    for name, given in entry.items():
+        if isinstance(given, Mapping):
+            found[name] = _with_controllers(given, folder)
+        elif name == "filter" and isinstance(given, list):
+            found[name] = [_with_controllers(each, folder) if isinstance(each, Mapping) else each for each in given]
+        elif name != "source":
+            found[name] = given
+        elif not isinstance(given, str) or not given:
+            raise InputError(name, shown(given), "the path of a .mat or .npz file, seen from the machine file")
+        else:
+            own = read_controller(folder / given)
+            if beside := [each for each in own if each in entry]:
+                raise InputError(name, shown(given), f"not allowed beside {beside[0]}, which the file holds too")
+            found |= own
+    return found
+
+
 def _each(
     tables: MachineTables,
     kind: str,
@@ -298,7 +319,7 @@ def _each(
         return found
 
     def made(entry: Mapping[str, Any]) -> Any:
-        whole = completed(entries_in(entry, table.entries))
+        whole = completed(_with_controllers(entries_in(entry, table.entries), tables.folder))
         require(whole, table.needed)
         part = table.make(whole)
         if rotor is not None and "node" in table.needed:

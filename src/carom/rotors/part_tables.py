@@ -255,6 +255,7 @@ _OF_BEARING = {"sensor_nodes": None, "sensor_positions": None, "at_regain": None
 _OF_CONTROLLER = {
     **dict.fromkeys(name for kind in _QUOTIENTS for name in kind.needed),
     **_SAMPLED,
+    "source": None,
     "sampling": None,
     "filter": None,
 }
@@ -262,7 +263,7 @@ PARTS: Mapping[str, PartTable] = {
     "section": PartTable({**SECTION_FIELDS, **MATERIAL_FIELDS}, ("length", "outer_diameter"), _section),
     "disc": PartTable({**_NODE, **DISC_FIELDS, "width": None, **_DIAMETERS, **MATERIAL_FIELDS}, ("node",), _disc),
     "magnetic_bearing": PartTable({**_PLACE, **_OF_BEARING, **_OF_CONTROLLER, "y": None}, ("node", "ki", "ks"), _bearing),
-    "shared_controller": PartTable({"bearings": None, **dict.fromkeys(_PARTS_OF_SHARED), **dict.fromkeys("ABCD"), **_SAMPLED, "at_regain": None}, (), _shared),
+    "shared_controller": PartTable({"bearings": None, **dict.fromkeys(_PARTS_OF_SHARED), **dict.fromkeys("ABCD"), **_SAMPLED, "source": None, "at_regain": None}, (), _shared),
     "support": PartTable({**_PLACE, **SUPPORT_FIELDS, "speeds": MACHINE_FIELDS["speed"]}, ("node", "kxx", "kyy"), lambda entry: Support(**entry)),
     "housing": PartTable({**HOUSING_FIELDS, **dict.fromkeys(SEATED)}, ("mass", "stiffness"), lambda entry: Housing(**entry)),
     "touchdown": PartTable({**_PLACE, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS}, ("node", "law", "rotor_radius", "friction", "clearance"), _plane),

@@ -1,4 +1,4 @@
-"""Rotors by their matrices in files: ``.npz`` of NumPy, and ``.mat`` of MATLAB."""
+"""Rotors and controllers by their matrices in files: ``.npz`` of NumPy, and ``.mat`` of MATLAB."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import io
 import os
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,13 @@ KEYS: Mapping[str, str] = {
 }
 """Arrays of a file, and what they are."""
 NEEDED = ("M", "K", "G", "nodes")
+CONTROLLER_KEYS: Mapping[str, str] = {
+    **{name: name for name in ("A", "B", "C", "D", "numerator", "denominator", "sample_time")},
+    "num": "numerator",
+    "den": "denominator",
+    "Ts": "sample_time",
+}
+"""Arrays of a file of a controller, and the entries of a machine file that they are."""
 _SECONDS = 60
 """After which reading a file is given up; the process that reads it has its own limit, which is lower but on a busy machine."""
 
@@ -57,7 +64,7 @@ def read_rotor(
         The file cannot be read, an array is missing or is not what it must be, or damping is stated twice or not at all.
     """
     name = os.fspath(path)
-    arrays = _arrays(Path(name))
+    arrays = _arrays(Path(name), "rotor", KEYS)
     if missing := [key for key in NEEDED if key not in arrays]:
         held = ", ".join(sorted(arrays)) or "nothing"
         raise InputError(
@@ -115,15 +122,27 @@ def check_target(path: str | os.PathLike[str]) -> None:
         raise InputError("rotor file", shown(path), "a name that ends in .npz")
 
 
-def _arrays(path: Path) -> dict[str, Any]:
-    """Arrays of a file that are known here, and lists of texts, as a process of its own reads them (``array_reader.py``)."""
+def read_controller(path: Path) -> dict[str, object]:
+    """Entries of a machine file that a controller in a file is: its matrices, or its numerator and denominator, and a sample time above 0."""
+    arrays = _arrays(path, "controller", CONTROLLER_KEYS)
+    if not arrays:
+        allowed = "arrays A, B, C and D, or num and den; in MATLAB [A, B, C, D] = ssdata(sys); save('controller.mat', 'A', 'B', 'C', 'D', '-v7')"
+        raise InputError("controller file", shown(str(path)), allowed)
+    found = {CONTROLLER_KEYS[name]: each if name in "ABCD" else each.ravel() for name, each in arrays.items()}
+    if "sample_time" in found:
+        found["sample_time"] = found["sample_time"].tolist()[0] or None
+    return found
+
+
+def _arrays(path: Path, what: str, keys: Iterable[str]) -> dict[str, Any]:
+    """Arrays of a file with these names, and lists of texts, as a process of its own reads them (``array_reader.py``)."""
     if path.suffix.lower() not in (".npz", ".mat"):
-        raise InputError("rotor file", shown(str(path)), "a file of matrices, .npz or .mat")
+        raise InputError(f"{what} file", shown(str(path)), "a file of matrices, .npz or .mat")
     if not path.is_file():
         why = "this is no file, but a directory or a device" if path.exists() else "there is no such file"
-        raise InputError("rotor file", shown(str(path)), why)
+        raise InputError(f"{what} file", shown(str(path)), why)
     # Modules beside the reader are none of the libraries'; one thread of theirs is enough.
-    command = [sys.executable, "-P", str(Path(__file__).with_name("array_reader.py")), str(path), *KEYS]
+    command = [sys.executable, "-P", str(Path(__file__).with_name("array_reader.py")), str(path), *keys]
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
         done = subprocess.run(
@@ -140,5 +159,5 @@ def _arrays(path: Path) -> dict[str, Any]:
         refused = "it is damaged: reading it ends the program that does"
     if refused:
         allowed = "a file of numpy.savez, or of MATLAB's save -v7 with plain arrays"
-        raise InputError("rotor file", shown(str(path)), f"{allowed}; it cannot be read: {refused}")
+        raise InputError(f"{what} file", shown(str(path)), f"{allowed}; it cannot be read: {refused}")
     return {key: tuple(each.tolist()) if each.dtype.kind == "U" else each for key, each in found.items()}

@@ -340,7 +340,9 @@ def real_numbers(name: str, given: Any) -> np.ndarray:
     try:
         values = np.array(given, dtype=complex if np.iscomplexobj(given) else float)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(name, shown(given), "finite real numbers") from None
+        raise InputError(
+            name, shown(given), "finite real numbers, in a file as rows in brackets: [[1, 2], [3, 4]]"
+        ) from None
     if not (np.abs(values) <= LARGEST).all() or np.abs(values.imag).any():
         raise InputError(name, shown(given), f"finite real numbers, up to {LARGEST:g}")
     return np.asarray(values.real, float)
