@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -22,13 +22,6 @@ if TYPE_CHECKING:
     from carom.motions.starts import State
 
 
-class BaseSection(NamedTuple):
-    """A part of a course: its duration in ``1/Ω``, and its values at its beginning for a peak of one (:mod:`carom.models.forcing_modes`)."""
-
-    duration: float
-    values: np.ndarray
-
-
 @dataclass(frozen=True)
 class BaseMotion(Disturbance):
     """Base class of disturbances that move the base; their coordinates are the peak acceleration and an angle."""
@@ -37,17 +30,36 @@ class BaseMotion(Disturbance):
     turns_with_shaft: ClassVar[bool] = True
     """Whether the angle counts from the axes that turn with the shaft, at the instant when it begins, or from those of the fixed frame."""
 
-    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
-        """Forces of one on a rotor when the base moves along a direction, a complex number of modulus one."""
-        raise NotImplementedError
-
-    def sections(self, rotor: Rotor) -> list[BaseSection]:
-        """The course, of a peak acceleration of one, for the forces on a rotor."""
-        raise NotImplementedError
-
     def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
-        """The acceleration of the base in the fixed frame, of a peak in ``c_r Ω²``, which begins at a time."""
+        """The acceleration of the base in the fixed frame, of a peak in ``c_r Ω²``, which begins at a time: all half-sines of one frequency, or all straight."""
         raise NotImplementedError
+
+    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
+        """Forces of one on a rotor when the base moves along a direction, a complex number of modulus one.
+
+        They are the two exponentials of a half-sine, or a force that grows: one along each axis of anisotropic bearings, whose conjugates are no multiples by
+        complex numbers.
+        """
+        from carom.models import Force
+        from carom.models.mode_arrays import STEADY
+
+        if frequency := float(self.course(1.0).frequencies.max()):
+            push = turn / 2j * rotor.carried_by_housing
+            return Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)
+        along = -turn * rotor.carried_by_housing
+        axes = (along, 1j * along) if rotor.is_anisotropic else (along,)
+        return tuple(Force(STEADY, axis, axis) for axis in axes)
+
+    def sections(self, rotor: Rotor) -> list[tuple[float, np.ndarray]]:
+        """Duration of each section, and its values at its beginning for a peak of one and the forces on a rotor (:mod:`carom.models.forcing_modes`)."""
+        course = self.course(1.0)
+        if course.frequencies.any():
+            values = np.sign(course.frequencies)[:, None]
+        else:
+            values = np.stack([course.slopes, course.values], axis=1)
+            if rotor.is_anisotropic:
+                values = np.concatenate([values.real, values.imag], axis=1)
+        return list(zip(course.durations.tolist(), values, strict=True))
 
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """State at the end of the motion of the base, which begins at the instant."""
@@ -60,7 +72,7 @@ class BaseMotion(Disturbance):
         if rotor.system.is_externally_forced:
             rotor.system.refuse_non_stationary()
         *states, ended, touched = states_after(self, stages_of(rotor)[0].rotor, sizes, angles, begun)
-        lasts = sum(section.duration for section in self.sections(rotor))
+        lasts = sum(self.course(1.0).durations.tolist())
         begins = begun + lasts if rotor.depends_on_instant else np.zeros(sizes.shape)
         return Starts(states[0], states[1], np.ones(sizes.shape, bool), ended, touched, begins)
 
@@ -120,8 +132,8 @@ class BaseMotion(Disturbance):
             rotor = rotor.unforced.under(Force(STEADY, weight - constant * along))
         moved = ForcingModes.of(rotor, forces)
         stages, time = list[Stage](), begun
-        for section in self.sections(rotor):
-            values = size * section.values + (np.array([0.0, constant]) if constant else 0.0)
-            stages.append(Stage(moved.at(values, time), Trigger(time=section.duration)))
-            time += section.duration
+        for duration, values in self.sections(rotor):
+            shaken = size * values + (np.array([0.0, constant]) if constant else 0.0)
+            stages.append(Stage(moved.at(shaken, time), Trigger(time=duration)))
+            time += duration
         return stages

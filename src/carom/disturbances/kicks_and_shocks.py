@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.disturbances.base_motion import BaseMotion, BaseSection
+from carom.disturbances.base_motion import BaseMotion
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.response_spectra import BaseCourse
@@ -20,7 +20,7 @@ from carom.parameters.formats import format_angle, format_quantity
 from carom.parameters.requirement import SHOCK_DURATION
 
 if TYPE_CHECKING:
-    from carom.models import Force, Rotor, Subject
+    from carom.models import Rotor, Subject
     from carom.motions.starts import State
     from carom.parameters import Scales
 
@@ -236,18 +236,6 @@ class BaseShock(BaseMotion):
         """Peak acceleration and direction."""
         peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", True)
         return peak, angle_coordinate("direction", "direction of the shock")
-
-    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
-        """The two exponentials of a half-sine."""
-        from carom.models import Force
-
-        frequency, push = math.pi / self.duration, turn / 2j * rotor.carried_by_housing
-        return Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)
-
-    def sections(self, rotor: Rotor) -> list[BaseSection]:
-        """Pulses, with pauses between them."""
-        course = self.course(1.0)
-        return list(map(BaseSection, course.durations.tolist(), np.sign(course.frequencies)[:, None]))
 
     def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
         """See :meth:`BaseMotion.course`; the angle counts from the axes that turn with the shaft, at its beginning."""

@@ -20,7 +20,7 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, printable, shown
-from carom.disturbances.base_motion import BaseMotion, BaseSection
+from carom.disturbances.base_motion import BaseMotion
 from carom.disturbances.coordinates import Coordinate, angle_coordinate
 from carom.disturbances.response_spectra import BaseCourse
 from carom.disturbances.single import Echo, Part, Single, read_part
@@ -28,7 +28,7 @@ from carom.parameters import Scales, read_size
 from carom.parameters.formats import format_angle, format_quantity, number
 
 if TYPE_CHECKING:
-    from carom.models import Force, Rotor, Subject
+    from carom.models import Rotor, Subject
 
 MOST_SAMPLES = 20_000
 """Samples of a record: each interval is a stage, which takes about a millisecond."""
@@ -146,23 +146,6 @@ class BaseRecord(BaseMotion):
             return self
         times = tuple((np.array(self.times) * (before.time / after.time)).tolist())
         return dataclasses.replace(self, times=times).scaled(before.acceleration / after.acceleration)
-
-    def forces(self, rotor: Rotor, turn: complex) -> tuple[Force, ...]:
-        """A force that grows; one along each axis of anisotropic bearings, whose conjugates are no multiples by complex numbers."""
-        from carom.models import Force
-        from carom.models.mode_arrays import STEADY
-
-        along = -turn * rotor.carried_by_housing
-        axes = (along, 1j * along) if rotor.is_anisotropic else (along,)
-        return tuple(Force(STEADY, axis, axis) for axis in axes)
-
-    def sections(self, rotor: Rotor) -> list[BaseSection]:
-        """The intervals between samples."""
-        course = self.course(1.0)
-        each = np.stack([course.slopes, course.values], axis=1)
-        if rotor.is_anisotropic:
-            each = np.concatenate([each.real, each.imag], axis=1)
-        return list(map(BaseSection, course.durations.tolist(), each))
 
     def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
         """See :meth:`carom.disturbances.base_motion.BaseMotion.course`; angles are those of the fixed frame."""

@@ -165,12 +165,15 @@ def maximax(course: BaseCourse, frequency: float, damping: float) -> tuple[float
     for (a, b), (c, d), (p, q) in zip(*whole[:, :2, :2].transpose(1, 0, 2).tolist(), pushed.tolist(), strict=True):
         states.append(state)
         state = a * state[0] + b * state[1] + p, c * state[0] + d * state[1] + q
-    given = np.concatenate([np.array(states), scaled], axis=1)
-    during = _largest(given, matrices, rows, steps, course.durations / count, count)
+    given, ends = np.concatenate([np.array(states), scaled], axis=1), np.array([[*state, 0j, 0j]])
     free, row, _ = _system(frequency, damping, np.zeros(1), np.zeros((1, 2)))
     step = np.array([2.0 * np.pi / (frequency * STEPS)])
-    after = _largest(np.array([[*state, 0j, 0j]]), free, row, _step(free * step), step, STEPS)
-    return max(during[0], after[0]), max(during[1], after[1])
+
+    def along(during: np.ndarray, after: np.ndarray) -> float:
+        shaken = _largest(during, matrices, rows, steps, course.durations / count, count)
+        return max(shaken, _largest(after, free, row, _step(free * step), step, STEPS))
+
+    return along(given.real, ends.real), along(given.imag, ends.imag)
 
 
 def _system(
@@ -196,35 +199,27 @@ def _step(matrices: np.ndarray) -> np.ndarray:
 
 def _largest(
     states: np.ndarray, matrices: np.ndarray, row: np.ndarray, steps: np.ndarray, lasts: np.ndarray, count: int
-) -> tuple[float, float]:
-    """Largest sizes along both axes over pieces from states (n, 4), each of so many steps that last (n,)."""
+) -> float:
+    """Largest size over pieces from states (n, 4), each of so many steps that last (n,): found on all steps, and refined beside the step that has it."""
     first = row @ matrices
     second = np.einsum("nj,nji->ni", first, matrices)
-    best, found = [-1.0, -1.0], [(states[0], 0, 0.0, 0.0)] * 2
+    largest, place, state, low, high = -1.0, 0, states[0], 0.0, 0.0
     for step in range(count + 1):
-        parts = states @ row, np.einsum("nj,nj->n", first, states), np.einsum("nj,nj->n", second, states)
-        low, high = 0.5 * (step > 0), 0.5 * (step < count)
-        for axis, (value, rate, bend) in enumerate(zip(*((part.real, part.imag) for part in parts), strict=True)):
-            time = -rate / np.where(bend == 0.0, np.inf, bend)
-            near = (time >= -low * lasts) & (time <= high * lasts)
-            sizes = np.abs(value + 0.5 * np.where(near, rate * time, 0.0))
-            place = int(sizes.argmax())
-            if sizes[place] > best[axis]:
-                best[axis] = float(sizes[place])
-                state = states[place].imag if axis else states[place].real
-                found[axis] = state, place, -low * lasts[place], high * lasts[place]
+        value, rate, bend = states @ row, np.einsum("nj,nj->n", first, states), np.einsum("nj,nj->n", second, states)
+        before, beyond = 0.5 * (step > 0), 0.5 * (step < count)
+        time = -rate / np.where(bend == 0.0, np.inf, bend)
+        near = (time >= -before * lasts) & (time <= beyond * lasts)
+        sizes = np.abs(value + 0.5 * np.where(near, rate * time, 0.0))
+        if (most := float(sizes.max())) > largest:
+            largest, place = most, int(sizes.argmax())
+            state, low, high = states[place], -before * lasts[place], beyond * lasts[place]
         states = np.einsum("nij,nj->ni", steps, states)
-    return _refined(matrices, row, *found[0]), _refined(matrices, row, *found[1])
-
-
-def _refined(matrices: np.ndarray, row: np.ndarray, state: np.ndarray, place: int, low: float, high: float) -> float:
-    """Largest size between two times beside a state."""
-    terms, time = list[float](), 0.0
+    terms = list[float]()
     for order in range(ORDER):
         terms.append(float(row @ state) / math.factorial(order))
         state = matrices[place] @ state
-    course = Polynomial(terms)
-    rate, bend = course.deriv(), course.deriv(2)
+    course, at = Polynomial(terms), 0.0
+    slope, curvature = course.deriv(), course.deriv(2)
     for _ in range(REFINED):
-        time = float(np.clip(time - rate(time) / (bend(time) or np.inf), low, high))
-    return float(max(abs(course(time)), abs(terms[0])))
+        at = float(np.clip(at - slope(at) / (curvature(at) or np.inf), low, high))
+    return float(max(abs(course(at)), abs(terms[0])))

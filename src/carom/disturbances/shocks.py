@@ -76,20 +76,20 @@ def _after(
     """States (m, 2n), outcomes and whether the wall was reached after motions along a direction, of these sizes from these times."""
     sections, moved = motion.sections(rotor), ForcingModes.of(rotor, motion.forces(rotor, turn))
     system, (sizes, begins) = moved.rotor.system, map(np.array, zip(*given, strict=True))
-    quiet = moved.at(0.0 * sections[0].values, 0.0).system
+    quiet = moved.at(0.0 * sections[0][1], 0.0).system
     motions = np.array(
         [quiet.amplitudes_of(np.concatenate(rotor.system.kicked(0.0, begun))[None], begun)[0] for begun in begins]
     )
     contacts = np.full((len(motions), len(system.arrays["rows"])), AWAY)
     outcomes, events, times = np.zeros(len(motions), np.int64), np.zeros(len(motions), np.int64), begins.copy()
-    for section in sections:
+    for duration, values in sections:
         on = np.flatnonzero(outcomes == Outcome.CLEAR)
-        going = moved.set_in(motions[on], sizes[on, None] * section.values, times[on])
+        going = moved.set_in(motions[on], sizes[on, None] * values, times[on])
         touching = contacts[on]
-        outcomes[on], more = _follow(system, going, touching, times[on], section.duration)
+        outcomes[on], more = _follow(system, going, touching, times[on], duration)
         motions[on], contacts[on] = going, touching
         events[on] += more
-        times += section.duration
+        times += duration
     states = system.states_of(motions)
     if rotor.system.is_planar:
         touches = contacts[:, 0] != AWAY

@@ -82,19 +82,16 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     modes, last = _Modes.of(system), first + 2 * n
     growing = [force for force in forces if force.rates is not None]
     forces = [force for force in forces if force.rates is None]
-    pushes = [(force.exponent, force.accelerations, slice(first + n, last)) for force in forces]
+    rates, conjugates = slice(first + n, last), None
+    pushes = [(force.exponent, force.accelerations, rates) for force in forces]
     if system.is_anisotropic:
-        # Amplitudes by rates of conjugates come last.
-        pushes += [
-            (np.conj(force.exponent) + TURN, np.conj(force.accelerations), slice(last + first + n, None))
-            for force in forces
-        ]
+        conjugates = slice(last + first + n, None)  # amplitudes by rates of conjugates come last
+        pushes += [(np.conj(force.exponent) + TURN, np.conj(force.accelerations), conjugates) for force in forces]
     for exponent, together in _merged(pushes):
         push = np.sum([_by_rates(modes.left, place, n) @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
     for force in growing:
-        conjugates = slice(last + first + n, None) if system.is_anisotropic else None
-        modes = modes.ramped_by(force, slice(first + n, last), conjugates)
+        modes = modes.ramped_by(force, rates, conjugates)
     turns = modes.turn > NO_TURN
     moved = {
         "exponents": modes.exponents,
@@ -197,14 +194,15 @@ class _Modes:
             push = push + self.left[:, conjugates] @ np.conj(along)
         moved, left = self.free & (np.abs(push) > EQUAL * np.abs(push).max(initial=0.0)), len(push)
         near = self.free & (np.abs(self.exponents - exponent) <= ONE * (1.0 + abs(exponent)))
-        for last in np.flatnonzero(self.driven & near & np.insert(self.free[:-1], 0, False)).tolist():
-            if (gap := self.exponents[last] - self.exponents[last - 1]) != 0.0:
-                return self._as_one(last, gap).ramped_by(force, rates_at, conjugates)
+        for last, gap in self._pairs():
+            if near[last] and gap != 0.0:
+                return self._as_one(push, last, gap)[0].ramped_by(force, rates_at, conjugates)
         place, size = left, 1.0 + 0j
         if (pushed := np.flatnonzero(near & moved)).size:
             place, size = int(pushed[0]), complex(push[pushed[0]])
             if len(pushed) == 2 and self.driven[place + 1] and pushed[1] == place + 1:
-                return self._with_one_pushed(place, push[place + 1] / size).ramped_by(force, rates_at, conjugates)
+                alone, _ = self._with_share(push, place, place + 1, push[place + 1] / size)
+                return alone.ramped_by(force, rates_at, conjugates)
             if len(pushed) > 1 or self.driven[place]:
                 raise InputError(
                     "base", "a recorded motion", "a rotor on which nothing else drives what is in free fall"
@@ -229,15 +227,14 @@ class _Modes:
             taken[place] = not self.free[place - 1] or taken[place - 1]
         if (np.abs(push[near & taken]) > EQUAL * np.abs(push).max(initial=0.0)).any():
             raise InputError("force", exponent, "an exponent not so near to that of a mode that another force drives")
-        for last in np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False)).tolist():
-            gap = self.exponents[last] - self.exponents[last - 1]
+        for last, gap in self._pairs():
             touched = near[last] or near[last - 1]
             if touched and abs(gap) > resonant * size:
-                push = push + np.eye(len(push))[last] * (push[last - 1] / gap)
-                return self._parted(last, gap)._driven_by(exponent, push, resonant)
+                modes, push = self._parted(push, last, gap)
+                return modes._driven_by(exponent, push, resonant)
             if touched and EQUAL * size < abs(gap) <= ONE * size:
-                push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
-                return self._as_one(last, gap)._driven_by(exponent, push, resonant)
+                modes, push = self._as_one(push, last, gap)
+                return modes._driven_by(exponent, push, resonant)
             near[last - 1 : last + 1] |= touched
         others = np.flatnonzero(self.free & ~near & ~close)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
@@ -248,10 +245,14 @@ class _Modes:
     def _pushed(self, push: np.ndarray) -> np.ndarray:
         """Which modes a force changes, those of a pair together."""
         pushed = np.abs(push) > EQUAL * np.abs(push).max(initial=0.0)
-        pairs = np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False))
-        pushed[pairs] |= pushed[pairs - 1]
-        pushed[pairs - 1] |= pushed[pairs]
+        for last, _ in self._pairs():
+            pushed[last - 1 : last + 1] |= pushed[last - 1 : last + 1].any()
         return pushed
+
+    def _pairs(self) -> list[tuple[int, complex]]:
+        """The last of each pair of free modes, and by how much its exponent differs from that of the first."""
+        lasts = np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False))
+        return list(zip(lasts.tolist(), self.exponents[lasts] - self.exponents[lasts - 1], strict=True))
 
     def _resonant(self, exponent: complex, push: np.ndarray, near: np.ndarray, shares: np.ndarray) -> _Modes:
         """With one more force that drives the mode it is in resonance with, if there is one."""
@@ -275,36 +276,31 @@ class _Modes:
             if len({first in pairs for first in driven.tolist()}) > 1:
                 raise InputError("force", exponent, "an exponent that is not that of modes of different kinds")
             other = next(first for first in driven.tolist() if first != main)
-            ratio, right, left = push[other] / push[main], self.right.copy(), self.left.copy()
+            ratio, modes = push[other] / push[main], self
             for step in range(2 if main in pairs else 1):
-                right[:, main + step] += ratio * right[:, other + step]
-                left[other + step] -= ratio * left[main + step]
-                push = push - np.eye(len(push))[other + step] * ratio * push[main + step]
-            return replace(self, right=right, left=left)._resonant(exponent, push, near, shares)
+                modes, push = modes._with_share(push, main + step, other + step, ratio)
+            return modes._resonant(exponent, push, near, shares)
         return self._added(main, exponent, shares / push[main], push[main])
 
-    def _parted(self, last: int, gap: complex) -> _Modes:
+    def _with_share(self, push: np.ndarray, main: int, other: int, ratio: complex) -> tuple[_Modes, np.ndarray]:
+        """With this share of a mode in the main one, so that what drives both by this ratio drives the main one alone; and the push on these modes."""
+        right, left, push = self.right.copy(), self.left.copy(), push.copy()
+        right[:, main] += ratio * right[:, other]
+        for driving in (left, push):
+            driving[other] -= ratio * driving[main]
+        return replace(self, right=right, left=left), push
+
+    def _parted(self, push: np.ndarray, last: int, gap: complex) -> tuple[_Modes, np.ndarray]:
         """With the pair that ends with a mode as two free-standing ones: their exponents are well apart."""
-        driven, right, left = self.driven.copy(), self.right.copy(), self.left.copy()
+        driven = self.driven.copy()
         driven[last] = False
-        right[:, last - 1] -= right[:, last] / gap
-        left[last] += left[last - 1] / gap
-        return replace(self, driven=driven, right=right, left=left)
+        return replace(self, driven=driven)._with_share(push, last - 1, last, -1.0 / gap)
 
-    def _as_one(self, last: int, gap: complex) -> _Modes:
+    def _as_one(self, push: np.ndarray, last: int, gap: complex) -> tuple[_Modes, np.ndarray]:
         """With the pair that ends with a mode as one of equal exponents, by an error of the square of the gap."""
-        exponents, right, left = self.exponents.copy(), self.right.copy(), self.left.copy()
+        exponents = self.exponents.copy()
         exponents[last - 1 : last + 1] = exponents[last - 1 : last + 1].mean()
-        right[:, last] -= right[:, last - 1] * gap / 2.0
-        left[last - 1] += left[last] * gap / 2.0
-        return replace(self, exponents=exponents, right=right, left=left)
-
-    def _with_one_pushed(self, first: int, ratio: complex) -> _Modes:
-        """With a pair of equal exponents whose second is taken so that a force which drives it by this ratio to the first drives the first alone."""
-        right, left = self.right.copy(), self.left.copy()
-        right[:, first] += ratio * right[:, first + 1]
-        left[first + 1] -= ratio * left[first]
-        return replace(self, right=right, left=left)
+        return replace(self, exponents=exponents)._with_share(push, last, last - 1, -gap / 2.0)
 
     def _added(self, place: int, exponent: complex, shares: np.ndarray, amplitude: complex) -> _Modes:
         """With a forcing mode at a place, which adds these shares to the others and drives the one after it, if there is one."""

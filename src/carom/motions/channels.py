@@ -31,8 +31,6 @@ PER_TURN = 100
 """Samples in a turn of the shaft, where no interval is given."""
 MOST = 5_000_000
 """Most samples: more would be a typing error."""
-Column = tuple[str, np.ndarray, dict[str, str]]
-"""Dimension, values, unit and words."""
 FORMATS = (".csv", ".mat", ".nc")
 
 
@@ -79,23 +77,19 @@ def channels_of(
         places = {"rotor": np.array([1.0, 0.0])}
     weight = rotor.acting.whole_weight if rotor.carried_by_bias else None
     currents = None if rotor.finite_elements is None else partial(rotor.finite_elements.currents, weight=weight)
-    times, found = step * np.arange(count), list[dict[str, Column]]()
+    times, found = step * np.arange(count), list["xarray.Dataset"]()
     which = np.searchsorted([part.begins for part in motion.parts], times, side="right") - 1
     for number, part in enumerate(motion.parts):
         own = np.minimum(times[which == number] - part.begins, part.time)
         for first in range(0, len(own), TOGETHER):
             found.append(_sampled(part, own[first : first + TOGETHER], places, currents))
-    columns = {
-        name: ("time", np.concatenate([each[name][1] for each in found]), attributes)
-        for name, (_, _, attributes) in found[0].items()
-    }
     time = in_units("time", times, "time", "time from the beginning", motion.rotor.scales)
     attributes = provenance(motion) | {
         "title": "Channels of a motion",
         "frame": "fixed",
         "interval": float(time[1][-1]) / max(count - 1, 1),
     }
-    return xarray.Dataset(columns, {"time": time}, attributes)
+    return xarray.concat(found, "time").assign_coords(time=time).assign_attrs(attributes)
 
 
 def _sampled(
@@ -103,9 +97,11 @@ def _sampled(
     times: np.ndarray,
     places: dict[str, np.ndarray],
     currents: Callable[[np.ndarray, np.ndarray], np.ndarray] | None,
-) -> dict[str, Column]:
-    """Columns of a stage at times (n,) of it."""
-    system, whole, columns = part.rotor.system, part.rotor.scales, dict[str, Column]()
+) -> xarray.Dataset:
+    """Channels of a stage at times (n,) of it."""
+    import xarray
+
+    system, whole, columns = part.rotor.system, part.rotor.scales, dict[str, object]()
     amplitudes, phases = part.amplitudes_at(times)
     turn = np.exp(1j * (part.begins + times))
 
@@ -136,7 +132,7 @@ def _sampled(
         for number, current in enumerate(known.T, start=1):
             words = f"control current of magnetic bearing {number}"
             along_axes(f"magnetic_bearing_{number}_current", current, "A", words)
-    return columns
+    return xarray.Dataset(columns)
 
 
 @checked
