@@ -16,9 +16,9 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3628,
-    "models": 2371,
+    "models": 2366,
     "core": 6613,
-    "motions disturbances": 4696,
+    "motions disturbances": 4680,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2338,
     "studies": 3455,
