@@ -1,10 +1,11 @@
-"""The source paper: the four curves of figure 6b, all its results, and all its figures on disk."""
+"""The source paper: figure 6b, all its results, and all its figures on disk."""
 
 from __future__ import annotations
 
 import pytest
 
 from carom.reproductions import mora2014
+from carom.reproductions.mora2014.plane import damping_stiffness_plane
 
 
 @pytest.fixture(scope="module")
@@ -13,11 +14,11 @@ def found() -> mora2014.Reproduction:
     return mora2014.reproduce()
 
 
-def test_four_curves(benchmark, found):
-    """From nothing: the branches on which the curves start, and the curves of fold, wall, grazing and period doubling."""
-    benchmark.group = "figure 6b, four curves"
-    curves = benchmark(lambda: mora2014.four_curves(mora2014.first_pair()))
-    points = sum(len(curve.points) for curve in curves)
+def test_plane(benchmark, found):
+    """From nothing: the branches on which the curves start, the curves, and the motions in each region."""
+    benchmark.group = "figure 6b"
+    plane = benchmark(lambda: damping_stiffness_plane(mora2014.first_pair()))
+    points = sum(len(curve.points) for curve in plane.curves)
     benchmark.extra_info.update(who="carom", unit="point", units=points)
 
 

@@ -12,7 +12,7 @@ from rich.text import Text
 from carom.base.progress import _bar
 from carom.cli.app import app, main
 from carom.cli.screen import Screen
-from carom.cli.terminal import print_document
+from carom.cli.terminal import hand_over
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_texts_in_tables_and_bars_are_printable():
 
 
 def test_json_is_printable_and_holds_what_was_given(capsys):
-    print_document({EVIL: [f"{EVIL}\n\ud800\U000e0001", "γ"]})
+    hand_over(lambda: {EVIL: [f"{EVIL}\n\ud800\U000e0001", "γ"]}, True, lambda: None, None)
     text = capsys.readouterr().out
 
     assert text.replace("\n", "").isprintable()

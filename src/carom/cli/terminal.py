@@ -47,13 +47,6 @@ def check_output(out: str | None, option: str = "--out") -> None:
         check_directory(out, option)
 
 
-def print_document(document: dict[str, object]) -> None:
-    """Print one JSON object."""
-    from carom.base.files import as_json
-
-    sys.stdout.write(as_json(document) + "\n")
-
-
 @contextmanager
 def progress(step: str) -> Iterator[Reporter]:
     """Show a bar on the error stream for longer tasks; nothing if that stream is not a terminal.
@@ -111,7 +104,9 @@ def hand_over(
 ) -> None:
     """Print the document, or what ``show`` prints; then where the files are, if ``--out`` is given: beside JSON on the error stream."""
     if as_json:
-        print_document(document())
+        from carom.base.files import as_json as in_json
+
+        sys.stdout.write(in_json(document()) + "\n")
     else:
         show()
     for line in () if out is None else files or (f"Written to {out}",):

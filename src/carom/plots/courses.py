@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.transforms import blended_transform_factory
 
 from carom.base.arguments import Positive, checked
 from carom.base.outcome import Outcome
 from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS, StyledFigure, narrow
-from carom.plots.plane import MANY_POINTS, Floats, impacts, key, one_axes, point
+from carom.plots.plane import MANY_POINTS, Floats, impacts, key, one_axes, point, shade_zones
 from carom.plots.style import LOOKS, WORKS, ZONE_SHADES, Drawn, Look, styled
 from carom.plots.words import axis_label, axis_time, clearance, display_unit, number
 
@@ -232,11 +231,7 @@ def _curve(axes: Axes, times: Floats, distance: Floats, scales: Scales | None) -
 def _zones(axes: Axes, zones: Zones, wall: float) -> None:
     axes.fill_between([], [], color=ZONE_SHADES[-1], lw=0, label="zones A to D")
     bottom, top = axes.get_ylim()
-    edges = (bottom, *(wall * limit for limit in zones.limits), min(top, wall))
-    beside = blended_transform_factory(axes.transAxes, axes.transData)
-    for low, high, letter, shade in zip(edges[:-1], edges[1:], zones.labels, ZONE_SHADES, strict=True):
-        axes.axhspan(low, high, color=shade, lw=0, zorder=0, gid=f"zone {letter}")
-        axes.text(0.992, (low + high) / 2.0, letter, transform=beside, ha="right", va="center", fontsize=7)
+    shade_zones(axes, (bottom, *(wall * limit for limit in zones.limits), min(top, wall)), zones.labels)
 
 
 def draw_force(axes: Axes, course: Course, whole: Course, *, last: bool = True) -> None:

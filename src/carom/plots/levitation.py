@@ -16,7 +16,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.plots.figure import TWO_COLUMNS, StyledFigure
-from carom.plots.plane import Floats, key, one_axes, with_neighbours
+from carom.plots.plane import Floats, key, one_axes, shade_zones, with_neighbours
 from carom.plots.style import LOOKS, ZONE_SHADES, Drawn, Look, styled
 from carom.plots.words import number
 
@@ -247,10 +247,7 @@ def sensitivity(found: Sensitivity) -> Figure:
     if not found.stable:
         figure.suptitle("The loop is unstable: ISO 14839-3 zones do not apply")
     top = max(_ROOM * float(found.peaks.max()), _ROOM * LIMITS["C"])
-    edges = [0.0, *LIMITS.values(), top]
-    for zone, low, high, shade in zip("ABCD" if found.stable else "", edges[:-1], edges[1:], ZONE_SHADES, strict=False):
-        axes.axhspan(low, high, color=shade, lw=0.0)
-        axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
+    shade_zones(axes, [0.0, *LIMITS.values(), top], "ABCD" if found.stable else "")
     for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):
         words = f"bearing {bearing + 1}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
         look = LOOKS["unstable" if bearing % 2 else "stable"]

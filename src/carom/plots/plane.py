@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from carom.plots.figure import StyledFigure
-from carom.plots.style import LOOKS, Look
+from carom.plots.style import LOOKS, ZONE_SHADES, Drawn, Look
 from carom.plots.words import axis_label, clearance, times_larger
 
 if TYPE_CHECKING:
@@ -224,6 +224,14 @@ def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ", wall: float 
     inner.set_in_layout(False)
     axes.indicate_inset_zoom(inner, edgecolor="#808080", lw=0.4, alpha=1.0)
     return inner
+
+
+def shade_zones(axes: Axes, edges: Sequence[float], letters: Sequence[str]) -> None:
+    """Shade vibration zones between their edges, each with its letter at the right."""
+    for low, high, letter, shade in zip(edges[:-1], edges[1:], letters, ZONE_SHADES, strict=False):
+        axes.axhspan(low, high, color=shade, lw=0.0, zorder=0, gid=f"zone {letter}")
+        words: Drawn = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": 7}
+        axes.text(0.992, (low + high) / 2.0, letter, **words)
 
 
 def one_axes(size: tuple[float, float]) -> tuple[Figure, Axes]:

@@ -24,7 +24,7 @@ from carom.plots.figure import ONE_COLUMN, TWO_COLUMNS
 from carom.plots.maps import BLANKS, SHADES, cell_edges, draw_map, mark_present
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import styled
-from carom.plots.words import parameter_label
+from carom.plots.words import formula, parameter_label
 
 if TYPE_CHECKING:
     import xarray
@@ -202,9 +202,5 @@ def _shades(
 def _label(values: xarray.DataArray) -> str:
     """Return the words and the unit of a variable."""
     words, unit = _SHARES.get(str(values.name)) or values.attrs["long_name"], values.attrs.get("units", "1")
-    own = {"c_r": r"$c_\mathrm{r}$", "Omega^2": r"$\Omega^2$", "Omega": r"$\Omega$", "m": "$m$"}
     lines = textwrap.fill(str(words), _LONGEST)
-    if unit == "1":
-        return lines
-    shown = unit if "si_of" in values.attrs else " ".join(own.get(part, part) for part in unit.split())
-    return f"{lines} ({shown})"
+    return lines if unit == "1" else f"{lines} ({formula(unit)})"

@@ -27,9 +27,9 @@ class InlineFigure:
     svg: Markup
 
 
-def page_template(name: str) -> Template:
-    """Return a template of this package, which may include others."""
-    loader = FileSystemLoader(Path(__file__).parent)
+def page_template(name: str, folder: Path = Path(__file__).parent) -> Template:
+    """Return a template of this package or of another folder, which may include others."""
+    loader = FileSystemLoader(folder)
     environment = Environment(
         loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )

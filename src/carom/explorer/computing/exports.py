@@ -38,9 +38,8 @@ class Kick:
         return self.rest.kicked(self.first, self.second)
 
     def texts(self, rotor: Rotor) -> tuple[str, str]:
-        """Size and angle as ``simulate`` reads them: that of a kick counts from the real axis of the co-rotating frame."""
-        pair = self.first, self.second
-        vector = self.rest.velocity(*pair) if self.plane.name == "kick" else complex(*pair)
+        """Size and angle as ``simulate`` reads them."""
+        vector = self.plane.vector(self.rest, self.first, self.second)
         factor, unit = self.plane.shown(rotor.scales)
         size = f"{factor * abs(vector):.9g}" + (f" {unit}" if rotor.scales else "")
         if self.plane.name == "shock":

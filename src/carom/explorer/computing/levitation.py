@@ -8,6 +8,7 @@ from carom.base.outcome import InputError
 from carom.base.progress import Reporter, ShowProgress
 from carom.models import rotor_of
 from carom.parameters import Case
+from carom.parameters.fields import RPM
 from carom.parameters.formats import number
 from carom.rotors.reduced_machine import UNHELD
 from carom.rotors.synchronous import SynchronousResponse, synchronous_response
@@ -32,7 +33,7 @@ GROWS = -1e-9
 
 
 def levitation_of(case: Case) -> dict[str, object]:
-    """How a machine levitates, in words and rows: whether it does (``lead``), its whirls, and its whirl by unbalance with its zone (``more``).
+    """How a machine levitates, in words and rows: whether it does (``lead``), its whirls, its whirl by unbalance with its zone (``more``), and its speed in rpm.
 
     It ``holds`` where every free motion fades and the rotor stays clear of its touchdown bearings.
     """
@@ -73,6 +74,7 @@ def levitation_of(case: Case) -> dict[str, object]:
             for each in listed
         ],
         "places": [] if at_speed is None else _places(at_speed),
+        "speed": rotor.scales.speed / RPM if rotor.scales else 1.0,
     }
 
 

@@ -23,6 +23,12 @@ from carom.parameters.formats import format_angle, format_quantity, shown_in
 from carom.studies.survives import largest_change
 
 Name = Literal["kick", "shock", "blade-loss"]
+_WORDS: dict[Name, tuple[str, str, str, str]] = {
+    "kick": ("kick", "kicks", "kick outward", "kick with the rotation"),
+    "shock": ("shock", "shocks", "shock along 0°", "shock across it"),
+    "blade-loss": ("loss", "losses of a blade", "change along the unbalance", "change across it"),
+}
+"""What the page calls one and many of them, and their components."""
 
 
 @dataclass(frozen=True)
@@ -91,18 +97,12 @@ class DisturbancePlane:
     @property
     def axes(self) -> tuple[str, str]:
         """Words of both components."""
-        return {
-            "kick": ("kick outward", "kick with the rotation"),
-            "shock": ("shock along 0°", "shock across it"),
-            "blade-loss": ("change along the unbalance", "change across it"),
-        }[self.name]
+        return _WORDS[self.name][2:]
 
     @property
     def nouns(self) -> tuple[str, str]:
         """What the page calls one and many of them."""
-        return {"kick": ("kick", "kicks"), "shock": ("shock", "shocks"), "blade-loss": ("loss", "losses of a blade")}[
-            self.name
-        ]
+        return _WORDS[self.name][:2]
 
     def words_up_to(self, size: float, scales: Scales | None) -> str:
         """All of them up to a size in units of the equations, such as ``kicks up to 166 mm/s``."""
@@ -122,24 +122,21 @@ class DisturbancePlane:
 
     def start(self, rotor: Rotor, rest: Rest, first: float, second: float) -> tuple[Rotor, State, str]:
         """The machine and its state just after a disturbance by components in units of the equations, and what was done, in words."""
-        size, angle = math.hypot(first, second), math.atan2(second, first)
+        size, angle = cmath.polar(self.vector(rest, first, second))
+        words, turned = format_quantity(size, self.scale, rotor.scales), format_angle(angle % math.tau)
         if self.name == "kick":
-            velocity = rest.velocity(first, second)
-            turned = format_angle(cmath.phase(velocity) % math.tau)
-            kick_size = format_quantity(abs(velocity), "velocity", rotor.scales)
-            return rotor, rest.kicked(first, second), f"A kick of {kick_size} at {turned}"
-        words = f"{format_quantity(size, self.scale, rotor.scales)}"
-        turned = format_angle(angle % math.tau)
+            return rotor, rest.kicked(first, second), f"A kick of {words} at {turned}"
         if self.name == "shock":
             lasting = self.lasting(rotor)
+            lasts = format_quantity(lasting, "time", rotor.scales)
             state = BaseShock(size, lasting).release(rotor, angle)
-            return (
-                rotor,
-                state,
-                f"A shock of {words} for {format_quantity(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
-            )
+            return rotor, state, f"A shock of {words} for {lasts} at {turned}, drawn from its end,"
         after, state = BladeLoss(size).apply(rotor, angle)
         return after, state, f"A loss of a blade that changes the unbalance by {words} at {turned}"
+
+    def vector(self, rest: Rest, first: float, second: float) -> complex:
+        """A disturbance by its components, with the angle from which people count: that of a kick from the real axis of the co-rotating frame."""
+        return rest.velocity(first, second) if self.name == "kick" else complex(first, second)
 
 
 def planes_of(case: Case) -> tuple[DisturbancePlane, ...]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import threading
 from collections.abc import Callable, Iterable
-from functools import cache, partial
+from functools import partial
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
-import jinja2
 from bokeh.core.types import ID
 from bokeh.document import Document
 from bokeh.embed.bundle import bundle_for_objs_and_resources
@@ -28,6 +28,7 @@ from carom.explorer.page.models import Answers, Requests
 from carom.explorer.page.questions import Questions
 from carom.explorer.page.scripts import PAGE, joined, text_of
 from carom.explorer.page.session import Session
+from carom.report.html import page_template
 
 TOKEN = "key-of-a-session"
 
@@ -79,7 +80,7 @@ def write_page(origin: Origin, resources: Resources) -> str:
         {},
         [RenderItem(token=TOKEN, roots=places, use_for_title=True)],
         _title(origin),
-        template=_templates().get_template("page.html.jinja"),
+        template=page_template("page.html.jinja", Path(__file__).with_name("files")),
         template_variables={
             "name": origin.case.name,
             "mark": questions.mark,
@@ -112,14 +113,3 @@ def _act(act: Callable[[object], None], name: str, old: object, new: object) -> 
 
 
 _BEGIN, _LOST = "carom.begin(requests, answers, parts, plots)", "carom.panels.lost()"
-
-
-@cache
-def _templates() -> jinja2.Environment:
-    return jinja2.Environment(
-        loader=jinja2.FunctionLoader(text_of),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )

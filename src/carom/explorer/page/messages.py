@@ -7,13 +7,12 @@ from typing import Any
 
 from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms import contact_free_blade_loss, contact_free_kick, contact_free_shock
+from carom.basins.sizes import contact_free_size
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.kicks import KickMap
-from carom.explorer.computing.levitation import levitation_of
 from carom.explorer.computing.planes import DisturbancePlane
 from carom.models import Rotor
-from carom.parameters import Case, Scales
+from carom.parameters import Scales
 from carom.parameters.fields import RPM
 from carom.parameters.formats import format_quantity, number, shown_in
 from carom.plots.style import LOOKS
@@ -69,6 +68,7 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
     factor, unit = plane.shown(scales)
     lost, (share, words) = None if coarse else found.smallest_lost, judged_share(found, rotor)
     required = None if plane.required is None else plane.own(plane.required, scales)
+    contact_free = contact_free_size(rotor, plane.by_size(rotor, found.largest)) if found.rest.levitates else 0.0
     return {
         "kind": plane.name,
         "coarse": coarse,
@@ -87,7 +87,7 @@ def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message
         "sentence": sentence(share, words, coarse)
         if found.rest.levitates
         else f"It cannot levitate with these values. The kicks disturb {found.rest.words}.",
-        "contact_free": contact_free_size(found, rotor) / found.largest,
+        "contact_free": contact_free / found.largest,
         "lost_size": 0.0 if lost is None else factor * lost,
         "lost": "–" if coarse else "none" if lost is None else format_quantity(lost, plane.scale, scales),
         "lost_remark": WAITS if coarse else f"of {found.share.total:,} {plane.nouns[1]} tried; a finer search follows",
@@ -108,17 +108,6 @@ def judged_share(found: KickMap, rotor: Rotor) -> tuple[Share, str]:
     return found.share, found.plane.words_up_to(found.largest, rotor.scales)
 
 
-def contact_free_size(found: KickMap, rotor: Rotor) -> float:
-    """Size up to which contact is proven to be impossible, in units of the equations; 0 where nothing is proven."""
-    if not found.rest.levitates:
-        return 0.0
-    if found.plane.name == "kick":
-        return contact_free_kick(rotor)
-    if found.plane.name == "shock":
-        return contact_free_shock(rotor, found.plane.lasting(rotor))
-    return contact_free_blade_loss(rotor)
-
-
 def sentence(share: Share, words: str, coarse: bool) -> str:
     """What comes back of those that were tried; a coarse picture says nothing of all or none."""
     tried = f"of {share.total:,} {words} that were tried"
@@ -135,12 +124,6 @@ def shown_share(share: Share, coarse: bool) -> str:
     if coarse and share.count in (0, share.total):
         return f"{share.count:,} of {share.total:,}"
     return percent(share.fraction)
-
-
-def levitation_message(case: Case) -> Message:
-    """How a machine levitates; speeds in rpm."""
-    scales = case.parameters.scales
-    return {**levitation_of(case), "speed": scales.speed / RPM if scales else 1.0}
 
 
 def response_message(found: SynchronousResponse, words: dict[str, tuple[str, ...]], rotor: Rotor) -> Message:

@@ -15,7 +15,7 @@ from carom.explorer.computing.exports import Kick, Origin, as_command, as_option
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import RANGES, TRIED, is_slow, map_kicks, opening_range, representative_kicks
-from carom.explorer.computing.levitation import response_of
+from carom.explorer.computing.levitation import levitation_of, response_of
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import DisturbancePlane, opening_words, planes_of
 from carom.explorer.computing.proofs import find_proven
@@ -123,7 +123,7 @@ class Questions:
         self._cost = PATIENCE / COARSE**2
         self._diagrams: dict[tuple[object, ...], Message] = {}
         self.quick: Mapping[str, Work] = {
-            "levitating": lambda shown, tell: messages.levitation_message(shown.subject.case),
+            "levitating": lambda shown, tell: levitation_of(shown.subject.case),
             "basin": self._coarse,
             **{slot: self._motion(place) for place, slot in enumerate(SLOTS)},
             "table": lambda shown, tell: table_of(shown.subject.rotor),
@@ -136,7 +136,7 @@ class Questions:
             "loss": PageTask("looking for the smallest that does not come back", self._loss, "loss"),
             "hardest": PageTask("looking for the hardest impact", self._hardest, "hardest"),
             **({"diagram": diagram} if self.exact else {}),
-            "verdict": PageTask("writing the verdict", self._verdict, "verdict"),
+            "verdict": PageTask("writing the verdict", lambda shown, tell: judge(shown.subject.case, tell), "verdict"),
         }
         self.on_request: Mapping[str, PageTask] = {
             "proven": PageTask("proving which kicks come back", self._proven, "proven")
@@ -276,9 +276,6 @@ class Questions:
     def _hardest(self, shown: Shown, tell: ShowProgress) -> Message:
         case, rotor = shown.subject.case, shown.subject.rotor
         return find_hardest(rotor, self._plane(shown), self._judged(shown), case.limits, tell)
-
-    def _verdict(self, shown: Shown, tell: ShowProgress) -> Message:
-        return judge(shown.subject.case, tell)
 
     def _diagram(self, shown: Shown, tell: ShowProgress) -> Message:
         others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))

@@ -11,19 +11,13 @@
 ...     print(row.place, row.printed, row.right, row.printed_value, row.value)
 >>> mora2014.write_paper(found, "out")                # figures/figure-2.svg, …, paper.json, table.md
 
-``carom paper --out DIR`` does the same.  The parts are available separately: :func:`shown_motions` (figure 2),
-:func:`period_functions`, :func:`period_pairs` and :func:`birth` (figure 3), :func:`first_pair` (figures 4 and 6a),
-:func:`radius_diagram` (figure 5), :func:`four_curves` and :func:`damping_stiffness_plane` (figure 6b).
+``carom paper --out DIR`` does the same.  :func:`first_pair` follows the orbits of figures 4 and 6a alone.
 """
 
 from carom.reproductions.mora2014.branches import first_pair
 from carom.reproductions.mora2014.document import Picture, figures, paper_document, write_paper
-from carom.reproductions.mora2014.extrema import radius_diagram
-from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
-from carom.reproductions.mora2014.motions import shown_motions
-from carom.reproductions.mora2014.periods import birth, period_functions, period_pairs
-from carom.reproductions.mora2014.plane import damping_stiffness_plane, four_curves
-from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
+from carom.reproductions.mora2014.misprinted_forms import Misprint
+from carom.reproductions.mora2014.printed_numbers import PrintedNumber
 from carom.reproductions.mora2014.reproduction import Reproduction, reproduce
 from carom.reproductions.mora2014.source import machine_at
 
@@ -32,19 +26,10 @@ __all__ = [
     "Picture",
     "PrintedNumber",
     "Reproduction",
-    "birth",
-    "damping_stiffness_plane",
     "figures",
     "first_pair",
-    "four_curves",
     "machine_at",
-    "misprints",
-    "numbers",
     "paper_document",
-    "period_functions",
-    "period_pairs",
-    "radius_diagram",
     "reproduce",
-    "shown_motions",
     "write_paper",
 ]

@@ -80,23 +80,16 @@ class DampingStiffnessPlane(Result):
         return next(point for point in self.curve(first).codimension2 if point.kinds == (first, second))
 
 
-def four_curves(pair: FirstPair) -> tuple[Curve, ...]:
-    """Compute the curves of fold, boundary equilibrium and non-smooth Hopf bifurcation, grazing and period doubling.
-
-    They start on the branches of the pair.
-    """
+def damping_stiffness_plane(pair: FirstPair) -> DampingStiffnessPlane:
+    """Compute figure 6b: the curves, which start on the branches of the pair, and the motions in each region."""
     fold, grazing, doubling = (pair.special(kind, "d") for kind in ("fold", "grazing", "period-doubling"))
     boundary = Bifurcation.near("boundary-equilibrium", machine_at(pair.hopf.gamma))
-    return tuple(continue_curve(point, PLANE, STEPS) for point in (fold, boundary, grazing, doubling))
-
-
-def damping_stiffness_plane(pair: FirstPair) -> DampingStiffnessPlane:
-    """Compute figure 6b: the four curves, the fold of the rubs, and the motions in each region."""
-    rub_fold = continue_curve(Bifurcation.near("rub-fold", machine_at(rub_limit(machine_at(0.1)))), PLANE, STEPS)
+    rub_fold = Bifurcation.near("rub-fold", machine_at(rub_limit(machine_at(0.1))))
+    curves = tuple(continue_curve(point, PLANE, STEPS) for point in (fold, boundary, grazing, doubling, rub_fold))
     regions = []
     for place, (source, point, words) in enumerate(REGIONS):
         number = sum(other[0] == source for other in REGIONS[: place + 1])
         divided = sum(other[0] == source for other in REGIONS) > 1
         part = f"{source}.{number}" if divided else source
         regions.append(NamedRegion(source, part, point, motions_at(machine_at(*point)), words))
-    return DampingStiffnessPlane(PLANE, (*four_curves(pair), rub_fold), tuple(regions))
+    return DampingStiffnessPlane(PLANE, curves, tuple(regions))
