@@ -22,13 +22,13 @@ LIMITS = {
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2338,
     "studies": 3455,
-    "cli plots report": 5772,
+    "cli plots report": 5750,
     "rotors": 4455,
     "proofs": 5907,
-    "explorer": 2106,
+    "explorer": 2080,
     "fitting": 951,
     "sweeps": 1399,
-    "reproductions": 1284,
+    "reproductions": 1270,
 }
 TESTS, ANY = 38_893, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
