@@ -11,7 +11,6 @@ import numpy as np
 from carom.attractors.following import FIRST_PATIENCE, Ending, Survival
 from carom.attractors.naming import MotionName
 from carom.attractors.settled import SettledMotion, Whirl, forces_on, seen_in_contact, settled_motion, whirl_of
-from carom.attractors.starts import Start
 from carom.base.arguments import Count, checked
 from carom.base.outcome import CaromError, Outcome, Phase
 from carom.base.results import Result
@@ -105,8 +104,6 @@ class Attractor(Result):
         :func:`carom.basins.share_of_kicks` gives.
     known : int
         Starts next to motions known in closed form that end here.
-    representative : Start
-        The mildest disturbance that ends here; if there is none, the first other start.
     state : State
         A state on it (for periodic bouncing just before an impact).
     largest_impulse : float
@@ -128,7 +125,6 @@ class Attractor(Result):
     count: int
     share_of_disturbances: float
     known: int
-    representative: Start
     state: State
     largest_impulse: float
     largest_force: float
@@ -158,7 +154,7 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
     given_up = name.irregular or not name.outcome.settled
     settled = SettledMotion(motion, name.outcome) if given_up else settled_motion(motion)
     impulse, force = forces_on(settled)
-    by_disturbance = [ending.start for ending in here if ending.start.disturbance]
+    disturbed = sum(ending.start.disturbance for ending in here)
     total = sum(ending.start.disturbance for ending in endings)
     survival = first.survival if name.irregular else None
     words = _words(settled, name)
@@ -167,10 +163,9 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
         words=f"{words} {survival.words[0].upper()}{survival.words[1:]}." if survival else words,
         period=settled.period,
         whirl=whirl_of(settled),
-        count=len(by_disturbance),
-        share_of_disturbances=len(by_disturbance) / total if total else 0.0,
-        known=len(here) - len(by_disturbance),
-        representative=min(by_disturbance, key=lambda start: (start.kind != "kick", start.speed), default=first.start),
+        count=disturbed,
+        share_of_disturbances=disturbed / total if total else 0.0,
+        known=len(here) - disturbed,
         state=settled.motion.final,
         largest_impulse=impulse,
         largest_force=force,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -21,7 +21,7 @@ from carom.disturbances.plans import INSTANTS, ITS_INSTANT
 from carom.models import Rotor, Subject, rotor_of
 from carom.motions import State
 from carom.orbits import Orbit
-from carom.parameters import Scales, own_size, usual_kick
+from carom.parameters import own_size, usual_kick
 from carom.parameters.formats import format_quantity
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
@@ -113,12 +113,6 @@ class DisturbanceSet:
         scales = rotor_of(machine).scales
         largest = usual_kick(scales) if fastest is None else own_size("fastest", fastest, "velocity", scales)
         return cls(count, seed, largest)
-
-    def rescaled(self, before: Scales | None, after: Scales | None) -> DisturbanceSet:
-        """Return the set whose speeds are the same in SI units for a machine with other scales."""
-        if before is None or after is None:
-            return self
-        return replace(self, fastest=self.fastest * (before.velocity / after.velocity))
 
     def kicks(self, rotor: Rotor) -> int:
         """Number of kicks in the set; they come first."""

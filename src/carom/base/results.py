@@ -139,7 +139,8 @@ def format_value(kind: str, value: object, scales: object) -> str:
     return f"{in_a_line(value, scales)}{beside}"
 
 
-def _attribute(entry: object, path: str) -> object:
+def attribute_of(entry: object, path: str) -> object:
+    """An attribute, perhaps of an attribute: ``None`` of one that is ``None``."""
     for name in path.split("."):
         entry = None if entry is None else getattr(entry, name)
     return entry
@@ -164,7 +165,7 @@ def record(entry: object, columns: str, scales: object = None) -> dict[str, Any]
     for column in columns.split():
         named, is_number, kind = column.partition(":")
         key, _, name = named.partition("=")
-        found[key] = _plain(_attribute(entry, name or key))
+        found[key] = _plain(attribute_of(entry, name or key))
         if is_number:
             kinds[key] = kind or KINDS[key]
     return found | in_si(found, scales, **kinds)
@@ -191,7 +192,7 @@ class Column(NamedTuple):
         """What stands in the cell of an entry of a result."""
         if self.text is not None:
             return self.text(entry, result)
-        return str(_attribute(entry, self.key.partition(":")[0].rpartition("=")[2]))
+        return str(attribute_of(entry, self.key.partition(":")[0].rpartition("=")[2]))
 
 
 def keys_of(columns: Iterable[Column]) -> str:

@@ -303,6 +303,11 @@ class Temperatures(Result):
         """The part that reaches it."""
         return PARTS[int(self.values.max(axis=0).argmax())]
 
+    @property
+    def warmest(self) -> str:
+        """Both in words."""
+        return f"{number(self.highest, 3)} °C, {self.hottest}"
+
     @cached_property
     def closures(self) -> np.ndarray:
         """By how much each ball is pressed in by preload and growth, m, shape (n,); below zero where it has clearance."""
@@ -349,10 +354,7 @@ class Temperatures(Result):
         flows = any(value for name, value in self.bearing.given.items() if name.endswith("conductance"))
         return [
             ("temperatures at the end", f"{parts}{'' if flows else '; without heat flow between them'}"),
-            (
-                "highest temperature",
-                f"{number(self.highest, 3)} °C, {self.hottest}, {number(when, 3)} s after the release",
-            ),
+            ("highest temperature", f"{self.warmest}, {number(when, 3)} s after the release"),
             ("growth by heat", self._growth_words),
         ]
 

@@ -23,9 +23,9 @@ COLUMN = (
     ("heat of slip", "{heat}"),
     ("largest friction power", "{power}"),
     ("fastest race", "{fastest_race:speed}"),
+    ("highest temperature", "{temperatures.warmest}"),
 )
 """Loads of a touchdown bearing in a table in which each has a column."""
-WARMEST = "highest temperature"
 
 
 def load_columns(found: DropStudy) -> list[tuple[str, list[str]]]:
@@ -34,10 +34,7 @@ def load_columns(found: DropStudy) -> list[tuple[str, list[str]]]:
         dict(Wording(plane.scales).rows(COLUMN, plane) + ([NONE_LEFT] if plane.landings == 0.0 else []))
         for plane in found.loads.planes
     ]
-    for column, plane in zip(columns, found.loads.planes, strict=True):
-        if plane.temperatures is not None:
-            column[WARMEST] = f"{number(plane.temperatures.highest, 3)} °C, {plane.temperatures.hottest}"
-    labels = [label for label in (*dict(COLUMN), WARMEST) if any(label in column for column in columns)]
+    labels = [label for label in dict(COLUMN) if any(label in column for column in columns)]
     return [(label, [column.get(label, "\N{EM DASH}") for column in columns]) for label in labels]
 
 

@@ -50,14 +50,14 @@ FEWEST = 60
 """Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
 
 
-def required_disturbances(required: Required, count: int, seed: int = 0) -> tuple[Sample, ...]:
+def required_disturbances(required: Required, count: int) -> tuple[Sample, ...]:
     """Kinds of disturbances that a machine must survive, with the number of each; ``count`` is that of kicks.
 
     Kicks out of levitation, uniform over the disc of their velocities; shocks and losses of a blade where they are required.
     """
     more = max(1, round(OF_ANOTHER_KIND * count))
     kinds = required_kinds(required)
-    return tuple(Sample(model, count if kind == "kick" else more, seed) for kind, _, model in kinds)
+    return tuple(Sample(model, count if kind == "kick" else more) for kind, _, model in kinds)
 
 
 def required_kinds(required: Required) -> Iterator[tuple[Kind, float, Disturbance]]:

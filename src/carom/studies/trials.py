@@ -16,7 +16,7 @@ import numpy as np
 
 from carom.attractors import MotionName
 from carom.attractors.naming import name_endings
-from carom.base.arguments import Count, Seed, checked
+from carom.base.arguments import Seed, checked
 from carom.base.results import Result
 from carom.basins import Population, Share
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts
@@ -113,13 +113,12 @@ def check_recovery(
     along: str | None = None,
     value: float | None = None,
     seed: Seed = 0,
-    threads: Count | None = None,
 ) -> Check:
     """Follow all disturbances at one value of a parameter, by default its present one.
 
     Parameters
     ----------
-    machine, disturbances, seed, threads
+    machine, disturbances, seed
         As for :func:`find_recovery`; ``seed`` draws all samples anew.
     along : str, optional
         The parameter, by default the first of the model.
@@ -129,7 +128,7 @@ def check_recovery(
     rotor = rotor_of(machine)
     varied = axis(rotor, along or next(iter(rotor.varied)))
     there = varied.value(rotor) if value is None else value
-    return Trial(rotor, varied, tuple(disturbances), seed, threads).at(there)
+    return Trial(rotor, varied, tuple(disturbances), seed).at(there)
 
 
 @dataclass(eq=False)
@@ -140,7 +139,7 @@ class Trial:
     varied: Axis
     disturbances: tuple[Sample, ...]
     seed: int
-    threads: int | None
+    threads: int | None = None
 
     def __post_init__(self) -> None:
         self.checks: dict[float, Check] = {}

@@ -6,14 +6,13 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial, partialmethod
-from operator import attrgetter
 from string import Formatter
 from typing import Any
 
 from carom.attractors import MotionName
 from carom.base.arguments import checked
 from carom.base.outcome import Outcome, printable
-from carom.base.results import KINDS
+from carom.base.results import KINDS, attribute_of
 from carom.models import Edge, Rotor, Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Required, Scales
 from carom.parameters.fields import RPM
@@ -216,7 +215,7 @@ class Wording:
             if name in also:
                 parts.append(str(also[name]))
             elif name is not None:
-                value = attrgetter(name)(entry)
+                value = attribute_of(entry, name)
                 if not value:
                     return None
                 parts.append(value if isinstance(value, str) else self.write(value, kind or KINDS.get(name, "")))
