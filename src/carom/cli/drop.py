@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, partial
+from functools import cache
 from typing import TYPE_CHECKING, Any, cast
 
 from carom.base.outcome import InputError
@@ -116,19 +116,20 @@ def drop(
     if until == STANDSTILL:
         if plane is not None:
             raise InputError("--until", until, "a time beside --map, such as '0.5 s'")
-        return _drop_once(case, begins, partial(_slowed, steps), out, record, as_json)
+        return _drop_once(case, begins, None, steps, out, record, as_json)
     end = read_time(until, case.parameters.scales)
     if asked:
         shape = tuple(USUAL.values()) if grid is None else read_cells("--grid", grid, 2, least=2, most=MOST_CELLS)
         _map(case, begins, {"over": asked.over(shape), "until": end}, out, as_json)
     else:
-        _drop_once(case, begins, partial(_followed, end), out, record, as_json)
+        _drop_once(case, begins, end, None, out, record, as_json)
 
 
 def _drop_once(
     case: Case,
     begins: StatedBeginning,
-    follow: Callable[[Case, StatedBeginning, int, Reporter], tuple[DropStudy, Trajectory | None]],
+    end: float | None,
+    steps: int | None,
     out: str | None,
     record: Callable[[Trajectory], None] | None,
     as_json: bool,
@@ -136,11 +137,12 @@ def _drop_once(
     """Follow one drop, write its histories and its report, and tell what the bearing bears."""
     page, drawn = None, out is not None or record is not None
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        found, motion = follow(case, begins, _DRAWN if drawn else 0, tell.part(0.0, 0.4) if drawn else tell)
+        part = tell.part(0.0, 0.4) if drawn else tell
+        found, motion = _follow(case, begins, end, steps, _DRAWN if drawn else 0, part)
         if motion is not None and record is not None:
             record(motion)
-            if (end := motion.begins + motion.time) < found.loads.time and not motion.outcome.settled:
-                seconds = end * (1.0 if motion.rotor.scales is None else motion.rotor.scales.time)
+            if (until := motion.begins + motion.time) < found.loads.time and not motion.outcome.settled:
+                seconds = until * (1.0 if motion.rotor.scales is None else motion.rotor.scales.time)
                 console(errors=True).print(
                     f"History up to {seconds:.4g} s: the first {_DRAWN:,} impacts and steps of contact"
                 )
@@ -151,30 +153,22 @@ def _drop_once(
     hand_over(found.document, as_json, lambda: _print_drop(console(), found, out), out, f"Report: {page}")
 
 
-def _followed(
-    end: float | None, case: Case, begins: StatedBeginning, drawn: int, tell: Reporter
+def _follow(
+    case: Case, begins: StatedBeginning, end: float | None, steps: int | None, drawn: int, tell: Reporter
 ) -> tuple[DropStudy, Trajectory | None]:
-    """A drop followed to a time, with its first events where they are to be drawn."""
+    """A drop followed to a time, or in steps of speed until the shaft stands, with its first events where they are to be drawn."""
     rotor, state, echo = begins.apply(case)
-    from carom.motions import follow_loads, simulate
+    from carom.motions import follow_loads, simulate, spin_down
     from carom.studies.drops import DropStudy
 
-    loads = follow_loads(rotor, state, end, progress=tell)
-    found = DropStudy(case, echo, loads, begins.reduction_error(case, loads))
-    return found, simulate(rotor, state, end, max_events=drawn) if drawn else None
-
-
-def _slowed(
-    steps: int, case: Case, begins: StatedBeginning, drawn: int, tell: Reporter
-) -> tuple[DropStudy, Trajectory | None]:
-    """The same until the shaft stands."""
-    _, _, echo = begins.apply(case)
-    from carom.motions import spin_down
-    from carom.studies.drops import DropStudy
-
-    slowed = spin_down(case, cast("Drop", begins.release), steps=steps, keep=drawn, progress=tell)
-    error = begins.reduction_error(case, slowed.loads)
-    return DropStudy(case, echo, slowed.loads, error, spin_down=slowed), slowed.motion
+    slowed = None
+    if steps is not None:
+        slowed = spin_down(case, cast("Drop", begins.release), steps=steps, keep=drawn, progress=tell)
+        loads, motion = slowed.loads, slowed.motion
+    else:
+        loads = follow_loads(rotor, state, end, progress=tell)
+        motion = simulate(rotor, state, end, max_events=drawn) if drawn else None
+    return DropStudy(case, echo, loads, begins.reduction_error(case, loads), spin_down=slowed), motion
 
 
 def _print_drop(screen: Console, found: DropStudy, out: str | None) -> None:

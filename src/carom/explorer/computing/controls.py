@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.base.outcome import InputError, Problems, printable, shown
 from carom.models import rotor_of
-from carom.parameters import MACHINE_FIELDS, SETTINGS, TERM_FIELDS, Case, Field, read_quantity
+from carom.parameters import SETTINGS, TERM_FIELDS, Case, Field, read_quantity
 from carom.parameters.terms import set_by
 from carom.parameters.touchdown_bearing import PREFIX
 
@@ -228,7 +227,7 @@ def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
     units = {control.name: control.unit for control in controls_of(case)} if settings else {}
     problems = Problems()
     entries: dict[str, str | float] = {}
-    for name, text in _without_terms(case, settings, units).items():
+    for name, text in settings.items():
         if name not in units:
             problems.errors.append(InputError(shown(name), shown(text), f"one of: {', '.join(units)}"))
             continue
@@ -281,27 +280,6 @@ def _reads(field: Field, text: str) -> bool:
     return True
 
 
-def _without_terms(case: Case, settings: Mapping[str, str], units: Mapping[str, str]) -> dict[str, str]:
-    """Settings with each unbalance that is stated by a term, as ``G 2.5`` or by an eccentricity, in g mm.
-
-    A grade is that of the whole rotor at the speed that is set with it; its unbalances have equal parts of it.
-    """
-    texts = {name: str(text) for name, text in settings.items()}
-    stated = [name for name in texts if name.startswith("unbalance") and name in units]
-    if not stated:
-        return texts
-    machine = _named(case)
-    speed = machine.speed
-    with suppress(InputError, KeyError):  # refused where it is read
-        speed = read_quantity(SETTINGS["speed"], with_unit("rpm", texts["speed"]))
-    for name in stated:
-        for field, per_unit in ((TERM_FIELDS["balance_grade"], 1e-3 / speed), (MACHINE_FIELDS["eccentricity"], 1.0)):
-            with suppress(InputError):
-                size = read_quantity(field, with_unit(units[name], texts[name])) * per_unit * machine.rotor.mass
-                texts[name] = f"{1e6 * size / len(machine.unbalances):.9g} g mm"
-    return texts
-
-
 def in_options(case: Case, changes: Mapping[str, str]) -> dict[str, str]:
     """Changes on the page by the entry of a machine file that each sets, as ``--set`` reads them."""
     units = {control.name: control.unit for control in controls_of(case)}
@@ -310,7 +288,7 @@ def in_options(case: Case, changes: Mapping[str, str]) -> dict[str, str]:
         term_of(case, name, text): text.removesuffix(units[name]).strip()
         if "^" in units[name] and _entries(case)
         else with_unit(units[name], text)
-        for name, text in _without_terms(case, changes, units).items()
+        for name, text in changes.items()
     }
 
 
