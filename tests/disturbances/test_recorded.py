@@ -78,7 +78,7 @@ def test_a_file_has_units(tmp_path):
     path = tmp_path / "quake.csv"
     path.write_text("t [ms],y (g)\n5,0\n7,1\n10,-0.5\n", encoding="utf-8")
     machine = cm.load(KEOGH)
-    scales, found = machine.parameters.scales, BaseRecord.read_csv(path, machine)
+    scales, found = machine.parameters.scales, BaseRecord.read(str(path), machine).model
     assert np.array(found.times) * scales.time == pytest.approx([0.0, 2e-3, 5e-3])
     assert found.accelerations * scales.acceleration == pytest.approx([0.0, 9.80665j, -4.903325j])
     assert BaseRecord.from_description(found.scaled(2.0).describe()) == found.scaled(2.0)
@@ -105,16 +105,16 @@ def test_what_is_no_record_has_one_line(tmp_path, text, words):
     path = tmp_path / "quake.csv"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError) as problem:
-        BaseRecord.read_csv(path, cm.load(KEOGH))
+        BaseRecord.read(str(path), cm.load(KEOGH))
     assert words in str(problem.value)
     assert "\n" not in str(problem.value)
 
 
 def test_what_has_no_record(tmp_path):
     with pytest.raises(InputError, match=r"No such file"):
-        BaseRecord.read_csv(tmp_path / "none.csv", cm.load(KEOGH))
+        BaseRecord.read(str(tmp_path / "none.csv"), cm.load(KEOGH))
     with pytest.raises(InputError, match="accelerations have units"):
-        BaseRecord.read_csv(tmp_path / "none.csv", cm.load("examples/source-paper.toml"))
+        BaseRecord.read(str(tmp_path / "none.csv"), cm.load("examples/source-paper.toml"))
     for times in ((0.0, 1.0, 1.0), (1.0, 2.0, 3.0), (0.0,)):
         with pytest.raises(InputError, match=r"^times = "):
             BaseRecord(times, (0.0,) * len(times), (0.0,) * len(times))

@@ -141,13 +141,13 @@ class Disturbance:
         """
         from carom.models import rotor_of
 
-        if not cls.parts:
-            raise InputError(name or cls.kind, shown(text), "a kind of disturbance that has a text")
-        return read_single(cls, text, rotor_of(machine).scales, name or cls.kind)
+        return cls.single_of(text, rotor_of(machine).scales, name or cls.kind)
 
     @classmethod
     def single_of(cls, text: str, scales: Scales | None, option: str) -> Single:
-        """The single one of an option of the command line, which errors name."""
+        """The same for scales, as of an option of the command line, which errors name."""
+        if not cls.parts:
+            raise InputError(option, shown(text), "a kind of disturbance that has a text")
         return read_single(cls, text, scales, option)
 
     def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:

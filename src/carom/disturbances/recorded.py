@@ -28,7 +28,7 @@ from carom.parameters import Scales, read_size
 from carom.parameters.formats import format_angle, format_quantity, number
 
 if TYPE_CHECKING:
-    from carom.models import Rotor, Subject
+    from carom.models import Rotor
 
 MOST_SAMPLES = 20_000
 """Samples of a record: each interval is a stage, which takes about a millisecond."""
@@ -91,23 +91,16 @@ class BaseRecord(BaseMotion):
         object.__setattr__(self, "largest", self.largest or self.peak)
 
     @classmethod
-    def read_csv(cls, path: str | Path, machine: Subject) -> BaseRecord:
-        """Read a record from a file with a heading of names and units, such as ``time (s),x (m/s^2),y (g)``, for a machine in SI units.
+    def single_of(cls, text: str, scales: Scales | None, option: str) -> Single:
+        """The motion of a file for a machine in SI units, by its path, perhaps with the peak acceleration to which it is scaled and the angle by which it is turned.
 
-        Times count from the first sample.
+        The file has a heading of names and units, such as ``time (s),x (m/s^2),y (g)``; times count from the first sample.
 
         Raises
         ------
         InputError
-            The file cannot be used.
+            The file cannot be used, or the text is none of this kind.
         """
-        from carom.models import rotor_of
-
-        return _read(path, rotor_of(machine).scales, cls.kind)
-
-    @classmethod
-    def single_of(cls, text: str, scales: Scales | None, option: str) -> Single:
-        """The motion of a file, by its path, perhaps with the peak acceleration to which it is scaled and the angle by which it is turned."""
         path, *sizes = [text] if Path(text).exists() else map(str.strip, text.split(","))
         found = _read(path, scales, option)
         if len(sizes) > len(_SIZES):
