@@ -18,7 +18,7 @@ LIMITS = {
     "parameters base": 3628,
     "models": 2366,
     "core": 6613,
-    "motions disturbances": 4680,
+    "motions disturbances": 4676,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
     "studies": 3450,
