@@ -162,12 +162,9 @@ def _disc(entry: Mapping[str, Any]) -> Disc:
 
 def _bearing(entry: Mapping[str, Any]) -> MagneticBearing:
     if "y" in entry:
-        given: object = entry["y"]
         first = {name: value for name, value in entry.items() if name != "y"}
-        if not isinstance(given, Mapping):
-            raise InputError("y", shown(given), "a table that starts with the line [magnetic_bearing.y]")
         of_law = {**PID_FIELDS, **_OF_CONTROLLER}
-        _check_names(given, {**BEARING_FIELDS, **of_law}, "[magnetic_bearing.y]")
+        given = _inner(entry, "y", {**BEARING_FIELDS, **of_law}, "[magnetic_bearing.y]")
         has_law = any(name in given for name in of_law if name != "filter")
         # What it does not state is as along the first axis: of a controller of its own nothing.
         shared = {name: value for name, value in first.items() if not (has_law and name in of_law)}
@@ -183,15 +180,21 @@ def _shared(entry: Mapping[str, Any]) -> SharedController:
     own: dict[str, Any] = entries_in(entry, ("bearings", "at_regain"))
     for name, gains in _PARTS_OF_SHARED.items():
         if name in entry:
-            given: object = entry[name]
-            if not isinstance(given, Mapping):
-                raise InputError(name, shown(given), f"a table that starts with the line [shared_controller.{name}]")
-            _check_names(given, {**PID_FIELDS, **_OF_CONTROLLER}, f"[shared_controller.{name}]")
-            own[name] = _controller(given, gains)
+            known = {**PID_FIELDS, **_OF_CONTROLLER}
+            own[name] = _controller(_inner(entry, name, known, f"[shared_controller.{name}]"), gains)
     if matrices := entries_in(entry, ("A", "B", "C", "D", "sample_time")):
         require(entry, ("A", "B", "C", "D"))
         own["matrices"] = StateSpace(**matrices)
     return SharedController(**own)
+
+
+def _inner(entry: Mapping[str, Any], name: str, known: Mapping[str, object], head: str) -> Mapping[str, Any]:
+    """A table in a table, with names that are known."""
+    given: object = entry[name]
+    if not isinstance(given, Mapping):
+        raise InputError(name, shown(given), f"a table that starts with the line {head}")
+    _check_names(given, known, head)
+    return given
 
 
 def _check_names(entry: Mapping[str, object], known: Mapping[str, object], where: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -124,15 +125,10 @@ class SharedController:
 
 def _chain(bearings: Sequence[MagneticBearing], law: Sequence[StateSpace], both: bool) -> StateSpace:
     """A controller behind the sensors of its bearings and before what makes their currents."""
-    axes = (
-        [
-            [one.beside(other) for one, other in zip(*(axis.stages for axis in each.axes), strict=True)]
-            for each in bearings
-        ]
-        if both
-        else [each.stages for each in bearings]
-    )
-    before, *after = (side_by_side(each) for each in zip(*axes, strict=True))
+    stages = [[axis.stages for axis in each.axes] if both else [each.stages] for each in bearings]
+    # Of each bearing one stage after the other, of both axes in turn.
+    each_of = [[reduce(StateSpace.beside, parts) for parts in zip(*axes, strict=True)] for axes in stages]
+    before, *after = (side_by_side(each) for each in zip(*each_of, strict=True))
     return in_series([before, *law, *after]).balanced(1 + both)
 
 
@@ -182,7 +178,7 @@ class ControlLoop(NamedTuple):
 
 
 def _loop(
-    numbers: tuple[int, ...], bearings: Sequence[MagneticBearing], system: StateSpace, at_regain: str
+    bearings: Sequence[MagneticBearing], numbers: tuple[int, ...], system: StateSpace, at_regain: str
 ) -> ControlLoop:
     """A loop in the fixed frame, of a system of one axis or of both in turn."""
     loop = ControlLoop(numbers, system, at_regain)
@@ -218,18 +214,12 @@ def loops_in(
             raise InputError(
                 f"[[magnetic_bearing]] {number + 1}: controller", "several" if driven.count(number) else None, allowed
             )
-    return (
-        *(
-            _loop(
-                (number,),
-                bearings,
-                each.loop if each.y is None else each.loop.beside(each.y.loop),
-                each.at_regain,
-            )
-            for number, each in own.items()
-        ),
-        *(
-            _loop(numbers, bearings, each.system(rotor, [bearings[number] for number in numbers]), each.at_regain)
-            for each, numbers in found
-        ),
-    )
+    systems: list[tuple[tuple[int, ...], StateSpace, str]] = [
+        ((number,), each.loop if each.y is None else each.loop.beside(each.y.loop), each.at_regain)
+        for number, each in own.items()
+    ]
+    systems += [
+        (numbers, each.system(rotor, [bearings[number] for number in numbers]), each.at_regain)
+        for each, numbers in found
+    ]
+    return tuple(_loop(bearings, *each) for each in systems)

@@ -9,7 +9,7 @@ from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import schur  # type: ignore[import-untyped]
+from scipy.linalg import block_diag, schur  # type: ignore[import-untyped]
 
 from carom.base.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
@@ -278,16 +278,8 @@ class StateSpace:
 
 def side_by_side(systems: Sequence[StateSpace]) -> StateSpace:
     """Systems each with inputs and outputs of its own, as one."""
-
-    def along(name: str) -> np.ndarray:
-        blocks = [getattr(each, name) for each in systems]
-        ends = np.cumsum([(0, 0), *(each.shape for each in blocks)], axis=0)
-        whole = np.zeros(ends[-1])
-        for block, (row, column), (last, right) in zip(blocks, ends[:-1].tolist(), ends[1:].tolist(), strict=True):
-            whole[row:last, column:right] = block
-        return whole
-
-    return StateSpace(along("A"), along("B"), along("C"), along("D"), rate=along("rate"))
+    A, B, C, D, rate = (block_diag(*(getattr(each, name) for each in systems)) for name in ComplexSystem._fields)
+    return StateSpace(A, B, C, D, rate=rate)
 
 
 def in_series(systems: Sequence[StateSpace]) -> StateSpace:
