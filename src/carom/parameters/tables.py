@@ -69,8 +69,7 @@ def entry(
     whole: bool = False,
 ) -> Any:
     """An attribute of a table that is a number: its field, but for the name, and its value where it is left out; ``usual`` is the unit in which people say it, and its size."""
-    kind = "a whole number" if whole else _KINDS[unit]
-    said, size = usual
+    kind, (said, size) = "a whole number" if whole else _KINDS[unit], usual
     field = Field(
         "", symbol, words, kind, unit, lowest, highest, example, zero, usual=said, usual_size=size, whole=whole
     )

@@ -188,7 +188,7 @@ def _shared(entry: Mapping[str, Any]) -> SharedController:
     return SharedController(**own)
 
 
-def _inner(entry: Mapping[str, Any], name: str, known: Mapping[str, object], head: str) -> Mapping[str, Any]:
+def _inner(entry: Mapping[str, object], name: str, known: Mapping[str, object], head: str) -> Mapping[str, object]:
     """A table in a table, with names that are known."""
     given: object = entry[name]
     if not isinstance(given, Mapping):
@@ -217,9 +217,7 @@ def _controller(entry: Mapping[str, object], gains: type[PID]) -> Controller:
             _check_names(each, known, "[[magnetic_bearing.filter]]")
             filters.append(_of_kind("filter", each, _FILTERS))
         except InputError as problem:
-            raise together(
-                [InputError(f"filter {number}: {one.field}", one.value, one.allowed) for one in problem.errors]
-            ) from None
+            raise problem.under(f"filter {number}: ") from None
     return Series(found, filters) if filters else found
 
 
