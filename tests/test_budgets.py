@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3628,
+    "parameters base": 3627,
     "models": 2366,
     "core": 6613,
     "motions disturbances": 4676,
@@ -23,7 +23,7 @@ LIMITS = {
     "basins attractors": 2331,
     "studies": 3450,
     "cli plots report": 5748,
-    "rotors": 4455,
+    "rotors": 4436,
     "proofs": 5907,
     "explorer": 2064,
     "fitting": 951,
