@@ -30,13 +30,13 @@ import numpy as np
 from carom.base.outcome import Outcome
 from carom.core.event_log import EventLog
 from carom.core.in_turn import advance_in_turn
-from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.settling import memory
 from carom.disturbances.base_motion import BaseMotion
-from carom.models import Rotor, System
+from carom.models import Rotor
 from carom.models.forcing_modes import ForcingModes
 from carom.motions.ensembles import MOST_EVENTS
+from carom.motions.simulation import tools
 
 LOGGED = 256
 TURN = 2.0 * math.pi
@@ -86,7 +86,7 @@ def _after(
         on = np.flatnonzero(outcomes == Outcome.CLEAR)
         going = moved.set_in(motions[on], sizes[on, None] * values, times[on])
         touching = contacts[on]
-        outcomes[on], more = _follow(system, going, touching, times[on], duration)
+        outcomes[on], more = _follow(moved.rotor, going, touching, times[on], duration)
         motions[on], contacts[on] = going, touching
         events[on] += more
         times += duration
@@ -98,20 +98,17 @@ def _after(
 
 
 def _follow(
-    system: System, motions: np.ndarray, contacts: np.ndarray, begins: np.ndarray, duration: float
+    rotor: Rotor, motions: np.ndarray, contacts: np.ndarray, begins: np.ndarray, duration: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Follow amplitudes (m, N) and contacts (m, P) through a section, in place; how it was ended, and numbers of events, both (m,)."""
-    planes, clocks = len(system.arrays["rows"]), np.mod(begins, TURN)
+    system, clocks = rotor.system, np.mod(begins, TURN)
     outcomes, events = np.zeros((2, len(motions)), np.int64)
-    tools = (
-        EventLog.empty(LOGGED, system.modes, planes, system.limits),
-        memory(system.modes, limits=system.limits),
-        workspace(system.modes),
-        rub_workspace(system.modes, planes, system.limits),
-    )
+    arrays, table, work, rub = tools(rotor)
+    room = EventLog.empty(LOGGED, system.modes, contacts.shape[1], system.limits)
+    own = room, memory(system.modes, limits=system.limits), work, rub
     for first in range(0, len(motions), TOGETHER):
         here = slice(first, first + TOGETHER)
-        given = clocks[here], duration, MOST_EVENTS, contacts[here]
-        advance_in_turn(*system.own_records(), motions[here], *given, *tools, outcomes[here], events[here])
+        given = motions[here], clocks[here], duration, MOST_EVENTS, contacts[here]
+        advance_in_turn(arrays, table, *given, *own, outcomes[here], events[here])
     outcomes[outcomes == Outcome.TIME_REACHED] = Outcome.CLEAR
     return outcomes, events

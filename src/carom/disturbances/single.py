@@ -194,17 +194,16 @@ _OWN = "0.4,0.2"
 """Sizes with an angle of a machine in units of the equations."""
 
 
+WHOLE = {"node": "the number of a node, from 0 on, such as 'node 7'", "count": "a whole number for {}, such as 3"}
+"""Kinds of parts that are whole numbers, and what their text must be."""
+
+
 def read_part(option: str, part: Part, text: str, scales: Scales | None, bare: bool = False) -> float:
     """Read the number of a part, in units of the equations; where the scales are known it needs a unit, but an angle of zero."""
-    if part.kind in ("node", "count"):
+    if part.kind in WHOLE:
         number = text.removeprefix("node").strip()
         if not number.isdecimal():
-            whole = (
-                "the number of a node, from 0 on, such as 'node 7'"
-                if part.kind == "node"
-                else f"a whole number for {part.called}, such as 3"
-            )
-            raise InputError(option, text, f"must be {whole}")
+            raise InputError(option, text, f"must be {WHOLE[part.kind].format(part.called)}")
         return int(number)
     if part.kind == "angle" and not text.strip("0."):
         return 0.0

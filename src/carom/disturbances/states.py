@@ -230,9 +230,8 @@ class Whirl(Disturbance):
         cosine, sine, moves = np.cos(angle), np.sin(angle), rotor.system.translated
         places, speeds = complex_of(radius * cosine, radius * sine), radius * (speed - 1.0)
         found = Starts.of(places, complex_of(-speeds * sine, speeds * cosine), within(places)).at(instant)
-        if len(moves) == 1:
-            return found._replace(positions=found.positions * moves[0], velocities=found.velocities * moves[0])
-        positions, velocities = (np.multiply.outer(each, moves) for each in (found.positions, found.velocities))
+        each = moves if len(moves) > 1 else moves[0]
+        positions, velocities = (np.multiply.outer(one, each) for one in (found.positions, found.velocities))
         return found._replace(positions=positions, velocities=velocities)
 
 

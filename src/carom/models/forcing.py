@@ -257,9 +257,7 @@ class _Modes:
     def _resonant(self, exponent: complex, push: np.ndarray, near: np.ndarray, shares: np.ndarray) -> _Modes:
         """With one more force that drives the mode it is in resonance with, if there is one."""
         firsts = np.flatnonzero(near & ~self.driven)
-        pairs = [
-            first for first in firsts.tolist() if first + 1 < len(near) and near[first + 1] and self.driven[first + 1]
-        ]
+        pairs = [last - 1 for last, _ in self._pairs() if near[last - 1] and not self.driven[last - 1]]
         for first in pairs:
             shares[first] = -push[first + 1]
         driven = firsts[np.abs(push[firsts]) > EQUAL * np.abs(push).max(initial=0.0)]
@@ -333,7 +331,7 @@ def checked_forces(given: object, shape: tuple[int, ...]) -> tuple[Force, ...]:
     listed = tuple(given) if isinstance(given, Sequence) and not isinstance(given, Force) else ()
     if not listed or not all(isinstance(each, Force) for each in listed):
         raise InputError("forces", shown(given), "carom.models.Force, one or more")
-    return tuple(_checked_force(each, shape)._replace(rates=each.rates) for each in listed)
+    return tuple(_checked_force(each, shape) for each in listed)
 
 
 def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
@@ -343,7 +341,7 @@ def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
         raise InputError("exponent", shown(force.exponent), "a finite number")
     if accelerations is None or accelerations.shape != shape:
         raise InputError("accelerations", shown(force.accelerations), f"finite numbers of shape {shape}")
-    return Force(complex(exponent), accelerations)
+    return force._replace(exponent=complex(exponent), accelerations=accelerations)
 
 
 def complex_numbers(given: object) -> np.ndarray | None:
