@@ -16,9 +16,9 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
     "parameters base": 3627,
-    "models": 2366,
+    "models": 2364,
     "core": 6613,
-    "motions disturbances": 4676,
+    "motions disturbances": 4668,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
     "studies": 3450,
