@@ -96,16 +96,6 @@ INSTANT = angle_coordinate("instant", "angle by which the shaft has turned at th
 """At angle zero the frame that turns with the shaft coincides with the fixed one."""
 
 
-def speed_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
-    """A speed."""
-    return Coordinate(name, words, low, high, "velocity", over_disc)
-
-
-def length_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
-    """A length."""
-    return Coordinate(name, words, low, high, "length", over_disc)
-
-
 class Starts(NamedTuple):
     """Starts of free motion in the co-rotating frame; arrays of one shape.
 

@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.disturbances.base_motion import BaseMotion
-from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.response_spectra import BaseCourse
 from carom.disturbances.single import Echo, Part, Single, angles_words
@@ -65,9 +65,8 @@ class VelocityKick(Disturbance):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Size and direction."""
-        return speed_coordinate("speed", "size of the kick", 0.0, self.fastest, over_disc=True), angle_coordinate(
-            "direction", "direction of the kick"
-        )
+        size = Coordinate("speed", "size of the kick", 0.0, self.fastest, "velocity", over_disc=True)
+        return size, angle_coordinate("direction", "direction of the kick")
 
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the velocity changed."""
@@ -143,8 +142,8 @@ class KickPlane(Disturbance):
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Radial and tangential part."""
         return (
-            speed_coordinate("radial_speed", "kick outward", -self.fastest, self.fastest),
-            speed_coordinate("tangential_speed", "kick in the sense of rotation", -self.fastest, self.fastest),
+            Coordinate("radial_speed", "kick outward", -self.fastest, self.fastest, "velocity"),
+            Coordinate("tangential_speed", "kick in the sense of rotation", -self.fastest, self.fastest, "velocity"),
         )
 
     @property

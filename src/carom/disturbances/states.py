@@ -11,16 +11,7 @@ import numpy as np
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError
-from carom.disturbances.coordinates import (
-    Coordinate,
-    Starts,
-    angle_coordinate,
-    complex_of,
-    displaced,
-    length_coordinate,
-    speed_coordinate,
-    within,
-)
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, within
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.single import Echo, Part, Single, angles_words, moving
 
@@ -30,6 +21,8 @@ if TYPE_CHECKING:
     from carom.parameters import Scales
 
 Release = Literal["fixed", "rotating", "rolling"]
+PLACE = tuple(Coordinate(name, f"position {part} U", -1.0, 1.0, "length") for name, part in (("x", "Re"), ("y", "Im")))
+"""Both components of a position inside the wall."""
 
 
 @checked
@@ -85,7 +78,7 @@ class StateSlice(Disturbance):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Both components of the position."""
-        return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
+        return PLACE
 
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """All positions inside the wall."""
@@ -118,9 +111,9 @@ class AnyState(Disturbance):
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Position and velocity, both by modulus and angle."""
         return (
-            length_coordinate("radius", "distance from the centre of the bearing", 0.0, 1.0, over_disc=True),
+            Coordinate("radius", "distance from the centre of the bearing", 0.0, 1.0, "length", over_disc=True),
             angle_coordinate("angle", "angle of the position"),
-            speed_coordinate("speed", "speed in the fixed frame", 0.0, self.fastest, over_disc=True),
+            Coordinate("speed", "speed in the fixed frame", 0.0, self.fastest, "velocity", over_disc=True),
             angle_coordinate("direction", "direction of the velocity"),
         )
 
@@ -158,9 +151,10 @@ class GivenState(Disturbance):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Both components of the position and of the velocity."""
-        places = length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
-        speeds = (speed_coordinate(f"velocity_{axis}", f"velocity along {axis}", -FASTEST, FASTEST) for axis in "xy")
-        return *places, *speeds
+        speeds = (
+            Coordinate(f"velocity_{axis}", f"velocity along {axis}", -FASTEST, FASTEST, "velocity") for axis in "xy"
+        )
+        return *PLACE, *speeds
 
     def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """The given states."""
@@ -210,7 +204,7 @@ class Whirl(Disturbance):
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Radius, speed (negative for backward whirl), and where the rotor is."""
         return (
-            length_coordinate("radius", "radius of the whirl", 0.0, 1.0, over_disc=True),
+            Coordinate("radius", "radius of the whirl", 0.0, 1.0, "length", over_disc=True),
             Coordinate("speed", "speed of the whirl", -1.0, 1.0, "speed"),
             angle_coordinate("angle", "angle of the position"),
         )
