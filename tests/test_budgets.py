@@ -18,7 +18,7 @@ LIMITS = {
     "parameters base": 3627,
     "models": 2364,
     "core": 6613,
-    "motions disturbances": 4668,
+    "motions disturbances": 4656,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
     "studies": 3450,
