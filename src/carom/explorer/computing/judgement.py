@@ -55,7 +55,7 @@ def find_hardest(
     """
     rest, wall = rest_of(rotor), wall_at(rotor, 0)
     sizes, directions = FEW if is_slow(rotor) else (SIZES, DIRECTIONS)
-    tell = Reporter.of(progress, wall.searching)
+    tell = Reporter.of(progress, "looking for the hardest impact")
     hardest, scales, count = 0.0, rotor.scales, sizes * directions
     for place in range(count):
         size = largest * (place // directions + 0.5) / sizes

@@ -206,11 +206,9 @@ def representative_kicks(found: KickMap) -> tuple[tuple[float, float], tuple[flo
 
 def _depth(area: np.ndarray) -> np.ndarray:
     """Number of times that the edge of an area can be taken away before a cell goes."""
-    depth, left = np.zeros(area.shape), area
-    while left.any():
-        depth += left
-        around = np.pad(left, 1)
-        left = left & around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
+    from scipy.ndimage import distance_transform_cdt  # type: ignore[import-untyped]  # takes 50 ms to load
+
+    depth: np.ndarray = distance_transform_cdt(np.pad(area, 1), "taxicab")[1:-1, 1:-1]
     return depth
 
 

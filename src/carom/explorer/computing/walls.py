@@ -34,20 +34,16 @@ class ContactWords:
         Whether forces have peaks there, and the rotor goes in; a rigid wall gives impulses.
     noun, one : str
         A contact, in a count and with its article.
-    title, peaks, section, shaded : str
-        Headings of the hardest impact and of the figure of all, what that shows, and what is shaded over time.
-    searching : str
-        What is done while the hardest is searched.
+    title, section, shaded : str
+        Heading of the hardest impact, what the figure of all shows, and what is shaded over time.
     """
 
     compliant: bool
     noun: str
     one: str
     title: str
-    peaks: str
     section: str
     shaded: str
-    searching: str
 
     def load(self, hardest: float, scales: Scales | None) -> str:
         """Write a load with its unit."""
@@ -75,20 +71,16 @@ RIGID = ContactWords(
     "impact",
     "an impact",
     "hardest impulse",
-    "Impacts",
     "Angle and radial speed at each impact.",
     "lasting contact",
-    "looking for the hardest impact",
 )
 COMPLIANT = ContactWords(
     True,
     "contact",
     "contact",
     "largest force",
-    "Impacts at the bearing",
     "Angle and radial speed on entering it.",
     "contact",
-    "looking for the largest force",
 )
 
 
