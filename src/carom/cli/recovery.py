@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from carom.cli.options import flag, option
@@ -43,18 +44,9 @@ def compare_recoveries(
         from carom.basins.recoveries import DROPS, compare_recoveries
 
         found = compare_recoveries(
-            case,
-            (),
-            drops or DROPS,
-            kicks_up_to=fastest,
-            until=end,
-            seed=seed or 0,
-            progress=tell,
+            case, (), drops or DROPS, kicks_up_to=fastest, until=end, seed=seed or 0, progress=tell
         )
-
-        def document() -> dict[str, object]:
-            return {"name": case.name, **found.document()}
-
+        document = cache(lambda: {"name": case.name, **found.document()})
         write_output(out, case, "recovery", document, {})
     hand_over(document, as_json, lambda: _print(console(), found), out)
 
