@@ -94,6 +94,9 @@ def test_the_life_that_a_landing_uses(tmp_path, name):
         assert plane.landings == 1.0 / plane.catalogue.life_share
         broken = dataclasses.replace(plane, catalogue=plane.catalogue._replace(static_share=1.01))
         assert broken.landings == 0.0
+        pressed = plane.catalogue._replace(static_share=None, pressure=4.3e9)
+        assert dataclasses.replace(plane, catalogue=pressed).landings == 0.0
+        assert dataclasses.replace(plane, outcome=Outcome.BEYOND_MODEL).landings is None
         assert plane.catalogue.static_share == pytest.approx(plane.si()["force"] / 4e3, rel=1e-14)
         checks = {
             check.name: check for check in cm.studies.check_loads(plane, cm.parameters.LoadLimits(life_share=1e-14))

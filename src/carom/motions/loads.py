@@ -20,6 +20,8 @@ MEASURED = ("impulse", "force", "depth", "power", "heat", "restitution_loss", "c
 """Loads that have a unit."""
 GOING_ROUND = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 """Ends of a motion that goes round the wall in contact."""
+RATED_PRESSURE = 4.2e9
+"""Of the most loaded ball at the static rating, Pa (ISO 76)."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -190,11 +192,15 @@ class TouchdownLoads(Result):
 
     @property
     def landings(self) -> float | None:
-        """Such landings in the life of the touchdown bearing, 0 above its static rating; ``None`` where its share of the life is not known or zero."""
+        """Such landings in the life of the touchdown bearing, 0 above its static rating or, where none is stated, above the pressure that defines ratings.
+
+        ``None`` where its share of the life is not known or zero, where a whirl goes on, and where the motion leaves the model.
+        """
         share, static = self.catalogue.life_share, self.catalogue.static_share
-        if not share:
+        endless = self.whirl is not None and self.whirl.goes_on
+        if not share or endless or self.outcome is Outcome.BEYOND_MODEL:
             return None
-        return 0.0 if static and static > 1.0 else 1.0 / share
+        return 0.0 if (static or (self.pressure or 0.0) / RATED_PRESSURE) > 1.0 else 1.0 / share
 
 
 @dataclass(frozen=True, repr=False)

@@ -56,7 +56,8 @@ COMPLIANT = (
     ("depth", "{depth}"),
     ("ball pressure", "{pressure:pressure} on the most loaded ball, which bears {catalogue.ball_load:newton}"),
     ("static rating", "{catalogue.static_share:percent} of it at the peak force"),
-    ("rolling fatigue", "{catalogue.life_share:percent} of the life L10, {landings} such landings"),
+    ("rolling fatigue", "{catalogue.life_share:percent} of the life L10"),
+    ("such landings left", "{landings}"),
     ("largest impulse", "{impulse} in one contact, {impulse_at:time} after {since}"),
     ("contacts", "{contacts:contact}, {contact_time} in contact"),
     ("lift-offs", "{bounces:bounce}"),
@@ -69,7 +70,7 @@ RIGID = (
     *_IN_BOTH,
 )
 """Loads of a touchdown bearing as shown to people: labels, and attributes by name and kind; zero or unknown ones are left out."""
-NONE_LEFT = ("such landings left", "none: the static rating is exceeded")
+NONE_LEFT = ("such landings left", "none: above the static rating, or 4.2 GPa where none is stated, races are indented")
 TURNING = "speed_ratio cage_speed:speed up_to_speed_at:time ball_traction heat:energy torque_si=torque neglected drag_si=drag starts_at_si=starts_at"
 CATALOGUE = "ball_load_si=catalogue.ball_load pressure_si=catalogue.pressure static_share=catalogue.static_share life_share=catalogue.life_share landings"
 WHIRL = "direction angular_speed: turned lasted:time since:time goes_on"
