@@ -15,14 +15,14 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "carom"
 LIMITS = {
-    "parameters base": 3627,
+    "parameters base": 3633,
     "models": 2364,
     "core": 6613,
-    "motions disturbances": 4658,
+    "motions disturbances": 4662,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
-    "studies": 3451,
-    "cli plots report": 5742,
+    "studies": 3461,
+    "cli plots report": 5744,
     "rotors": 4436,
     "proofs": 5907,
     "explorer": 2055,

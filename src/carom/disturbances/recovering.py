@@ -101,7 +101,8 @@ class _Turning:
                 raise
             found = cls(Shaft(HELD))
         if rotor.limits and (rotor.equations.shaft is None or found.changes):
-            raise InputError("recovery", recovery.name, "one without speeds, beside limits of magnetic bearings")
+            allowed = "without regain_speed and slow_to where magnetic bearings have limits (leave out current_limit, force_limit, slew_rate_limit)"
+            raise InputError("recovery", recovery.name, allowed)
         return found
 
     def steps_down_to(self, speed: float, by_drive: bool = False) -> list[tuple[float, float]]:

@@ -58,6 +58,8 @@ DOCUMENT = (
 )
 NEGLECTED = 0.05
 """Share of the work on a race from which it is said that the motion leaves out that of a torque."""
+_SHORT = 1.0
+"""Landing, s, up to which heat flow between the parts may be left out."""
 ROOM = 20.0
 """Temperature before a landing, °C, where none is stated."""
 RESOLVED = 2048
@@ -352,8 +354,10 @@ class Temperatures(Result):
         parts = ", ".join(f"{name} {number(value, 3)} °C" for name, value in self.at_end.items())
         when = float(self.times[int(self.values.max(axis=1).argmax())])
         flows = any(value for name, value in self.bearing.given.items() if name.endswith("conductance"))
+        advice = ": state conductances for a landing this long" if self.times[-1] > _SHORT else ""
+        alone = f"; without heat flow between them{advice}"
         return [
-            ("temperatures at the end", f"{parts}{'' if flows else '; without heat flow between them'}"),
+            ("temperatures at the end", f"{parts}{'' if flows else alone}"),
             ("highest temperature", f"{self.warmest}, {number(when, 3)} s after the release"),
             ("growth by heat", self._growth_words),
         ]

@@ -44,7 +44,9 @@ class BallHeat(Table):
     running_torque: float | None = entry("", "torque of the balls in running", "N m", 1e-12, 1e9, '"0.01 N m"', True)
     torque_factor: float | None = entry("f_0", "Palmgren's factor of the viscous torque", "", 0.01, 100.0, "2")
     load_factor: float | None = entry("f_1", "Palmgren's factor of the torque by load", "", 1e-6, 1.0, "0.0008")
-    viscosity: float | None = entry("ν", "kinematic viscosity of the oil", "m^2/s", 1e-7, 1.0, '"30 mm^2/s"')
+    viscosity: float | None = entry(
+        "ν", "kinematic viscosity of the oil", "m^2/s", 1e-7, 1.0, '"30 mm^2/s"', usual=("mm^2/s", 1e-6)
+    )
     shaft_mass: float | None = entry("", "mass of the sleeve on the shaft", "kg", 1e-9, 1e9, '"0.1 kg"')
     race_mass: float | None = entry("", "mass of the inner race", "kg", 1e-9, 1e9, '"0.08 kg"')
     outer_mass: float | None = entry("", "mass of the outer ring", "kg", 1e-9, 1e9, '"0.12 kg"')

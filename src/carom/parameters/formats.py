@@ -103,6 +103,8 @@ def shown_from_si(unit: str) -> tuple[float, str]:
 def format_quantity(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str:
     """Write a size given in units of the equations in this unit: ``60 mm/s``, ``5 g``; a time without scales as ``0.5/Ω``."""
     factor, unit = shown_in(kind, scales)
+    if unit == "mm" and 0.0 < abs(factor * value) < 1e-2:
+        factor, unit = 1e3 * factor, "µm"
     return f"{number(factor * value, digits)}{unit[1:] if unit.startswith('1/') else f' {unit}'}"
 
 

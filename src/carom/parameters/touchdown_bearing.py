@@ -33,7 +33,7 @@ OF_LIFE = ("dynamic_rating", "static_rating")
 """Ratings of the catalogue, which change no motion."""
 OF_CATALOGUE = (*OF_BALLS, *OF_LIFE, *OF_TORQUE, *OF_HEAT)
 """All entries that a bearing of the catalogue has beside its law, race and mount."""
-_MM = ("mm", 1e-3)
+_MM, _GPA = ("mm", 1e-3), ("GPa", 1e9)
 _OF_MOUNT, _PER_ROW = ("mount_mass", "mount_stiffness"), 5
 _LOST_IN_MOUNT = ("mount_loss_factor", "mount_loss_frequency")
 _PALMGREN = ("torque_factor", "load_factor", "viscosity")
@@ -158,7 +158,7 @@ class TouchdownBearing(BallHeat):
     mount_damping: float | None = entry("", "damping of the mount", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True)
     mount_loss_factor: float | None = entry("η", "loss factor of the mount", "", 1e-9, 10.0, "0.1", True)
     mount_loss_frequency: float | None = entry("", "frequency of that loss factor", "Hz", 1e-6, 1e9, '"150 Hz"')
-    offset: float | None = entry("", "distance of the bearing's centre", "m", 1e-12, 1e3, '"0.05 mm"', True)
+    offset: float | None = entry("", "distance of the bearing's centre", "m", 1e-12, 1e3, '"0.05 mm"', True, usual=_MM)
     offset_direction: float | None = entry("", "direction of the bearing's centre", "rad", -1e6, 1e6, '"-90 deg"')
     balls: float | None = entry("Z", "balls that share the force", "", 5, 1000, "12", whole=True)
     ball_diameter: float | None = entry("D", "diameter of a ball", "m", 1e-5, 10.0, '"6.35 mm"', usual=_MM)
@@ -166,8 +166,8 @@ class TouchdownBearing(BallHeat):
         "d_i", "diameter of the inner race's groove", "m", 1e-4, 100.0, '"42 mm"', usual=_MM
     )
     conformity: float | None = entry("f", "radius of the groove over the ball diameter", "", 0.501, 1.0, "0.52")
-    ball_modulus: float | None = entry("", "elastic modulus of the balls", "Pa", 1e6, 1e13, '"208 GPa"')
-    race_modulus: float | None = entry("", "elastic modulus of the races", "Pa", 1e6, 1e13, '"208 GPa"')
+    ball_modulus: float | None = entry("", "elastic modulus of the balls", "Pa", 1e6, 1e13, '"208 GPa"', usual=_GPA)
+    race_modulus: float | None = entry("", "elastic modulus of the races", "Pa", 1e6, 1e13, '"208 GPa"', usual=_GPA)
     outer_conformity: float | None = entry("f_o", "the same of the outer race", "", 0.501, 1.0, "0.53")
     contact_angle: float | None = entry(
         "α", "contact angle of the balls", "rad", 1e-3, 1.4, '"15 deg"', True, usual=("°", math.radians(1.0))
@@ -340,13 +340,15 @@ class TouchdownBearing(BallHeat):
     def words(self) -> str:
         """Law and entries in the units of people, and what comes from the balls."""
         shown_now = [
-            f"{name.replace('_', ' ')} {number(value)} {self.unit(name)}".rstrip() for name, value in self.given.items()
+            f"{name.replace('_', ' ')} {number(field.in_usual_unit(value))} {field.usual or self.unit(name)}".rstrip()
+            for name, value in self.given.items()
+            for field in [TOUCHDOWN_FIELDS[name]]
         ]
         if found := self.law_of_balls:
             shown_now.append(f"stiffness of its balls {found.words}")
         if (race := self.race) and self.ball_density:
             shown_now.append(f"race with balls {number(race.inertia, 4)} kg m^2")
-        return ", ".join([self.law, *shown_now])
+        return ", ".join([self.law, *shown_now]).replace(" °,", "°,")
 
     def document(self) -> dict[str, object]:
         """As plain data for JSON: law, entries, and what comes from the balls, in SI units."""

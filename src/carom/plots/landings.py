@@ -106,7 +106,9 @@ def standstill(slowed: SpinDown, title: str | None = None) -> Figure:
     unit, label = _rotation(scales)
     figure = StyledFigure(figsize=(TWO_COLUMNS, 2 * _PANEL * TWO_COLUMNS))
     speeds, radii = figure.subplots(2, 1, sharex=True)
-    factor = display_unit("time", scales)[0]
+    factor, time = display_unit("time", scales)[0], axis_time(scales)
+    if scales is not None and scales.time * slowed.time > 10.0:
+        factor, time = scales.time, "time $t$ (s)"
     times, end = factor * course[:, 0], factor * slowed.time
     turns = unit * np.array([1.0, *course[:, 1], slowed.speed_at_end])
     speeds.plot([0.0, *times, end], turns, **SHAFT, label="shaft", gid="shaft")
@@ -116,7 +118,7 @@ def standstill(slowed: SpinDown, title: str | None = None) -> Figure:
         radii.plot(times, values, **look, label=f"touchdown bearing {place}", gid=f"radius {place}")
     radii.axhline(1.0, **LOOKS["wall"].stroke, label="wall", gid="wall")
     speeds.set(ylim=(0.0, None), ylabel=label)
-    radii.set(ylim=(0.0, None), xlim=(0.0, end), xlabel=axis_time(scales), ylabel="whirl (clearances)")
+    radii.set(ylim=(0.0, None), xlim=(0.0, end), xlabel=time, ylabel="whirl (clearances)")
     return key(figure, (speeds, radii), columns=4, title=title)
 
 

@@ -242,7 +242,8 @@ def _rows(plane: TouchdownLoads, loads: DropLoads, since: str) -> list[tuple[str
         rows = Wording(plane.scales).rows(COMPLIANT if plane.is_compliant else RIGID, plane, since=since)
         if plane.still_growing:
             label, words = rows[0]
-            rows[0] = (label, f"{words}, still growing at the end: follow the motion longer")
+            further = "" if loads.outcome is Outcome.BEYOND_MODEL else ": follow the motion longer"
+            rows[0] = (label, f"{words}, still growing at the end{further}")
     bearing = loads.rotor.definition.bearing_at(plane.plane)
     if bearing and (law := bearing.law_of_balls):
         beyond = "; the peak force lies above" if (plane.si() or {})["force"] > law.highest else ""
@@ -343,7 +344,11 @@ class DropStudy(Result):
     def tables(self) -> list[tuple[str, list[tuple[str, str]]]]:
         """For each plane a title, empty if there is one plane alone, and labels with what they say."""
         tables = load_tables(self.loads, "the release")
-        return tables if self.spin_down is None else [*tables, ("Spin-down", spin_down_rows(self.spin_down))]
+        if self.spin_down is None:
+            return tables
+        if self.spin_down.stands:  # over a speed of zero
+            tables = [(title, [row for row in rows if row[0] != "race over shaft"]) for title, rows in tables]
+        return [*tables, ("Spin-down", spin_down_rows(self.spin_down))]
 
     def document(self) -> dict[str, object]:
         """The drop as JSON."""

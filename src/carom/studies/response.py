@@ -76,7 +76,11 @@ def _present(response: UnbalanceResponse) -> str:
     sizes, allowed = now.touchdowns.major[0], float(vibration_limit(np.array(speed)))
     width, several = 2.0 * float(sizes[worst]), len(sizes) > 1
     where = f" at touchdown bearing {worst + 1}" if several else ""
-    sagging = f" and a static sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
+    sagging = (
+        f" and a static sag of {micrometres(float(now.sags[worst]))}"
+        if now.sags[worst] > 1e-9 * now.clearances[worst]
+        else ""
+    )
     if not response.steady_at_present.contact_free:
         return (
             f"At {rpm(speed)}, the present speed, the unbalance would need a contact-free whirl of {micrometres(width)} peak to "

@@ -192,7 +192,8 @@ class Wording:
             return number(value)
         size = 0.0 if self.scales is None else value * getattr(self.scales, kind)
         if (self.scales is not None and kind in _LEAST) or (kind == "force" and abs(size) >= _MANY_NEWTONS):
-            return _with_prefix(size, UNITS[kind][1], _LEAST.get(kind, 1.0))
+            whole = kind == "time" and size >= 1e3  # no kiloseconds
+            return f"{number(size, 4)} s" if whole else _with_prefix(size, UNITS[kind][1], _LEAST.get(kind, 1.0))
         return format_quantity(value, "length" if kind == "unbalance" and self.scales is None else kind, self.scales)
 
     length = partialmethod(write, kind="length")
