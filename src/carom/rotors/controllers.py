@@ -282,20 +282,16 @@ class Series:
     def __post_init__(self) -> None:
         parts: list[Any] = [controller_of(each) for each in (self.controller, *self.filters)]
         if self.sample_time is not None:
-            sampled = [getattr(each, "sample_time", None) is not None for each in parts]
-            parts = [
-                replace(each, sample_time=self.sample_time) if own else each
-                for each, own in zip(parts, sampled, strict=True)
-            ]
+            given = {"sample_time": self.sample_time}
+            parts = [replace(each, **given) if getattr(each, "sample_time", None) else each for each in parts]
         object.__setattr__(self, "controller", parts[0])
         object.__setattr__(self, "filters", tuple(parts[1:]))
         time = self.controller.state_space.sample_time
         object.__setattr__(self, "sample_time", time)
         for each in self.filters:
             if (own := each.state_space.sample_time) not in (None, time):
-                allowed = "filters in continuous time" + (
-                    f", or with that of the controller, {time:g} s" if time else ""
-                )
+                allowed = "filters in continuous time"
+                allowed += f", or with that of the controller, {time:g} s" if time else ""
                 raise InputError("filter", f"with a sample time of {own:g} s", allowed)
 
     @property

@@ -181,16 +181,11 @@ class MagneticBearing:
         one, other = (each.ks for each in self.axes)
         return 0.5 * (one + other), 0.5 * (one - other) * complex(np.exp(2j * self.axis_angle))
 
-    @property
-    def _integrates(self) -> bool:
-        """Whether a steady displacement makes its current grow without end."""
-        return self.loop.states > 0 and bool(np.linalg.cond(self.loop.A) > SINGULAR)
-
     @cached_property
     def static_stiffness(self) -> float:
         """Stiffness against a steady displacement at its sensors and itself, ``ki C(0) + ks``, N/m; infinite with an integrator."""
         if self.y is not None and self.y.static_stiffness < math.inf:
             return min(self.y.static_stiffness, replace(self, y=None).static_stiffness)
-        if self._integrates:
+        if self.loop.states and np.linalg.cond(self.loop.A) > SINGULAR:
             return math.inf
         return self.ki * float(np.real(self.loop.at(np.array(0.0)))) + self.ks
