@@ -23,7 +23,7 @@ LIMITS = {
     "basins attractors": 2331,
     "studies": 3461,
     "cli plots report": 5744,
-    "rotors": 4436,
+    "rotors": 4429,
     "proofs": 5907,
     "explorer": 2055,
     "fitting": 951,
