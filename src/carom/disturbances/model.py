@@ -299,13 +299,8 @@ class Disturbance:
             A kind of disturbance that is not known.
         """
         model = Disturbance.of_kind(description["kind"])
-        return model(
-            **{
-                one.name: _from_plain(one, description[one.name])
-                for one in dataclasses.fields(model)
-                if one.name in description
-            }
-        )
+        fields = [one for one in dataclasses.fields(model) if one.name in description]
+        return model(**{one.name: _from_plain(one, description[one.name]) for one in fields})
 
 
 _KNOWN: dict[str, type[Disturbance]] = {}

@@ -180,10 +180,10 @@ def _read(path: str | Path, scales: Scales | None, option: str) -> BaseRecord:
     names = ["time" if each and each[1].lower() == "t" else each[1].lower() if each else "" for each in found]
     if "" in names or len(set(names)) < len(names) or not {"time"} < set(names):
         raise wrong(f"must be {_ALLOWED}; its heading is {shown(','.join(heading))}")
-    kinds = ["time" if name == "time" else "acceleration" for name in names]
+    kinds = dict.fromkeys("xy", "acceleration") | {"time": "time"}
     units = [
-        read_size(f"{option} {name}", f"1 {each[2].strip()}", kind, scales, bare=False).own(scales)
-        for name, each, kind in zip(names, found, kinds, strict=True)
+        read_size(f"{option} {name}", f"1 {each[2].strip()}", kinds[name], scales, bare=False).own(scales)
+        for name, each in zip(names, found, strict=True)
         if each
     ]
     if not 2 <= len(rows) <= MOST_SAMPLES:

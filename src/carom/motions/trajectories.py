@@ -297,11 +297,8 @@ class Trajectory(Result):
     def forces_of(self, amplitudes: np.ndarray, phases: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Normal and friction force at the plane in given amplitudes (..., N) and phases (..., P) at times (...)."""
         flat, shape = amplitudes.reshape(-1, amplitudes.shape[-1]), amplitudes.shape[:-1]
-        arrays, phases, clocks = (
-            self.rotor.system.arrays,
-            phases.reshape(len(flat), phases.shape[-1]),
-            self.begins + times.ravel(),
-        )
+        phases = phases.reshape(len(flat), phases.shape[-1])
+        arrays, clocks = self.rotor.system.arrays, self.begins + times.ravel()
         found = forces_all(arrays, flat, phases, clocks, self.workspace())[:, self.plane]
         normal, friction = arrays.masses[self.plane] * found.T
         return normal.reshape(shape), friction.reshape(shape)
