@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -32,7 +32,7 @@ from carom.motions.settling import (
     time_limit,
 )
 from carom.motions.starts import Beginning, State, Until, amplitudes_of, state_at
-from carom.motions.trajectories import Trajectory, assembled
+from carom.motions.trajectories import Trajectory, joined
 from carom.parameters import own_time
 
 CHUNK = 4096
@@ -99,6 +99,17 @@ def simulate(
     pieces = list(stretches(machine, start, until, following))
     question.follow(sum(len(piece.segment_starts) for piece in pieces))
     return assembled(pieces)
+
+
+def assembled(pieces: Iterable[Trajectory]) -> Trajectory:
+    """The motion of all pieces of its stages, each of which a trigger has ended but the last."""
+    stages: list[list[Trajectory]] = [[]]
+    for piece in pieces:
+        if stages[-1] and stages[-1][-1].outcome is Outcome.TRIGGERED:
+            stages.append([])
+        stages[-1].append(piece)
+    *earlier, last = map(joined, stages)
+    return dataclasses.replace(last, earlier=tuple(earlier)) if earlier else last
 
 
 class Following(NamedTuple):

@@ -29,9 +29,9 @@ from carom.motions.descent import TINY, Descent, SteppedRotor, Torques
 from carom.motions.load_sums import loads_of
 from carom.motions.loads import DropLoads
 from carom.motions.settling import PATIENCE
-from carom.motions.simulation import Following
+from carom.motions.simulation import Following, assembled
 from carom.motions.starts import Beginning, Until
-from carom.motions.trajectories import Trajectory, assembled
+from carom.motions.trajectories import Trajectory
 from carom.parameters import Case, Drive, Scales, own_time
 
 LONGEST = 2e7

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -376,17 +376,6 @@ class Trajectory(Result):
         """Distance of the contact plane from its bearing centre, in its clearances."""
         radius: np.ndarray = np.abs(self.at_plane(times)[0])
         return radius
-
-
-def assembled(pieces: Iterable[Trajectory]) -> Trajectory:
-    """The motion of all pieces of its stages, each of which a trigger has ended but the last."""
-    stages: list[list[Trajectory]] = [[]]
-    for piece in pieces:
-        if stages[-1] and stages[-1][-1].outcome is Outcome.TRIGGERED:
-            stages.append([])
-        stages[-1].append(piece)
-    *earlier, last = map(joined, stages)
-    return dataclasses.replace(last, earlier=tuple(earlier)) if earlier else last
 
 
 def joined(pieces: list[Trajectory]) -> Trajectory:
