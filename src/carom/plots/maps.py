@@ -180,22 +180,14 @@ def _shown(axis: Axis, now: float, case: Case | None) -> tuple[str, Callable[[fl
 
 
 _SHOWN = {
-    "force": (1e-3, "kN"),
-    "impulse": (1.0, "N s"),
-    "depth": (1e6, "µm"),
-    "heat": (1.0, "J"),
-    "power": (1e-3, "kW"),
-    "pressure": (1e-9, "GPa"),
-    "static_share": (100.0, "%"),
-    "life_share": (100.0, "%"),
-    "temperature": (1.0, "°C"),
-    "contacts": (1.0, ""),
-    "contact_time": (1e3, "ms"),
-    "settled_at": (1e3, "ms"),
-    "time": (1e3, "ms"),
-    "whirl": (1.0, "Hz"),
+    "N": (1e-3, "kN"),
+    "m": (1e6, "µm"),
+    "W": (1e-3, "kW"),
+    "Pa": (1e-9, "GPa"),
+    "degC": (1.0, "°C"),
+    "s": (1e3, "ms"),
 }
-"""Units of the loads in figures."""
+"""Units of loads in figures, by their SI units."""
 _QUARTERS = 90.0
 """Ticks of an angle over a whole turn, in degrees."""
 
@@ -215,7 +207,8 @@ def drop_map(found: DropMap, measure: str | None = None) -> Figure:
     InputError
         The map has no such measure, or no drop has one.
     """
-    known = [name for name in _SHOWN if np.isfinite(found.dataset[name].values).any()]
+    loads = {name: values for name, values in found.dataset.items() if "units" in values.attrs}
+    known = [str(name) for name, values in loads.items() if np.isfinite(values.values).any()]
     name = found.hardest if measure is None else measure
     if name not in known:
         raise InputError("measure", name, f"one that this map has: {', '.join(known)}")
@@ -227,9 +220,10 @@ def drop_map(found: DropMap, measure: str | None = None) -> Figure:
     paint(left, *edges, found.dataset["motion"].values, looks)
     mark_cells(left, edges, ~found.exists, BLANKS["no-levitation"], "no-levitation")
     left.set_title("(a) how the drop ends", loc="left", y=1.0)
-    factor, unit = _SHOWN[name]
-    values = np.ma.masked_invalid(factor * found.dataset[name].values)
-    words = str(found.dataset[name].attrs["long_name"])
+    stated = str(loads[name].attrs["units"])
+    factor, unit = (100.0, "%") if name.endswith("_share") else _SHOWN.get(stated, (1.0, stated.removeprefix("1")))
+    values = np.ma.masked_invalid(factor * loads[name].values)
+    words = str(loads[name].attrs["long_name"])
     grounded = {"no-levitation": ~found.exists}
     draw_map(right, edges, values, f"{words} ({unit})" if unit else words, grounded)
     by_load = name in ("force", "impulse", "depth", "pressure")

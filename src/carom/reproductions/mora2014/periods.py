@@ -48,8 +48,6 @@ class PeriodPair(Result):
 
     Attributes
     ----------
-    pair : int
-        ``n``.
     gammas, periods : ndarray, shape (m,)
     longer : ndarray of bool, shape (m,)
         Which periods are ``T_{0,n,b}``; the others are ``T_{0,n,a}``.
@@ -57,7 +55,6 @@ class PeriodPair(Result):
         ``γ_{F,n}`` and the period there.
     """
 
-    pair: int
     gammas: np.ndarray
     periods: np.ndarray
     longer: np.ndarray
@@ -76,7 +73,6 @@ class Birth(Result):
         ``B1,a`` and ``B1,b``; none at ``γ*``, where they are a point.
     """
 
-    gamma: float
     side: str
     rotor: Rotor
     orbits: tuple[Orbit, ...]
@@ -96,10 +92,10 @@ def period_pairs() -> tuple[PeriodPair, ...]:
     """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back, in ascending order."""
     gamma = DAMPINGS[0]
     shorter = PeriodCondition.planar(machine_at(gamma)).roots(LONGEST_DRAWN).periods[::2]
-    return tuple(period_pair(gamma, period, pair) for pair, period in enumerate(shorter.tolist(), start=1))
+    return tuple(period_pair(gamma, period) for period in shorter.tolist())
 
 
-def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
+def period_pair(gamma: float, period: float) -> PeriodPair:
     """Follow a pair of roots of ``F₁`` from the shorter period at a damping to their fold and back."""
     base = Numbers.of(machine_at(gamma))
 
@@ -116,7 +112,7 @@ def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
     place = int(np.ceil(fold.place))
     gammas = np.insert(branch.parameters, place, fold.parameter)
     periods = np.insert(branch.unknowns[:, 0], place, at)
-    return PeriodPair(pair, gammas, periods, periods >= at, (fold.parameter, at))
+    return PeriodPair(gammas, periods, periods >= at, (fold.parameter, at))
 
 
 def birth() -> tuple[Birth, ...]:
@@ -127,5 +123,5 @@ def birth() -> tuple[Birth, ...]:
         rotor = jeffcott(machine_at(gamma))
         orbits = find_orbits(rotor)
         small = () if side == "at" else (orbits["B1,a"], orbits["B1,b"])
-        stages.append(Birth(gamma, side, rotor, small))
+        stages.append(Birth(side, rotor, small))
     return tuple(stages)
