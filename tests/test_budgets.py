@@ -22,13 +22,13 @@ LIMITS = {
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
     "studies": 3461,
-    "cli plots report": 5744,
+    "cli plots report": 5738,
     "rotors": 4429,
     "proofs": 5907,
     "explorer": 2055,
     "fitting": 951,
     "sweeps": 1399,
-    "reproductions": 1270,
+    "reproductions": 1268,
 }
 TESTS, ANY = 38_894, 291
 LONGEST_FILE, LONGEST_FUNCTION, MOST_PARAMETERS = 400, 80, 8
