@@ -121,10 +121,10 @@ def test_an_unstable_levitation_is_refused_where_a_machine_is_read(case):
     [
         (
             "proportional_3=3",
-            r"^proportional_3 = 3: unknown parameter .*one part by its number, such as proportional_2$",
+            r"^proportional_3 = 3: unknown name .*one part by its number, such as proportional_2; did you mean",
         ),
         ("proportional=3 N/m", r"^proportional = 3 N/m: must be a gain in A/m.*'N/m' is not a unit of gain"),
-        ("touchdown_damping=3", r"^touchdown_damping = 3: unknown parameter of this machine"),
+        ("touchdown_damping=3", r"^touchdown_damping = 3: unknown name in this machine"),
     ],
 )
 def test_what_cannot_be_set_gets_one_line(setting, says):

@@ -58,7 +58,7 @@ def test_both_planes_with_real_numbers_are_one_with_complex_ones(order):
     accelerations = -np.linalg.solve(M, np.hstack([K, -1j * speed * G]))
     for each in np.linalg.eigvals(np.vstack([np.eye(SIZE, 2 * SIZE, SIZE), accelerations])):
         # Rounding of the largest exponents, 1e6 1/s; the rigid motions are double roots, of which half the digits remain.
-        assert np.abs(real - each).min() < 1e-6 * max(abs(each), 1e3)
+        assert np.abs(real - each).min() < 1e-5 * max(abs(each), 1e3)
 
 
 def test_a_matrix_of_damping_is_that_of_its_modes():

@@ -193,7 +193,7 @@ def test_a_file_holds_them(tmp_path):
     for name, given, message in (
         ("speed", "900 rpm", "speed = 900 rpm: 1,000 to 9,000 rpm"),
         ("speed", "9001 rpm", "a support at node 7 are not known"),
-        ("kxx_1", "5e5 N/m", "unknown parameter"),
+        ("kxx_1", "5e5 N/m", "unknown name"),
     ):
         with pytest.raises(InputError, match=message):
             load_machine(path, [f"{name}={given}"])

@@ -12,6 +12,7 @@ the loop (:attr:`MagneticBearing.loop`), of which the last one is the amplifier'
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -63,20 +64,16 @@ def limits_of_bearings(
         for part, axis in _axes(equations, number, bearing):
             turn = 1.0 if axis is None else axis * np.exp(-1j * bearing.axis_angle)
 
-            def along(
-                own: np.ndarray, across: np.ndarray, factor: complex = turn, alone: bool = axis is not None
-            ) -> np.ndarray:
-                return factor * own + np.conj(factor * across) if alone else own
-
-            place = _LimitPlace(
-                pulls[number] * np.conj(turn),
-                along(equations.currents[number], by_place),
-                along(equations.current_rates[number], by_rate),
-                along(-equations.stiffness[last], -equations.across[1, last], axis or 1.0),
-                last,
-                axis or 1.0,
-                axis is not None,
+            current, current_rate, rate = (
+                own if axis is None else factor * own + np.conj(factor * across)
+                for factor, own, across in (
+                    (turn, equations.currents[number], by_place),
+                    (turn, equations.current_rates[number], by_rate),
+                    (axis or 1.0, -equations.stiffness[last], -equations.across[1, last]),
+                )
             )
+            pull, alone = pulls[number] * np.conj(turn), axis is not None
+            place = _LimitPlace(pull, current, current_rate, rate, last, axis or 1.0, alone)
             found += [_in_units(limit, scales) for limit in _in_si(part, place, len(found))]
     return tuple(found)
 
@@ -133,11 +130,8 @@ def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterato
         if min(of_force, of_current) < np.inf:
             yield limit(min(of_force, of_current), place.current, place.current_rate, push)
         return
-    bandwidth, out, own = (
-        bearing.amplifier_bandwidth,
-        place.current[place.last] / place.axis,
-        np.eye(len(none))[place.last],
-    )
+    bandwidth, own = bearing.amplifier_bandwidth, np.eye(len(none))[place.last]
+    out = place.current[place.last] / place.axis
     out = out.real if place.one_axis else out
     state = own * np.conj(place.axis) / out
     changing, follows = out * place.rate, (0.0,) * before
@@ -156,13 +150,10 @@ def _in_si(bearing: MagneticBearing, place: _LimitPlace, before: int) -> Iterato
 def _in_units(limit: Limit, scales: Scales) -> Limit:
     """The same for the coordinates and the time of the model."""
     unit = scales.length * np.sqrt(scales.mass)
-    return Limit(
-        limit.bound,
-        limit.displacement * unit,
-        limit.velocity * unit * scales.speed,
-        limit.accelerations / (unit * scales.speed**2),
-        np.asarray(limit.rates) / (unit * scales.speed),
-        limit.angle,
-        limit.follows,
-        limit.one_axis,
+    return replace(
+        limit,
+        displacement=limit.displacement * unit,
+        velocity=limit.velocity * unit * scales.speed,
+        accelerations=limit.accelerations / (unit * scales.speed**2),
+        rates=np.asarray(limit.rates) / (unit * scales.speed),
     )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from carom.parameters import Field, Gravity
 from carom.parameters.fields import RPM
 from carom.parameters.formats import format_angle, format_entry, number
 from carom.parameters.tables import read_entries
-from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, SEATED, Housing, TouchdownPlane, Unbalance
+from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, Housing, TouchdownPlane, Unbalance
 from carom.rotors.controllers import Controller, Series
 from carom.rotors.equations import loops_of
 from carom.rotors.free_motions import Slowest, slowest_of
@@ -25,7 +26,7 @@ from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import WHOLE, NamedParameters
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
-from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
+from carom.rotors.reduction import MORE, RIGID, Basis, rubin_basis
 from carom.rotors.rigid_body import RigidRotor
 from carom.rotors.shaft_parts import read_parts
 from carom.rotors.shared_controller import SharedController, loops_in
@@ -34,8 +35,6 @@ from carom.rotors.support import SUPPORT_FIELDS, Support
 ACCURACY = 0.02
 """Error of contact forces by reduction that is accepted by default; it is that of one
 straight contact, and motions with bending of their own may differ by more (``docs/decisions/flexible-rotors.md``)."""
-FALL = 9.81
-"""Acceleration, m/s², of a fall through the clearance, whose energy gives the depth in a touchdown bearing."""
 _KINDS = {
     "bearings": MagneticBearing,
     "touchdowns": TouchdownPlane,
@@ -111,14 +110,10 @@ class FlexibleMachine(NamedParameters):
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
-        standing = [
-            (name, number)
-            for housing in self.housings
-            for name, numbers in zip(SEATED, housing.parts(self), strict=True)
-            for number in numbers
-        ]
-        if len(set(standing)) < len(standing):
-            raise InputError("housings", "two under one part", "one housing at most for each part")
+        for of_one_kind in zip(*(housing.parts(self) for housing in self.housings), strict=True):
+            standing = list(chain(*of_one_kind))
+            if len(set(standing)) < len(standing):
+                raise InputError("housings", "two under one part", "one housing at most for each part")
         loops_in(self.rotor, self.bearings, self.shared_controllers)  # which refuses a bearing without a controller
         if self.rotor.bends and not all(each.bearing.is_compliant for each in self.touchdowns):
             allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
@@ -145,17 +140,6 @@ class FlexibleMachine(NamedParameters):
         if basis.modes == total:
             return None
         return self.basis(min(total, basis.modes + math.ceil((times - 1.0) * len(basis.frequencies))))
-
-    def error_of(self, basis: Basis) -> float:
-        """Change of the force in a touchdown bearing with half as many vectors more, relative to that force; 0 with all modes."""
-        finer = self.finer_than(basis)
-        if finer is None:
-            return 0.0
-        weight, loops = self.rotor.mass * FALL, loops_of(self)
-        planes = zip(loops.touchdowns, self.touchdowns, self.clearances, strict=True)
-        return max(
-            contact_error(self.rotor, basis, finer, row, plane.stiffness(weight * room)) for row, plane, room in planes
-        )
 
     @checked
     def reduce(self, accuracy: Positive = ACCURACY) -> ReducedMachine:

@@ -134,7 +134,7 @@ class FlexibleRotor(BendingRotor):
         matrices = np.zeros((4, 2 * len(self.places), 2 * len(self.places)))
         first = 0
         for section, count in zip(self.sections, self.divisions, strict=True):
-            element = np.array(beam_element(section, section.length / count))
+            element = beam_element(section, section.length / count)
             for _ in range(count):
                 matrices[:, first : first + 4, first : first + 4] += element
                 first += 2

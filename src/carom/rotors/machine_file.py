@@ -125,16 +125,11 @@ def _read_machine(
     rotor = _read_rotor(tables, whole, stations if is_rigid else None, problems)
     everywhere = whole.get("clearance")
 
-    def completed(entry: dict[str, object]) -> dict[str, object]:
-        return _numbered(entry, rotor, not is_rigid)
+    def completed(entry: dict[str, object], kind: str) -> dict[str, object]:
+        usual = {"clearance": None} if kind == "touchdown" and everywhere is not None else {}
+        return _numbered(usual | entry, rotor, not is_rigid)
 
-    def with_clearance(entry: dict[str, object]) -> dict[str, object]:
-        return completed(entry if everywhere is None else {"clearance": None, **entry})
-
-    parts = {
-        name: _each(tables, kind, problems, with_clearance if name == "touchdowns" else completed, rotor)
-        for name, kind in ATTACHED.items()
-    }
+    parts = {name: _each(tables, kind, problems, completed, rotor) for name, kind in ATTACHED.items()}
     if not tables.parts.get("touchdown"):
         place = "position" if is_rigid else "node"
         allowed = f"one or more tables, each with its {place}, clearance, rotor_radius, friction and law"
@@ -161,7 +156,7 @@ def _read_rotor(
     steel = vars(problems.attempt(lambda: Material(**entries_in(whole, MATERIAL_FIELDS))) or Material())
     everywhere = steel | entries_in(whole, ("axial_force",))
 
-    def of_material(entry: dict[str, object]) -> dict[str, object]:
+    def of_material(entry: dict[str, object], _: str) -> dict[str, object]:
         # A shear modulus is that of its own elastic modulus.
         return everywhere | ({"shear_modulus": None} if "elastic_modulus" in entry else {}) | entry
 
@@ -176,28 +171,21 @@ def _read_rotor(
         allowed = "one or more tables, each with its length and outer_diameter; or [rotor] source = a file of matrices"
         problems.errors.append(InputError("[[section]]", None, allowed))
     damping, internal = problems.attempt(damping_of, whole), problems.attempt(internal_of, whole)
-    return (
-        None
-        if problems.errors or damping is None
-        else FlexibleRotor(sections, discs, damping, whole.get("longest_element"), internal)
-    )
+    if problems.errors or damping is None:
+        return None
+    return FlexibleRotor(sections, discs, damping, whole.get("longest_element"), internal)
 
 
 def _of_source(tables: MachineTables, whole: Mapping[str, object], discs: list[Disc]) -> MatrixRotor:
     """The rotor of a file of matrices, beside which there are no sections."""
     given = whole["source"]
     if not isinstance(given, str) or not given:
-        raise InputError(
-            "source", shown(given), "the path of a file of matrices, .npz or .mat, seen from the machine file"
-        )
-    beside = (
-        ["[[section]]"] if tables.parts.get("section") else [*entries_in(whole, ("longest_element", "axial_force"))]
-    )
-    if beside:
-        found = beside[0]
-        raise InputError("source", shown(given), f"not allowed beside {found}: the file holds the whole shaft")
-    stated = any(name in whole for name in RENAMED)
-    own = damping_of(whole) if stated else None
+        allowed = "the path of a file of matrices, .npz or .mat, seen from the machine file"
+        raise InputError("source", shown(given), allowed)
+    sections = ["[[section]]"] if tables.parts.get("section") else []
+    if beside := [*sections, *entries_in(whole, ("longest_element", "axial_force"))]:
+        raise InputError("source", shown(given), f"not allowed beside {beside[0]}: the file holds the whole shaft")
+    own = damping_of(whole) if entries_in(whole, RENAMED) else None
     return read_rotor(tables.folder / given, own, discs, internal_of(whole))
 
 
@@ -307,7 +295,7 @@ def _each(
     tables: MachineTables,
     kind: str,
     problems: Problems,
-    completed: Callable[[dict[str, Any]], dict[str, Any]],
+    completed: Callable[[dict[str, Any], str], dict[str, Any]],
     rotor: FreeRotor | None = None,
 ) -> list[Any]:
     """The parts of all tables of a kind, at nodes that the rotor has if it is known; errors name their table."""
@@ -319,7 +307,7 @@ def _each(
         return found
 
     def made(entry: Mapping[str, Any]) -> Any:
-        whole = completed(_with_controllers(entries_in(entry, table.entries), tables.folder))
+        whole = completed(_with_controllers(entries_in(entry, table.entries), tables.folder), kind)
         require(whole, table.needed)
         part = table.make(whole)
         if rotor is not None and "node" in table.needed:

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Self
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, Gravity, read_quantity
-from carom.parameters.fields import nearest_name, why_not_modelled
+from carom.parameters.fields import unknown_name
 from carom.parameters.machine_file import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import PREFIX
 from carom.rotors.attachments import HOUSING_FIELDS, PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane
@@ -203,9 +203,8 @@ class NamedParameters:
         values = entry.values(self)
         if len(set(values)) > 1:
             names = ", ".join(f"{name}_{number + 1}" for number in entry.numbers)
-            raise InputError(
-                name, values, f"the same at all here; {names} are those of each {_KINDS[entry.attribute][0]}"
-            )
+            allowed = f"the same at all here; {names} are those of each {_KINDS[entry.attribute][0]}"
+            raise InputError(name, values, allowed)
         return values[0]
 
     def replace(self, **changes: Any) -> Self:
@@ -250,12 +249,5 @@ class NamedParameters:
 
     def unknown(self, name: str, given: object, besides: Mapping[str, object] | None = None) -> InputError:
         """Error for a name that does not exist: allowed are listed without those of single parts; ``besides`` has names of other things."""
-        known = {**self.varied, **(besides or {})}
-        nearest = nearest_name(name, known)
-        if nearest is None and (why := why_not_modelled(name)):
-            return InputError(shown(name), shown(given), why)
-        advice = f"did you mean {nearest}? " if nearest else ""
-        entries = self.entries
-        listed = ", ".join(each for each in known if each not in entries or entries[each].entry == each)
-        allowed = f"unknown parameter of this machine; {advice}allowed: {listed}, and entries of one part by its number, such as proportional_2"
-        return InputError(shown(name), shown(given), allowed)
+        where = "this machine, which has entries of one part by its number, such as proportional_2"
+        return unknown_name(name, given, {**self.varied, **(besides or {})}, where)

@@ -42,10 +42,7 @@ def checked_matrix(name: str, given: object, size: int) -> np.ndarray:
 
 def check_mass(mass: np.ndarray) -> None:
     """Refuse masses with which a motion would have no kinetic energy, or less."""
-    least = int(mass.diagonal().argmin())
-    if mass[least, least] <= 0.0:
-        shown = f"indefinite: {mass[least, least]:g} on the diagonal in row {least}"
-        raise InputError("M", shown, f"masses above zero; of {_kind(least)} give the inertia of the shaft there")
+    _check_diagonal("M", mass, "masses above zero; of {} give the inertia of the shaft there")
     lowest = float(_scaled(mass)[0])
     if lowest <= DEFINITE:
         allowed = "a positive definite matrix: each motion has kinetic energy"
@@ -57,19 +54,14 @@ def check_free(stiffness: np.ndarray, nodes: np.ndarray) -> None:
     count = len(nodes)
     at = nodes - nodes.mean()
     along, up, down = np.tile([1.0, 0.0], count), _tilted(at, 1.0), _tilted(at, -1.0)
-    least = int(stiffness.diagonal().argmin())
-    if stiffness[least, least] <= 0.0:
-        shown = f"indefinite: {stiffness[least, least]:g} on the diagonal in row {least}"
-        raise InputError("K", shown, f"stiffness above zero for {_kind(least)}")
+    _check_diagonal("K", stiffness, "stiffness above zero for {}")
+    free = "the stiffness of the rotor without its bearings"
     if _resists(stiffness, along):
-        raise InputError(
-            "K", "holds the rotor when it moves as a whole", "the stiffness of the rotor without its bearings"
-        )
+        raise InputError("K", "holds the rotor when it moves as a whole", free)
     if _resists(stiffness, up):
         turned = not _resists(stiffness, down)
         shown = "has tilts of the other sign" if turned else "holds the rotor when it tilts as a whole"
-        allowed = "tilts dx/ds" if turned else "the stiffness of the rotor without its bearings, and nodes in m"
-        raise InputError("K", shown, allowed)
+        raise InputError("K", shown, "tilts dx/ds" if turned else f"{free}, and nodes in m")
     first, second, third = _scaled(stiffness)[: RIGID + 1].tolist()
     if third <= APART * max(abs(first), abs(second)) or first < -ROUNDED:
         shown = f"three lowest eigenvalues, with ones on the diagonal: {first:.3g}, {second:.3g}, {third:.3g}"
@@ -116,8 +108,12 @@ def _scaled(matrix: np.ndarray) -> np.ndarray:
     return found
 
 
-def _kind(row: int) -> str:
-    return f"the {'tilt' if row % 2 else 'displacement'} at node {row // 2}"
+def _check_diagonal(name: str, matrix: np.ndarray, allowed: str) -> None:
+    row = int(matrix.diagonal().argmin())
+    if matrix[row, row] <= 0.0:
+        coordinate = f"the {'tilt' if row % 2 else 'displacement'} at node {row // 2}"
+        shown = f"indefinite: {matrix[row, row]:g} on the diagonal in row {row}"
+        raise InputError(name, shown, allowed.format(coordinate))
 
 
 MOST_NODES = 500
@@ -311,9 +307,8 @@ def _of_both_planes(name: str, matrix: np.ndarray, order: tuple[str, ...], count
     size = np.abs(matrix).max() or 1.0
     if max(np.abs(across).max(), np.abs(back).max()) > SYMMETRY_RTOL * size:
         words = "G is skew, from one plane to the other" if name == "G" else "nothing but G couples both planes"
-        raise InputError(
-            name, "both planes of bending are coupled" if name != "G" else "couples a plane with itself", words
-        )
+        found = "couples a plane with itself" if name == "G" else "both planes of bending are coupled"
+        raise InputError(name, found, words)
     if np.abs(same - other).max() > SYMMETRY_RTOL * size:
         raise InputError(name, "the planes of x and of y differ", "a round shaft, alike in both planes")
     return 0.5 * (same + other)

@@ -22,11 +22,11 @@ from carom.parameters.touchdown_bearing import OF_CATALOGUE
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limited_currents, limits_of_bearings
 from carom.rotors.controllers import PID
-from carom.rotors.equations import Loops, RotorEquations, equations_of
+from carom.rotors.equations import Loops, RotorEquations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.free_motions import slowest_of, stability_limits
 from carom.rotors.part_tables import machine_toml
-from carom.rotors.reduction import Basis
+from carom.rotors.reduction import Basis, contact_error
 from carom.rotors.shared_controller import loops_in
 
 if TYPE_CHECKING:
@@ -40,6 +40,8 @@ DAMPING_RATIOS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
 """Of the vectors that are no modes; the first with which the reduced rotor comes back where the whole machine does is taken."""
 SLOWER = 0.5
 """Rate at which the reduced rotor comes back, over that of the whole machine, that is enough."""
+FALL = 9.81
+"""Acceleration, m/s², of a fall through the clearance, whose energy gives the depth in a touchdown bearing."""
 FINER = 2.0
 """Times as many vectors, by which a motion is followed again to see what the others change."""
 SLOW, LOOKED = 0.05, 20
@@ -77,7 +79,16 @@ class ReducedMachine(Result):
         It is the root of the means of the squares while the first contact lasts, when the free rotor, damped as its shaft is, comes straight with all
         its mass, tilting, or in its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is stated with the motion.
         """
-        return self.machine.error_of(self.basis)
+        at, loops = self.machine, loops_of(self.machine)
+        finer = at.finer_than(self.basis)
+        if finer is None:
+            return 0.0
+        weight = at.rotor.mass * FALL
+        planes = zip(loops.touchdowns, at.touchdowns, at.clearances, strict=True)
+        return max(
+            contact_error(at.rotor, self.basis, finer, row, plane.stiffness(weight * room))
+            for row, plane, room in planes
+        )
 
     def to_toml(self) -> str:
         """Return the tables of a machine file that are read as this machine; empty if its rotor has matrices that are in no file."""
@@ -187,9 +198,8 @@ class ReducedMachine(Result):
     def _slower(self) -> str:
         """Below which speed a machine levitates that does not at its own, in words; empty if it does not there either."""
         low, speed = self.machine.speed_range[0], self.machine.speed
-        found = stability_limits(
-            self.machine.whole.equations, np.linspace(max(low, SLOW * speed), speed, LOOKED).tolist()
-        )
+        speeds = np.linspace(max(low, SLOW * speed), speed, LOOKED).tolist()
+        found = stability_limits(self.machine.whole.equations, speeds)
         below = [each.speed for each in found if each.stable_below]
         return f"; it levitates below {below[-1] / RPM:.6g} rpm" if below else ""
 
@@ -268,9 +278,8 @@ class ReducedMachine(Result):
         twice = np.eye(1 + given.is_anisotropic)  # of anisotropic supports conjugates are unknowns too
         pushes, seen = np.kron(twice, pushes), np.kron(twice, seen)
         stiffness = given.both.stiffness if given.is_anisotropic else given.stiffness
-        moved = seen @ np.linalg.solve(
-            stiffness, np.column_stack([pushes.T, np.append(pull, pull.conj())[: len(stiffness)]])
-        )
+        whole = np.append(pull, pull.conj())[: len(stiffness)]
+        moved = seen @ np.linalg.solve(stiffness, np.column_stack([pushes.T, whole]))
         forces = -np.linalg.lstsq(moved[:, :-1], moved[:, -1])[0][: len(held)]
         currents[held] = -forces / np.array([at.bearings[place].ki for place in held])
         return forces @ pushes[: len(held), :n], currents
@@ -297,13 +306,13 @@ class ReducedMachine(Result):
     @cached_property
     def definition(self) -> FlexibleDefinition:
         """Its equations of motion in their units, and its parameters."""
-        given, scales, at, (once, twice) = self.equations, self.scales, self.machine, self._units
+        given, scales, at, units = self.equations, self.scales, self.machine, self._units
         size = math.sqrt(scales.mass)
         # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
         slowest = at.slowest
-        damping, stiffness = once * given.damping, twice * given.stiffness
+        damping, stiffness = units[0] * given.damping, units[1] * given.stiffness
         return FlexibleDefinition.in_fixed_frame(
             Matrices(given.mass, damping, given.gyroscopic, stiffness, given.forcing / (scales.length * size)),
             [self._touchdown(*each) for each in planes],
@@ -313,26 +322,27 @@ class ReducedMachine(Result):
             carried=given.carried / size,
             regained=given.regained,
             scales=scales,
-            unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
-            conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.is_anisotropic else None,
-            conjugate_unlevitated=None
-            if np.array_equal(given.across_unlevitated, given.across)
-            else np.stack([once * given.across_unlevitated[0], twice * given.across_unlevitated[1]]),
+            unlevitated=units * np.stack([left, given.unlevitated[1]]),
+            conjugate=units * given.across if given.is_anisotropic else None,
+            conjugate_unlevitated=units * given.across_unlevitated
+            if (given.across_unlevitated != given.across).any()
+            else None,
             magnets=self._magnets,
         )
 
     @property
-    def _units(self) -> tuple[np.ndarray, np.ndarray]:
-        """What damping and stiffness are multiplied by, shape (n, 1)."""
+    def _units(self) -> np.ndarray:
+        """What damping and stiffness are multiplied by, shape (2, n, 1)."""
         has_mass, speed = np.asarray(self.equations.mass.any(axis=1))[:, None], self.machine.speed
         # Coordinates without mass have equations of first order, which have another unit.
-        return np.where(has_mass, 1.0 / speed, 1.0), np.where(has_mass, 1.0 / speed**2, 1.0 / speed)
+        return np.stack([np.where(has_mass, 1.0 / speed, 1.0), np.where(has_mass, 1.0 / speed**2, 1.0 / speed)])
 
     def changes_at(self, speed: float) -> np.ndarray:
         """What another speed, in ``Ω``, adds to damping (with ``−iG``) and stiffness in the fixed frame without levitation, in units of the equations, shape (2, n, n)."""
-        given, (once, twice) = self.equations, self._units
-        damping, stiffness = given.at(speed * self.machine.speed).unlevitated - given.unlevitated
-        return np.stack([once * damping - 1j * (speed - 1.0) * given.gyroscopic, twice * stiffness])
+        given = self.equations
+        more = self._units * (given.at(speed * self.machine.speed).unlevitated - given.unlevitated) + 0j
+        more[0] -= 1j * (speed - 1.0) * given.gyroscopic
+        return np.asarray(more)
 
     @property
     def _magnets(self) -> np.ndarray | None:

@@ -15,9 +15,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 
 from carom.base.arguments import checked
 from carom.base.outcome import InputError, shown
@@ -165,71 +165,50 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 """Four points integrate polynomials of degree 7 exactly; those here have degree 6."""
 
 
-class ElementMatrices(NamedTuple):
-    """Matrices (4, 4) of ``w₁, φ₁, w₂, φ₂``: kg, kg m and kg m² in the first and the last, N/m, N and N m in the second."""
+def beam_element(section: ShaftSection, length: float) -> np.ndarray:
+    """Matrices of ``w₁, φ₁, w₂, φ₂`` of an element of a section with this length, m, shape (4, 4, 4): those of ``M ẅ − iΩG ẇ + (K + K_N) w = 0``.
 
-    mass: np.ndarray
-    stiffness: np.ndarray
-    gyroscopic: np.ndarray
-    axial: np.ndarray
-    """Stiffness by the axial force, N/m, N and N m."""
-
-
-def beam_element(section: ShaftSection, length: float) -> ElementMatrices:
-    """Matrices of an element of a section with this length, m; the gyroscopic one is by the speed of the shaft, rad/s.
-
-    ``M ẅ − iΩG ẇ + K w = 0``.  An axial force ``N`` has the energy ``½ N ∫ |dw/ds|² ds``.
+    First mass, kg, kg m and kg m², and stiffness, N/m, N and N m; then the gyroscopic one, by the speed of the shaft, rad/s, and the stiffness by an axial
+    force ``N``, which has the energy ``½ N ∫ |dw/ds|² ds``.
     """
     material = section.material
     bending = material.elastic_modulus * section.second_moment
     shear = section.shear_coefficient * material.shear * section.area
-    places = 0.5 * (1.0 + POINTS)
-    displacement, tilt, curvature, angle = _courses(places, length, 12.0 * bending / (shear * length**2))
+    displacement, slope, curvature, angle = _courses(length, 12.0 * bending / (shear * length**2))
 
     def integral(courses: np.ndarray) -> np.ndarray:
         weighted: np.ndarray = 0.5 * length * np.einsum("k,ik,jk->ij", WEIGHTS, courses, courses)
         return weighted
 
-    rotary = material.density * section.second_moment * integral(tilt)
-    return ElementMatrices(
-        mass=material.density * section.area * integral(displacement) + rotary,
-        stiffness=bending * integral(curvature) + shear * length * np.outer(angle, angle),
-        # The polar moment of a round section is twice that about a diameter.
-        gyroscopic=2.0 * rotary,
-        axial=section.axial_force * integral(tilt + angle[:, None]),
+    rotary = material.density * section.second_moment * integral(slope - angle[:, None])
+    return np.array(
+        [
+            material.density * section.area * integral(displacement) + rotary,
+            bending * integral(curvature) + shear * length * np.outer(angle, angle),
+            2.0 * rotary,  # the polar moment of a round section is twice that about a diameter
+            section.axial_force * integral(slope),
+        ]
     )
 
 
-def _courses(at: np.ndarray, length: float, phi: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Displacement, tilt and curvature (4, k) at places ``ξ`` and the shear angle (4,), for ones at each end in turn."""
-    one = np.ones_like(at)
-    displacement = np.array(
+def _courses(length: float, phi: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Displacement, its slope, and the curvature (4, k) at the places of integration, and the shear angle (4,), for ones at each end in turn."""
+    half, at = 0.5 * phi, 0.5 * (1.0 + POINTS)
+    # By powers of the place, in units of the length.
+    course = np.array(
         [
-            1.0 - 3.0 * at**2 + 2.0 * at**3 + phi * (1.0 - at),
-            length * (at - 2.0 * at**2 + at**3 + 0.5 * phi * (at - at**2)),
-            3.0 * at**2 - 2.0 * at**3 + phi * at,
-            length * (at**3 - at**2 - 0.5 * phi * (at - at**2)),
+            [1.0 + phi, -phi, -3.0, 2.0],
+            [0.0, 1.0 + half, -2.0 - half, 1.0],
+            [0.0, phi, 3.0, -2.0],
+            [0.0, -half, half - 1.0, 1.0],
         ]
+    ).T
+    units = np.array([1.0, length, 1.0, length]) / (1.0 + phi)
+    angle = np.array([-phi, -half, phi, -half]) * units / length
+    displacement, slope, curvature = (
+        polyval(at, polyder(course, order)) * (units / length**order)[:, None] for order in range(3)
     )
-    tilt = np.array(
-        [
-            6.0 * (at**2 - at) / length,
-            1.0 - 4.0 * at + 3.0 * at**2 + phi * (1.0 - at),
-            6.0 * (at - at**2) / length,
-            3.0 * at**2 - 2.0 * at + phi * at,
-        ]
-    )
-    curvature = np.array(
-        [
-            6.0 * (2.0 * at - one) / length**2,
-            (6.0 * at - 4.0 - phi) / length,
-            6.0 * (one - 2.0 * at) / length**2,
-            (6.0 * at - 2.0 + phi) / length,
-        ]
-    )
-    angle = np.array([-phi / length, -0.5 * phi, phi / length, -0.5 * phi])
-    whole = 1.0 + phi
-    return displacement / whole, tilt / whole, curvature / whole, angle / whole
+    return displacement, slope, curvature, angle
 
 
 DISC_FIELDS: Mapping[str, Field] = by_name(

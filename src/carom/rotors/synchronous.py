@@ -161,10 +161,8 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
 
     def seen(rows: np.ndarray, by_rates: np.ndarray | float = 0.0) -> Ellipses:
         turns = 1j * listed[:, None, None]
-        both = (rows + turns * by_rates, rows - turns * by_rates)
-        return Ellipses(
-            *(np.einsum("mn,mkn->mk", part[:, : rows.shape[1]], each) for part, each in zip(answers, both, strict=True))
-        )
+        both = zip(answers, (rows + turns * by_rates, rows - turns * by_rates), strict=True)
+        return Ellipses(*(np.einsum("mn,mkn->mk", part[:, : rows.shape[1]], each) for part, each in both))
 
     touchdowns = Ellipses(*(part * whole.length for part in seen(whole.equations.planes)))
     return SynchronousResponse(
