@@ -77,7 +77,7 @@ def test_the_error_is_that_of_the_damped_rotor(stiffness):
 def test_a_steady_force_bends_the_reduced_rotor_as_all_modes_do():
     """At bearings, sensors and touchdown bearings no compliance is lost, however few modes are kept."""
     few, every = MACHINE.with_modes(2).equations, MACHINE.with_modes(1000).equations
-    sags = [equations.planes @ np.linalg.solve(equations.stiffness, equations.planes.T) for equations in (few, every)]
+    sags = [given.rows.touchdowns @ np.linalg.solve(given.stiffness, given.rows.touchdowns.T) for given in (few, every)]
     assert sags[0] == pytest.approx(sags[1], rel=1e-9)
 
 

@@ -63,7 +63,6 @@ def limits_of_bearings(
         by_place, by_rate = equations.currents_across[:, number]
         for part, axis in _axes(equations, number, bearing):
             turn = 1.0 if axis is None else axis * np.exp(-1j * bearing.axis_angle)
-
             current, current_rate, rate = (
                 own if axis is None else factor * own + np.conj(factor * across)
                 for factor, own, across in (

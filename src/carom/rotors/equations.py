@@ -48,8 +48,8 @@ class RotorEquations(NamedTuple):
     """By the square of the speed, shape (n,)."""
     unlevitated: np.ndarray
     """Damping and stiffness without magnetic bearings, shape (2, n, n)."""
-    planes: np.ndarray
-    """Displacement at each touchdown bearing, relative to its mount, shape (P, n)."""
+    rows: Loops
+    """Where forces act and displacements are measured: of magnetic bearings relative to housings, of touchdown bearings to their mounts too."""
     currents: np.ndarray
     """Current of each bearing, A, per coordinate, shape (B, n)."""
     current_rates: np.ndarray
@@ -72,8 +72,6 @@ class RotorEquations(NamedTuple):
     """For which damping and stiffness are, 1/s."""
     held: tuple[SpeedLaw, ...] = ()
     """What of these may differ at another speed."""
-    rows: Loops | None = None
-    """Where forces of a flexible machine act and displacements are measured, relative to housings."""
 
     def at(self, speed: float) -> RotorEquations:
         """Equations with the damping and the stiffness of another speed, 1/s, levitating and not."""
@@ -246,7 +244,7 @@ def equations_of(at: FlexibleMachine, basis: Basis) -> RotorEquations:
         _real(stiffness),
         forcing,
         _real(left[0]),
-        rows.touchdowns,
+        rows,
         _real(currents[0, 0]),
         _real(currents[0, 1]),
         amplifiers,
@@ -260,7 +258,6 @@ def equations_of(at: FlexibleMachine, basis: Basis) -> RotorEquations:
         or any(each.is_anisotropic for each in supports),
         at.speed,
         held,
-        rows,
     )
 
 

@@ -96,13 +96,11 @@ class FlexibleMachine(NamedParameters):
         for name, kind in _KINDS.items():
             read_parts(self, name, kind, needed=name == "touchdowns")
         read_entries(self, WHOLE)
-        for each in self.bearings:
-            self.rotor.check_node("bearing node", each.node)
-            for node in each.sensor_nodes:
-                self.rotor.check_node("sensor node", node)
-        for name in ("touchdowns", "unbalances", "supports"):
+        for name in ("bearings", "touchdowns", "unbalances", "supports"):
             for part in getattr(self, name):
                 self.rotor.check_node(f"{name.removesuffix('s')} node", part.node)
+                for node in getattr(part, "sensor_nodes", ()):
+                    self.rotor.check_node("sensor node", node)
         for support in self.supports:
             support.at(self.speed)  # which refuses a speed that its table does not have
         for name in ("bearings", "touchdowns"):

@@ -70,8 +70,7 @@ class FlexibleDefinition(LinearEquations):
     @property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the magnetic bearings of the machine."""
-        limits: tuple[Limit, ...] = self.reduced.limits
-        return limits
+        return self.finite_elements.limits
 
     def held_by_bias(self, weight: np.ndarray, limits: int) -> tuple[np.ndarray, np.ndarray]:
         """See :meth:`carom.models.definition.Definition.held_by_bias`; sensors are not displaced, and the shaft bends between them."""
@@ -129,8 +128,7 @@ class FlexibleDefinition(LinearEquations):
         return rotor
 
     def _made(self, **changes: object) -> FlexibleDefinition:
-        made: FlexibleDefinition = self.reduced.of(self.reduced.machine.replace(**changes)).definition
-        return made
+        return self.finite_elements.of(self.reduced.machine.replace(**changes)).definition
 
     def _with_number(self, name: str, given: object) -> FlexibleDefinition:
         """Copy with one dimensionless parameter changed; the SI values follow."""
@@ -162,8 +160,7 @@ class FlexibleDefinition(LinearEquations):
             dataclasses.replace(each, size=factor * each.size, angle=each.angle + turn)
             for each in reduced.machine.unbalances
         ]
-        made: FlexibleDefinition = reduced.of(dataclasses.replace(reduced.machine, unbalances=unbalances)).definition
-        return made
+        return reduced.of(dataclasses.replace(reduced.machine, unbalances=unbalances)).definition
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
         """See :meth:`carom.models.Definition.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""

@@ -55,7 +55,6 @@ class FlexibleRotor(BendingRotor):
 
     def __post_init__(self) -> None:
         read_parts(self, "sections", ShaftSection, needed=True)
-        read_parts(self, "discs", Disc)
         if len(self.sections) > MOST_ELEMENTS:
             allowed = f"at most {MOST_ELEMENTS}; neighbouring sections of one diameter are one section"
             raise InputError("sections", len(self.sections), allowed)
@@ -69,8 +68,7 @@ class FlexibleRotor(BendingRotor):
         if sum(self.divisions) > MOST_ELEMENTS:
             allowed = f"a length with which the shaft has at most {MOST_ELEMENTS} elements, such as {max(self.length / ELEMENTS, 2.0 * longest):.3g} m"
             raise InputError("longest_element", shown(longest if given is None else given), allowed)
-        for disc in self.discs:
-            self.check_node("disc node", disc.node)
+        self._read_discs()
 
     def _refused_modes(self) -> InputError:
         place, thin = min(enumerate(self.sections), key=lambda each: each[1].outer_diameter)
@@ -117,12 +115,7 @@ class FlexibleRotor(BendingRotor):
     @cached_property
     def matrices(self) -> RotorMatrices:  # type: ignore[override]
         """``M``, ``K`` and ``G``."""
-        found = RotorMatrices(*self._assembled[:3].copy())
-        for disc in self.discs:
-            found.add_disc(disc, self.place_of(disc.node))
-        for each in found:
-            each.flags.writeable = False
-        return found
+        return self._with_discs(*self._assembled[:3])
 
     @property
     def axial_stiffness(self) -> np.ndarray | None:  # type: ignore[override]

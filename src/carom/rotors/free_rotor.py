@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
@@ -12,7 +12,7 @@ import numpy as np
 from carom.base.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.formats import number
-from carom.rotors.shaft_parts import Damping, Disc
+from carom.rotors.shaft_parts import Damping, Disc, read_parts
 
 
 class FreeModes(NamedTuple):
@@ -61,13 +61,6 @@ class RotorMatrices(NamedTuple):
     """N/m, N, N m."""
     gyroscopic: np.ndarray
     """kg, kg m, kg m²; it is multiplied by the speed of the shaft."""
-
-    def add_disc(self, disc: Disc, place: int) -> None:
-        """Add a disc at the place of this number."""
-        displacement, tilt = 2 * place, 2 * place + 1
-        self.mass[displacement, displacement] += disc.mass
-        self.mass[tilt, tilt] += disc.diametral_inertia
-        self.gyroscopic[tilt, tilt] += disc.polar_inertia
 
 
 class FreeRotor(ABC):
@@ -153,6 +146,26 @@ class BendingRotor(FreeRotor):
 
     damping: Damping | np.ndarray
     internal: Damping | None
+    discs: Sequence[Disc]
+
+    def _with_discs(self, *matrices: np.ndarray) -> RotorMatrices:
+        """``M``, ``K`` and ``G`` of the shaft and what is put on it, read-only."""
+        found = RotorMatrices(*(each.copy() for each in matrices))
+        for disc in self.discs:
+            displacement = 2 * self.place_of(disc.node)
+            tilt = displacement + 1
+            found.mass[displacement, displacement] += disc.mass
+            found.mass[tilt, tilt] += disc.diametral_inertia
+            found.gyroscopic[tilt, tilt] += disc.polar_inertia
+        for each in found:
+            each.flags.writeable = False
+        return found
+
+    def _read_discs(self) -> None:
+        """Refuse discs of another kind, or at a node that the shaft does not have."""
+        read_parts(self, "discs", Disc)
+        for disc in self.discs:
+            self.check_node("disc node", disc.node)
 
     @property
     def own_damping(self) -> Damping | None:

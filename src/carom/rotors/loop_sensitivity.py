@@ -15,7 +15,7 @@ from carom.base.arguments import checked
 from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.rotors.controllers import Series
-from carom.rotors.equations import Loops, block
+from carom.rotors.equations import Loops, block, off
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import motions_at
 from carom.rotors.shared_controller import loops_in
@@ -120,7 +120,7 @@ class _Loop:
         whole = machine.whole
         held, has_mass = whole.equations, whole.equations.mass.any(axis=1)
         both = np.ix_(has_mass, has_mass)
-        rows = Loops(*(each[:, has_mass] for each in whole.loops))
+        rows = Loops(*(each[:, has_mass] for each in held.rows))
         self.bearings = machine.bearings
         controls = loops_in(machine.rotor, machine.bearings, machine.shared_controllers)
         self.loops = [(np.array(each.bearings), each.both) for each in controls]
@@ -131,34 +131,22 @@ class _Loop:
         ]
         self.mass, self.stiffness = held.mass[both], held.unlevitated[1][both] + np.sum(softer, axis=0)
         self.spin = held.unlevitated[0][both] - 1j * machine.speed * held.gyroscopic[both]
-        # Anisotropic supports, where they hold the rotor.
-        across = [each.coefficients(machine.speed)[1, ::-1] for each in machine.supports]
-        across += [np.array([each.magnet[1], 0j]) for each in self.bearings]
-        acts = [bool(each.any()) for each in across]
-        self.held = np.concatenate([rows.supports, rows.bearings])[acts]
-        self.across = np.array(across)[acts]
+        # Of conjugates: anisotropic supports and magnets.
+        softer = [each.magnet[1] * np.outer(pull, pull) for each, pull in zip(self.bearings, self.pulls, strict=True)]
+        self.damping_across, self.stiffness_across = (each[both] for each in held.across_unlevitated)
+        self.stiffness_across = self.stiffness_across + np.sum(softer, axis=0)
         self.is_anisotropic = held.is_anisotropic
-
-    def answers(self, frequency: float) -> np.ndarray:
-        """What sensors measure, and displacements at such supports, by forces of whirls at bearings and there; shape (B + S, B + S)."""
-        s = 1j * frequency
-        dynamic = self.stiffness + s * self.spin + s * s * self.mass
-        pushed = np.concatenate([self.pulls, self.held])
-        found: np.ndarray = np.concatenate([self.seen, self.held]) @ np.linalg.solve(dynamic, pushed.T)
-        return found
 
     def opened(self, frequency: float) -> np.ndarray:
         """What sensors measure by forces at bearings, of displacements and of their conjugates, (2B, 2B)."""
-        count, s = len(self.bearings), 1j * frequency
-        free = block(self.answers(frequency), self.answers(-frequency).conj())
-        size = len(free) // 2
-        links = np.zeros_like(free)
-        for place, (stiffness, damping) in enumerate(self.across, start=count):
-            links[place, size + place] = stiffness + s * damping
-            links[size + place, place] = stiffness.conjugate() + s * damping.conjugate()
-        held = np.linalg.solve(np.eye(2 * size) + free @ links, free)
-        kept = np.append(np.arange(count), size + np.arange(count))
-        return held[np.ix_(kept, kept)]
+        s = 1j * frequency
+        ahead, behind = (self.stiffness + turn * self.spin + turn * turn * self.mass for turn in (s, -s))
+        if not self.is_anisotropic:
+            seen, opposite = (self.seen @ np.linalg.solve(each, self.pulls.T) for each in (ahead, behind))
+            return block(seen, opposite.conj())
+        dynamic = block(ahead, behind.conj()) + off(self.stiffness_across) + s * off(self.damping_across)
+        moved = np.linalg.solve(dynamic, block(self.pulls.T, self.pulls.T))
+        return np.asarray(block(self.seen, self.seen) @ moved)
 
     def of_axes(self, frequency: float) -> np.ndarray:
         """Sensitivity of one direction, shape (1, B); where both differ of both axes, shape (2, B)."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.base.outcome import InputError, shown
 from carom.rotors.free_rotor import BendingRotor, RotorMatrices
-from carom.rotors.shaft_parts import Damping, Disc, read_parts
+from carom.rotors.shaft_parts import Damping, Disc
 from carom.rotors.state_spaces import real_numbers
 
 ROUNDED = 1e-6
@@ -181,9 +181,7 @@ class MatrixRotor(BendingRotor):
             check_damping(self.damping)
         self._check_internal()
         object.__setattr__(self, "names", _names(self.names, len(self.nodes)))
-        read_parts(self, "discs", Disc)
-        for disc in self.discs:
-            self.check_node("disc node", disc.node)
+        self._read_discs()
 
     source: ClassVar[str] = ""
     """The file from which it was read, if it was."""
@@ -238,10 +236,7 @@ class MatrixRotor(BendingRotor):
     @cached_property
     def matrices(self) -> RotorMatrices:  # type: ignore[override]
         """``M``, ``K`` and ``G``."""
-        found = RotorMatrices(self.M.copy(), self.K, self.G.copy())
-        for disc in self.discs:
-            found.add_disc(disc, self.place_of(disc.node))
-        return found
+        return self._with_discs(self.M, self.K, self.G)
 
     def node_of(self, name: str) -> int:
         """Return the number of the node with this name.

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, cast
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from carom.parameters.touchdown_bearing import OF_CATALOGUE
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limited_currents, limits_of_bearings
 from carom.rotors.controllers import PID
-from carom.rotors.equations import Loops, RotorEquations, equations_of, loops_of
+from carom.rotors.equations import RotorEquations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.free_motions import slowest_of, stability_limits
 from carom.rotors.part_tables import machine_toml
@@ -120,11 +120,6 @@ class ReducedMachine(Result):
     def equations(self) -> RotorEquations:
         """Equations of motion in SI units."""
         return equations_of(self.machine, self.damped)
-
-    @property
-    def loops(self) -> Loops:
-        """Where forces act and displacements are measured, by its coordinates, relative to housings."""
-        return cast("Loops", self.equations.rows)
 
     @cached_property
     def damped(self) -> Basis:
@@ -261,7 +256,9 @@ class ReducedMachine(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of its magnetic bearings, in units of the equations, on the gains of which they depend."""
-        return limits_of_bearings(self.equations, tuple(self.machine.bearings), self.loops.bearings, self.scales)
+        return limits_of_bearings(
+            self.equations, tuple(self.machine.bearings), self.equations.rows.bearings, self.scales
+        )
 
     def held_by_bias(self, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What constant currents add to a constant push, N/√kg per coordinate, and these currents, A, shape (B,): those by which no sensor is displaced.
@@ -274,7 +271,7 @@ class ReducedMachine(Result):
         n, currents = len(pull), np.zeros(len(at.bearings), complex)
         if not held:
             return np.zeros_like(pull), currents
-        pushes, seen = self.loops.bearings[held], self.loops.sensors[held]
+        pushes, seen = given.rows.bearings[held], given.rows.sensors[held]
         twice = np.eye(1 + given.is_anisotropic)  # of anisotropic supports conjugates are unknowns too
         pushes, seen = np.kron(twice, pushes), np.kron(twice, seen)
         stiffness = given.both.stiffness if given.is_anisotropic else given.stiffness
@@ -310,7 +307,7 @@ class ReducedMachine(Result):
         size = math.sqrt(scales.mass)
         # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
-        planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
+        planes = zip(at.touchdowns, at.clearances, size * given.rows.touchdowns, strict=True)
         slowest = at.slowest
         damping, stiffness = units[0] * given.damping, units[1] * given.stiffness
         return FlexibleDefinition.in_fixed_frame(
@@ -351,14 +348,15 @@ class ReducedMachine(Result):
         if not gaps:
             return None
         unit = math.sqrt(self.scales.mass) * self.scales.length
-        return np.asarray(unit / np.array([*gaps.values()])[:, None] * self.loops.bearings[list(gaps)])
+        return np.asarray(unit / np.array([*gaps.values()])[:, None] * self.equations.rows.bearings[list(gaps)])
 
     def places(self, nodes: Sequence[int]) -> dict[str, np.ndarray]:
         """Displacement, in clearances of the machine, per coordinate in units of the equations: at magnetic bearings and the mean of the sensors of each, relative to housings; at nodes, and of housings."""
         for node in nodes:
             self.machine.rotor.check_node("nodes", node)
         named, size, n = dict[str, np.ndarray](), math.sqrt(self.scales.mass), len(self.equations.mass)
-        for number, (pulls, seen) in enumerate(zip(self.loops.bearings, self.loops.sensors, strict=True), start=1):
+        rows = self.equations.rows
+        for number, (pulls, seen) in enumerate(zip(rows.bearings, rows.sensors, strict=True), start=1):
             named |= {f"magnetic_bearing_{number}": size * pulls, f"magnetic_bearing_{number}_sensor": size * seen}
         for node in nodes:
             shown = size * self.machine.rotor.row_at(node) @ self.basis.shapes

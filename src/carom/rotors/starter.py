@@ -6,21 +6,13 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from carom.rotors.part_tables import PARTS
 from carom.rotors.ross_import import ImportedRotor
 
 MAGNETIC = "MagneticBearingElement"
 ASSUMED = "ASSUMED"
 _HEAD = "A machine file to start from; all entries: carom template flexible."
 _GAINS = ("proportional", "integral", "derivative", "filter_time", "numerator", "denominator")
-_UNITS = {
-    "ki": "N/A",
-    "ks": "N/m",
-    "proportional": "A/m",
-    "integral": "A/m/s",
-    "derivative": "A s/m",
-    "filter_time": "s",
-}
-_UNITS |= {f"{of}{axes}": unit for of, unit in (("k", "N/m"), ("c", "N s/m")) for axes in ("xx", "xy", "yx", "yy")}
 _TOUCHDOWN = {"clearance": "0.25 mm", "rotor_radius": "20 mm", "friction": 0.15, "law": "hunt-crossley"}
 _TOUCHDOWN |= {"stiffness": "5e7 N/m", "dissipation": "1 s/m"}
 DAMPING_RATIO = 0.3
@@ -92,5 +84,7 @@ def _table(kind: str, remark: str, **entries: Any) -> str:
     """A table of the file, numbers with their units."""
     lines = [f"[[{kind}]]  # {remark}".removesuffix("  # ")]
     for name, value in entries.items():
-        lines.append(f"{name} = " + (f'"{value!r} {_UNITS[name]}"' if name in _UNITS else json.dumps(value)))
+        unit = getattr(PARTS[kind].entries[name], "unit", "")
+        has_unit = unit and not isinstance(value, str)
+        lines.append(f"{name} = " + (f'"{value!r} {unit}"' if has_unit else json.dumps(value)))
     return "\n".join(lines) + "\n"

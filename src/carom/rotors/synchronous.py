@@ -24,7 +24,7 @@ from carom.parameters import Zones
 from carom.parameters.tables import BIAS
 from carom.rotors import FlexibleMachine
 from carom.rotors.bearing_limits import asked_by_currents
-from carom.rotors.equations import RotorEquations, SpeedLaw
+from carom.rotors.equations import Loops, RotorEquations, SpeedLaw
 from carom.rotors.support import turning
 from carom.rotors.whirls import speeds_of
 
@@ -113,9 +113,6 @@ class Whole(NamedTuple):
     sags: np.ndarray
     """In ``length``."""
     clearances: np.ndarray
-    sensors: np.ndarray
-    """Rows, m, shape (B, n)."""
-    currents: np.ndarray
     limits: Sequence[Limit]
     limit_unit: float
     """Coordinates per unit of the coordinates of the limits."""
@@ -164,20 +161,22 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
         both = zip(answers, (rows + turns * by_rates, rows - turns * by_rates), strict=True)
         return Ellipses(*(np.einsum("mn,mkn->mk", part[:, : rows.shape[1]], each) for part, each in both))
 
-    touchdowns = Ellipses(*(part * whole.length for part in seen(whole.equations.planes)))
+    touchdowns = Ellipses(*(part * whole.length for part in seen(whole.equations.rows.touchdowns)))
     return SynchronousResponse(
         listed,
         touchdowns,
         whole.sags * whole.length,
         whole.clearances,
-        seen(whole.sensors),
-        _with_conjugates(seen(whole.currents, whole.equations.current_rates), whole.equations, answers, listed),
+        seen(whole.equations.rows.sensors),
+        _with_conjugates(
+            whole.equations, seen(whole.equations.currents, whole.equations.current_rates), answers, listed
+        ),
         _saturation(whole, answers, listed / whole.speed),
         float(np.angle(np.vdot(whole.equations.carried, whole.equations.forcing))),
     )
 
 
-def _with_conjugates(alike: Ellipses, equations: RotorEquations, answers: Ellipses, speeds: np.ndarray) -> Ellipses:
+def _with_conjugates(equations: RotorEquations, alike: Ellipses, answers: Ellipses, speeds: np.ndarray) -> Ellipses:
     """Currents (m, B) with what bearings whose axes differ make of conjugates: what goes ahead of them comes from what goes behind."""
     by_place, by_rate = equations.currents_across
     if not equations.currents_across.any():
@@ -210,7 +209,7 @@ def whole_of(model: Rotor) -> Whole:
             stiffness,
             forcing,
             unlevitated=np.zeros((2, n, n)),
-            planes=system.planes,
+            rows=Loops(none, none, system.planes, none, none),
             currents=none,
             current_rates=none,
             amplifiers=np.zeros(0, int),
@@ -227,8 +226,6 @@ def whole_of(model: Rotor) -> Whole:
         scales.length * widths,
         np.abs(system.arrays["rows"] @ system.outer),
         scales.length * widths,
-        none,
-        none,
         model.listed_limits,
         1.0,
         system.shapes @ system.outer,
@@ -253,10 +250,8 @@ def _of_flexible(machine: FlexibleMachine) -> Whole:
         held,
         1.0,
         np.ones(len(machine.touchdowns)),
-        np.abs(held.planes @ resting),
+        np.abs(held.rows.touchdowns @ resting),
         np.array(machine.clearances),
-        whole.loops.sensors,
-        held.currents,
         tuple(replace(each, velocity=each.velocity / scales.speed) for each in whole.limits),
         scales.length * np.sqrt(scales.mass),
         resting,
