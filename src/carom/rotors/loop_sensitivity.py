@@ -132,9 +132,9 @@ class _Loop:
         self.mass, self.stiffness = held.mass[both], held.unlevitated[1][both] + np.sum(softer, axis=0)
         self.spin = held.unlevitated[0][both] - 1j * machine.speed * held.gyroscopic[both]
         # Of conjugates: anisotropic supports and magnets.
-        softer = [each.magnet[1] * np.outer(pull, pull) for each, pull in zip(self.bearings, self.pulls, strict=True)]
+        uneven = np.array([each.magnet[1] for each in self.bearings])
         self.damping_across, self.stiffness_across = (each[both] for each in held.across_unlevitated)
-        self.stiffness_across = self.stiffness_across + np.sum(softer, axis=0)
+        self.stiffness_across = self.stiffness_across + (self.pulls.T * uneven) @ self.pulls
         self.is_anisotropic = held.is_anisotropic
 
     def opened(self, frequency: float) -> np.ndarray:
