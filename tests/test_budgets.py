@@ -23,7 +23,7 @@ LIMITS = {
     "basins attractors": 2331,
     "studies": 3461,
     "cli plots report": 5738,
-    "rotors": 4429,
+    "rotors": 4346,
     "proofs": 5907,
     "explorer": 2055,
     "fitting": 951,
