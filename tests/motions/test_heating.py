@@ -10,7 +10,7 @@ from scipy.linalg import expm
 
 import carom as cm
 from carom.motions import Network, ball_torque, drop_loads, energy_ledger, follow_loads, simulation, thermal_network
-from carom.motions.heating import HeatRecord, Temperatures
+from carom.motions.heating import RaceRecord, Temperatures
 from carom.motions.kinematics import race_speed
 from carom.parameters import TouchdownBearing
 
@@ -186,7 +186,7 @@ def test_the_drag_of_a_race_heats_its_balls():
 
 
 def test_long_records_keep_their_heat_and_their_time():
-    record, rng = HeatRecord(), np.random.default_rng(1)
+    record, rng = RaceRecord(), np.random.default_rng(1)
     pieces = rng.uniform(0.0, 1.0, (40_000, 4))
     pieces[7, 0] = 1e3
     for part in np.array_split(pieces, 9):

@@ -62,6 +62,8 @@ _SHORT = 1.0
 """Landing, s, up to which heat flow between the parts may be left out."""
 ROOM = 20.0
 """Temperature before a landing, °C, where none is stated."""
+UP_TO_SPEED = 0.95
+"""Surface speed of a race over that of the shaft from which it has come up to speed."""
 RESOLVED = 2048
 """Pieces of time of equal length, at least, into which the heat of a motion is gathered."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
@@ -98,13 +100,29 @@ def ball_torque(bearing: TouchdownBearing, speed: Reals, load: Reals) -> np.ndar
 
 
 @dataclass
-class HeatRecord:
-    """Heat of a motion at a touchdown bearing piece by piece (n, 4): durations, s, heat of slip and of the balls, J, and integral of the race's speed squared, rad²/s."""
+class RaceRecord:
+    """What a motion does to a race, by its surface speeds in ``c_r Ω``, and the heat at its touchdown bearing.
+
+    ``pieces`` has the heat piece by piece (n, 4): durations, s, heat of slip and of the balls, J, and integral of the race's speed squared, rad²/s.
+    """
 
     pieces: np.ndarray = field(default_factory=lambda: np.zeros((0, 4)))
+    began: float | None = None
+    fastest: float = 0.0
+    ended: float = 0.0
+    up_to_speed_at: float | None = None
 
     def add(self, seen: Trajectory, works: ContactWorks) -> None:
         """Add a piece of a motion, seen at the touchdown bearing."""
+        system, amplitudes = seen.rotor.system, seen.edge_amplitudes
+        speeds = race_speed(system, seen.plane, amplitudes)
+        self.began = float(speeds[0]) if self.began is None else self.began
+        self.fastest = float(max(self.fastest, *speeds[[speeds.argmax(), speeds.argmin()]], key=abs))
+        self.ended = float(speeds[-1])
+        turning = UP_TO_SPEED * (float(system.arrays.surface_speed[seen.plane]) - 1.0)
+        fast = np.flatnonzero(speeds >= turning * shaft_speed(system, amplitudes))
+        if self.up_to_speed_at is None and fast.size:
+            self.up_to_speed_at = float(seen.begins + np.append(seen.segment_starts, seen.time)[fast[0]])
         if seen.scales is not None:
             found = _heats(seen, works, seen.scales)
             self.pieces = _gathered(np.concatenate([self.pieces, found]), 4 * RESOLVED)
@@ -177,16 +195,14 @@ class RaceRun(NamedTuple):
         )
 
 
-def race_run(
-    last: Trajectory, record: HeatRecord, speeds: tuple[float, float, float], up_to_speed_at: float | None, force: float
-) -> RaceRun:
-    """How a race was turned in a recorded motion, by its surface speed at the beginning, the fastest, and that at the end, and the peak force, N."""
+def race_run(last: Trajectory, record: RaceRecord, force: float) -> RaceRun:
+    """How a race was turned in a recorded motion with a peak force, N."""
     race, bearing, scales = last.rotor.races[last.plane], last.rotor.definition.bearing_at(last.plane), last.scales
     if race is None:
         return RaceRun()
-    began, fastest, ends = (each / race.radius for each in speeds)
+    began, fastest, ends = (each / race.radius for each in (record.began or 0.0, record.fastest, record.ended))
     spin = float(shaft_speed(last.rotor.system, last.last_amplitudes))
-    found = RaceRun(ends / spin if spin else None, up_to_speed_at=up_to_speed_at)
+    found = RaceRun(ends / spin if spin else None, up_to_speed_at=record.up_to_speed_at)
     if bearing is None or scales is None:
         return found
     *_, heat, turned = record.pieces.sum(axis=0).tolist()
@@ -275,7 +291,7 @@ class Temperatures(Result):
     shown: ClassVar[tuple[str, ...]] = ("highest", "hottest", "at_end", "growth", "clearance_left", "preload_at_most")
 
     @classmethod
-    def of(cls, bearing: TouchdownBearing, record: HeatRecord) -> Temperatures | None:
+    def of(cls, bearing: TouchdownBearing, record: RaceRecord) -> Temperatures | None:
         """Those of a recorded motion; ``None`` where the bearing does not state the mass of its race."""
         network = thermal_network(bearing)
         if network is None or not len(record.pieces):

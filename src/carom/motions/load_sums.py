@@ -15,8 +15,8 @@ from carom.closed_forms.exact_results import exact_results
 from carom.core.wall_work import COLUMNS, DEPTH, FORCE, HEAT, POWER, ROLLED
 from carom.models import Subject
 from carom.motions.contacts import ContactLog, ContactWorks, contact_works, contacts_of
-from carom.motions.heating import HeatRecord, Temperatures, race_run
-from carom.motions.kinematics import presses, race_speed, shaft_speed
+from carom.motions.heating import RaceRecord, Temperatures, race_run
+from carom.motions.kinematics import presses
 from carom.motions.loads import (
     GOING_ROUND,
     Braking,
@@ -39,8 +39,6 @@ AT_THE_END = 0.98
 """Share of the time of a motion after which its largest force came at its end, in contact: a slow whirl may still speed up."""
 PER_LIFE = 1e6
 """Turns of a bearing under its dynamic load rating (ISO 281)."""
-UP_TO_SPEED = 0.95
-"""Surface speed of a race over that of the shaft from which it has come up to speed."""
 LAST_TURNS = 8.0
 """Turns of the shaft at the end over which the whirl is averaged."""
 PER_RADIAN = 2.0
@@ -161,10 +159,7 @@ class _AtPlane:
     rolled: float = 0.0
     largest: np.ndarray = field(default_factory=lambda: np.zeros(COLUMNS))
     logs: list[tuple[float, ContactLog]] = field(default_factory=list)
-    race: float = 0.0
-    race_began: float | None = None
-    up_to_speed_at: float | None = None
-    heating: HeatRecord = field(default_factory=HeatRecord)
+    race: RaceRecord = field(default_factory=RaceRecord)
     since: float | None = None
     turned_back: dict[int, float] = field(default_factory=lambda: {1: 0.0, -1: 0.0})
 
@@ -184,28 +179,18 @@ class _AtPlane:
             loss += float(landings.normal_loss.sum())
         self.restitution_loss += loss
         self.logs.append((seen.begins, log))
-        self.heating.add(seen, works)
+        self.race.add(seen, works)
         self._move(seen)
 
     def _move(self, seen: Trajectory) -> None:
-        """Note how fast the race turns, since when the plane is at the wall, and when it last turned back."""
-        amplitudes, begins = seen.edge_amplitudes, seen.begins
-        speeds = race_speed(seen.rotor.system, seen.plane, amplitudes)
-        self.race = float(max(self.race, *speeds[[speeds.argmax(), speeds.argmin()]], key=abs))
-        bounds = begins + np.append(seen.segment_starts, seen.time)
-        self.race_began = float(speeds[0]) if self.race_began is None else self.race_began
-        turning = UP_TO_SPEED * (float(seen.rotor.system.arrays.surface_speed[seen.plane]) - 1.0)
-        if (
-            self.up_to_speed_at is None
-            and (fast := np.flatnonzero(speeds >= turning * shaft_speed(seen.rotor.system, amplitudes))).size
-        ):
-            self.up_to_speed_at = float(bounds[fast[0]])
+        """Note since when the plane is at the wall, and when it last turned back."""
+        bounds = seen.begins + np.append(seen.segment_starts, seen.time)
         flying = np.flatnonzero(seen.segment_phases[:, seen.plane] == Phase.FLIGHT)
         if len(flying):
             self.since = float(bounds[flying[-1] + 1]) if flying[-1] + 1 < len(seen.segment_starts) else None
         elif self.since is None:
             self.since = float(bounds[0])
-        place, rate = seen.rotor.system.at_plane(amplitudes[:-1], seen.plane)
+        place, rate = seen.rotor.system.at_plane(seen.segment_amplitudes, seen.plane)
         spin = (place.conj() * rate).imag + np.abs(place) ** 2
         for sense in self.turned_back:
             other = np.flatnonzero(spin * sense <= 0.0)
@@ -224,7 +209,6 @@ class _AtPlane:
         hardest = _largest(np.where(left | (peaks == 0.0), contacts.normal_impulse, 0.0))
         strongest = _largest(peaks)
         fastest = _largest(np.where(contacts.entered & left, contacts.radial_speed, 0.0))
-        at_end = float(race_speed(rotor.system, plane, last.last_amplitudes))
         return TouchdownLoads(
             plane=plane,
             is_compliant=soft,
@@ -247,8 +231,8 @@ class _AtPlane:
             restitution=None
             if fastest is None
             else float(-contacts.radial_speed_after[fastest] / contacts.radial_speed[fastest]),
-            race_at_end=None if race is None else at_end / race.radius,
-            fastest_race=None if race is None else self.race / race.radius,
+            race_at_end=None if race is None else self.race.ended / race.radius,
+            fastest_race=None if race is None else self.race.fastest / race.radius,
             in_contact_since=self.since,
             whirl=_last_whirl(last, self.turned_back, self.since),
             first=_first(contacts),
@@ -257,14 +241,8 @@ class _AtPlane:
             else _catalogue(
                 bearing, force * scales.force, self.rolled * scales.force**3 / race.radius if race else 0.0
             ),
-            turning=race_run(
-                last,
-                self.heating,
-                (self.race_began or 0.0, self.race, at_end),
-                self.up_to_speed_at,
-                force * (scales.force if scales else 0.0),
-            ),
-            temperatures=None if bearing is None else Temperatures.of(bearing, self.heating),
+            turning=race_run(last, self.race, force * (scales.force if scales else 0.0)),
+            temperatures=None if bearing is None else Temperatures.of(bearing, self.race),
             scales=scales,
         )
 
