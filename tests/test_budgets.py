@@ -18,7 +18,7 @@ LIMITS = {
     "parameters base": 3633,
     "models": 2364,
     "core": 6613,
-    "motions disturbances": 4654,
+    "motions disturbances": 4645,
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
     "studies": 3461,
