@@ -110,7 +110,7 @@ class _Dropped:
             [(each, room) for each, room in zip(at.touchdowns, at.clearances, strict=True)],
         )
         self.spin = own.unlevitated[0][pick] - 1j * self.speed * own.gyroscopic[pick]
-        self.stiffness, self.planes = own.unlevitated[1][pick], own.planes[:, has_mass]
+        self.stiffness, self.planes = own.unlevitated[1][pick], own.rows.touchdowns[:, has_mass]
         self.forcing = self.speed**2 * own.forcing[has_mass]
         self.weight = np.zeros(len(self.kept), complex)
         self.weight[0] = -9.81j * np.sqrt(at.rotor.mass)
