@@ -22,7 +22,7 @@ LIMITS = {
     "orbits bifurcations closed_forms continuation": 6450,
     "basins attractors": 2331,
     "studies": 3461,
-    "cli plots report": 5738,
+    "cli plots report": 5741,
     "rotors": 4346,
     "proofs": 5907,
     "explorer": 2055,

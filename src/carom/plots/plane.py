@@ -69,8 +69,9 @@ def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "")
     # With a given height, matplotlib need not measure the labels that the title must keep clear of.
     free = axes.xaxis.get_ticks_position() in ("bottom", "default")
     axes.set_title(f"{words}{', ' if note else ''}{note}", y=1.0 if free else None)
-    axes.set_xlabel(axis_label(rf"position Re ${symbol}$", "length", scales))
-    axes.set_ylabel(axis_label(rf"position Im ${symbol}$", "length", scales))
+    along = ("$x$", "$y$") if frame == "fixed" else (rf"Re ${symbol}$", rf"Im ${symbol}$")
+    axes.set_xlabel(axis_label(f"position {along[0]}", "length", scales))
+    axes.set_ylabel(axis_label(f"position {along[1]}", "length", scales))
 
 
 def path(

@@ -131,8 +131,8 @@ def _advice(study: Study) -> tuple[list[tuple[Fact, list[Fact]]], dict[str, str]
 
 DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"
 _ORBIT = (
-    "Orbit of the rotor centre in the fixed frame, coloured by time, and its gap to the wall over the angle from the direction of gravity. "
-    "The arrow shows the weight."
+    "Orbit of the rotor centre in the fixed frame, coloured by time, and its gap to the wall over the angle. "
+    "An arrow shows the weight, unless levitation is regained."
 )
 _STANDSTILL = "Speed of the shaft until it stands, with the critical speeds of the free rotor, and the widest whirl in each step of speed (0-to-peak)."
 _LANDING = (
@@ -177,8 +177,10 @@ def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, p
         seen, mark = motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
         which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
         films.append((f"film{plane.plane}-", film_of(seen)))
-        loads = partial(plots.touchdown, seen, until=shown_until(seen))
-        wanted.append(ReportPicture(f"drop-orbit{mark}", "drop", _ORBIT + which, partial(plots.drop_orbit, seen)))
+        title = f"Touchdown bearing {plane.plane + 1}" if mark else None
+        loads = partial(plots.touchdown, seen, title=title, until=shown_until(seen))
+        orbit = partial(plots.drop_orbit, seen, title=title)
+        wanted.append(ReportPicture(f"drop-orbit{mark}", "drop", _ORBIT + which, orbit))
         wanted.append(
             ReportPicture(f"drop-loads{mark}", "drop", (_SOFT if plane.is_compliant else _RIGID) + which, loads)
         )
