@@ -81,3 +81,8 @@ def test_derivatives_through_impacts_are_those_of_wide_differences(name):
 def test_the_phase_of_the_unbalance_needs_a_keyphasor():
     with pytest.raises(InputError, match="without one the angle of the shaft is fitted"):
         fit(MACHINE, record()[0], ["unbalance_phase"], progress=False)
+
+
+def test_a_rotor_with_more_coordinates_than_sensors_show_is_refused_in_a_line():
+    with pytest.raises(InputError, match="coordinates: up to 6 of them"):
+        fit(cm.load("examples/tum-flexible-rotor.toml"), record()[0], ["friction"], progress=False)

@@ -29,6 +29,8 @@ LAGS = 10
 """Lags over which residuals are compared with themselves."""
 UNDETERMINED, ENTANGLED = 0.5, 0.99
 """Relative error from which a record does not determine a parameter, and correlation from which it determines two of them together only."""
+MOST_COORDINATES = 6
+"""Coordinates of a rotor of which a state is found from the sensors."""
 LARGEST = 300.0
 """Logarithm of the largest factor of an interval."""
 SPREAD, SEED = 0.4, 20
@@ -236,6 +238,9 @@ def fit(
     """
     tell = Reporter.of(progress, "fitting")
     rotor = _levitated(machine, dropped)
+    if len(rotor.system.rest) > MOST_COORDINATES:
+        allowed = f"up to {MOST_COORDINATES} of them: sensors do not show the state of more in a flight"
+        raise InputError("machine", f"{len(rotor.system.rest)} coordinates", allowed)
     axes = [axis(rotor, name) for name in dict.fromkeys(free)]
     if not axes:
         raise InputError("free", "none", "at least one parameter, such as friction")
