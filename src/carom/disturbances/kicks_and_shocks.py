@@ -237,7 +237,7 @@ class BaseShock(BaseMotion):
         return peak, angle_coordinate("direction", "direction of the shock")
 
     def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
-        """See :meth:`BaseMotion.course`; the angle counts from the axes that turn with the shaft, at its beginning."""
+        """See ``BaseMotion.course``; the angle counts from the axes that turn with the shaft, at its beginning."""
         durations = np.array([self.duration, self.pause] * self.pulses)[:-1]
         shakes = np.arange(len(durations)) % 2 == 0
         turns = shakes * math.pi / self.duration

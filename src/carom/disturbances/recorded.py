@@ -141,7 +141,7 @@ class BaseRecord(BaseMotion):
         return dataclasses.replace(self, times=times).scaled(before.acceleration / after.acceleration)
 
     def course(self, size: float, angle: float = 0.0, begun: float = 0.0) -> BaseCourse:
-        """See :meth:`carom.disturbances.base_motion.BaseMotion.course`; angles are those of the fixed frame."""
+        """See ``BaseMotion.course``; angles are those of the fixed frame."""
         durations, values = np.diff(self.times), self.accelerations * cmath.rect(size / self.peak, angle)
         return BaseCourse(durations, values[:-1], np.diff(values) / durations, np.zeros(len(durations)))
 
