@@ -191,7 +191,7 @@ class RaceRun(NamedTuple):
             return f"{number(self.torque, 3)} N m at the peak force"
         return (
             f"{number(self.torque, 3)} N m at the peak force; it takes {number(100.0 * abs(self.neglected), 2)} % of the work on the race "
-            f"{'more' if self.neglected > 0.0 else 'less'} than the race_drag in the motion: state race_drag = {self.drag:.2g} N m s"
+            f"{'more' if self.neglected > 0.0 else 'less'} than the race_drag in the motion; race_drag = {self.drag:.2g} N m s would take as much over this motion"
         )
 
 
