@@ -3,19 +3,23 @@
 import pkgutil
 from importlib import import_module
 
+import numpy as np
 import pytest
 from flexible_machines import munich
 from machines import PAPER
 from studies import study_once
+from touch_records import struck
 
 import carom
 from carom import Grid, map_basins, map_gains, plots
 from carom.base.outcome import InputError
 from carom.base.results import Result
 from carom.disturbances import VelocityKick
+from carom.fitting import Channel, Record, fit
 from carom.motions import energy_ledger
 from carom.proofs import ProvenKicks, prove_kicks
 
+TOUCHED = {"friction": 0.2, "restitution": 0.7, "damping": 340.0, "stiffness": 4e5, "eccentricity": 1e-6}
 KICKS = Grid(VelocityKick(0.5), (4, 6))
 
 
@@ -23,7 +27,30 @@ def motion():
     return carom.simulate(PAPER, carom.kick(0.35, angle=0.2), until=30.0)
 
 
+def shaken():
+    machine = carom.load("examples/spindle.toml")
+    shock = carom.BaseShock.of(machine, "5 g", "1 ms")
+    return carom.disturbances.shock_response(carom.simulate(*shock.apply(machine), 40.0), shock.course(shock.peak))
+
+
+def slowed():
+    drive = carom.parameters.Drive("2e-5 kg m^2", brake="0.5 N m")
+    return carom.motions.spin_down(
+        carom.load("examples/touchdown-balls.toml"), carom.drop(), steps=4, drive=drive, keep=2000
+    )
+
+
+def touched():
+    times, places, _ = struck(TOUCHED, 0.35, 0.01, 20_000)
+    channels = Channel.read("x [m]"), Channel.read("y [m]")
+    record = Record("touch", times, np.column_stack([places.real, places.imag]), channels)
+    return fit(carom.load("examples/spindle.toml"), record, ["damping"], starts=1)
+
+
 EXAMPLES = {
+    "ShockResponse": shaken,
+    "SpinDown": slowed,
+    "Fit": touched,
     "Trajectory": motion,
     "EnergyLedger": lambda: energy_ledger(motion()),
     "EquilibriumSet": lambda: carom.find_equilibria(PAPER),

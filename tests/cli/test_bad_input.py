@@ -91,6 +91,11 @@ def test_an_error_is_an_object_of_json_too(carom, machine):
     assert set(json.loads(out)) == {"error"}
 
 
+def _while_interrupted(error):
+    error.__context__ = KeyboardInterrupt()
+    return error
+
+
 @pytest.mark.parametrize(
     ("problem", "code", "message"),
     [
@@ -104,6 +109,7 @@ def test_an_error_is_an_object_of_json_too(carom, machine):
         (OSError(28, "No space left on device"), FAILURE, "cannot read or write: No space left on device"),
         (CaromError("no orbit"), BAD_INPUT, "no orbit"),
         (KeyboardInterrupt(), INTERRUPTED, "interrupted"),
+        (_while_interrupted(RuntimeError("cannot join thread before it is started")), INTERRUPTED, "interrupted"),
         (InputError("mass", None, "\x1b[31m\u202e"), BAD_INPUT, "mass = nothing given"),
     ],
 )

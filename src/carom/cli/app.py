@@ -159,6 +159,8 @@ def _failure_of(problem: BaseException) -> CommandFailure:
         return CommandFailure(BAD_INPUT, f"{message} (see carom --help)")
     if isinstance(problem, KeyboardInterrupt | typer.Abort) and not isinstance(problem.__cause__, EOFError):
         return CommandFailure(INTERRUPTED, "interrupted")
+    if isinstance(problem, RuntimeError) and isinstance(problem.__context__, KeyboardInterrupt):
+        return CommandFailure(INTERRUPTED, "interrupted")  # a thread that was about to start cannot be joined
     if isinstance(problem, OSError):
         _discard_unwritten_output()
         where = f" ({problem.filename})" if problem.filename else ""
